@@ -1,0 +1,235 @@
+//! A body as described by the user.
+
+use super::ShapeDef;
+use crate::geometry::Shape;
+use crate::math::{DVec2, Vec2};
+
+/// What moves a body.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum BodyKind {
+    /// Nothing: ground and walls.
+    Static,
+    /// Its velocity, which only the user changes: lifts, moving platforms.
+    Kinematic,
+    /// Forces, contacts and joints.
+    #[default]
+    Dynamic,
+}
+
+/// Directions in which a dynamic body cannot move.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+pub struct Locks {
+    /// No motion along the world's x axis.
+    pub x: bool,
+    /// No motion along the world's y axis.
+    pub y: bool,
+    /// No turning.
+    pub rotation: bool,
+}
+
+/// A body to be added to a world.
+///
+/// ```
+/// use tiny_physics::{RigidBody, Shape, Vec2};
+/// let crate_ = RigidBody::new(Shape::Aabb { half_extents: Vec2::new(0.5, 0.5) }, Vec2::new(0.0, 4.0), 1.0);
+/// let wheel = RigidBody::dynamic()
+///     .position(Vec2::new(2.0, 4.0))
+///     .velocity(Vec2::new(-1.0, 0.0))
+///     .shape(Shape::Circle { radius: 0.3 });
+/// assert_eq!(crate_.shapes.len() + wheel.shapes.len(), 2);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+pub struct RigidBody {
+    /// What moves it.
+    pub kind: BodyKind,
+    /// Origin of the body's frame, metres in the world.
+    pub position: DVec2,
+    /// Angle of the body's frame, radians.
+    pub angle: f32,
+    /// Velocity of the centre of mass, metres a second.
+    pub velocity: Vec2,
+    /// Radians a second, anticlockwise.
+    pub angular_velocity: f32,
+    /// Slowing of motion, 1/s: speed falls by the factor 1/(1 + dt * damping).
+    pub linear_damping: f32,
+    /// Slowing of turning, 1/s.
+    pub angular_damping: f32,
+    /// Factor on the world's gravity.
+    pub gravity_scale: f32,
+    /// Directions in which it cannot move.
+    pub locks: Locks,
+    /// Its shapes.
+    pub shapes: Vec<ShapeDef>,
+    /// Total mass, kilograms. `None` takes it from the densities of the shapes; `Some` scales that mass
+    /// and its moment of inertia to the value.
+    pub mass: Option<f32>,
+    /// May its island fall asleep?
+    pub can_sleep: bool,
+    /// Does it start awake?
+    pub awake: bool,
+    /// Speed below which it counts as at rest, metres a second.
+    pub sleep_speed: f32,
+    /// Is it swept against moving bodies too, not only static ones?
+    pub bullet: bool,
+    /// A body that is not enabled is kept but takes no part.
+    pub enabled: bool,
+    /// Free for the user.
+    pub user_data: u64,
+}
+
+impl Default for RigidBody {
+    fn default() -> Self {
+        Self {
+            kind: BodyKind::Dynamic,
+            position: DVec2::ZERO,
+            angle: 0.0,
+            velocity: Vec2::ZERO,
+            angular_velocity: 0.0,
+            linear_damping: 0.0,
+            angular_damping: 0.0,
+            gravity_scale: 1.0,
+            locks: Locks::default(),
+            shapes: Vec::new(),
+            mass: None,
+            can_sleep: true,
+            awake: true,
+            sleep_speed: 0.05,
+            bullet: false,
+            enabled: true,
+            user_data: 0,
+        }
+    }
+}
+
+impl RigidBody {
+    /// A body with one shape and a mass in kilograms; mass 0 makes it static: pushed by nothing, it
+    /// pushes everything. Its restitution is 0.5.
+    pub fn new(shape: impl Into<Shape>, position: impl Into<DVec2>, mass: f32) -> Self {
+        let kind = if mass == 0.0 { BodyKind::Static } else { BodyKind::Dynamic };
+        Self {
+            kind,
+            position: position.into(),
+            shapes: vec![ShapeDef::new(shape).restitution(0.5)],
+            mass: (mass != 0.0).then_some(mass),
+            ..Self::default()
+        }
+    }
+
+    /// A dynamic body without shapes at the origin.
+    pub fn dynamic() -> Self {
+        Self::default()
+    }
+
+    /// A static body without shapes at the origin.
+    pub fn fixed() -> Self {
+        Self { kind: BodyKind::Static, ..Self::default() }
+    }
+
+    /// A kinematic body without shapes at the origin.
+    pub fn kinematic() -> Self {
+        Self { kind: BodyKind::Kinematic, ..Self::default() }
+    }
+
+    /// Sets [`RigidBody::position`]; takes [`Vec2`] or [`DVec2`].
+    pub fn position(mut self, position: impl Into<DVec2>) -> Self {
+        self.position = position.into();
+        self
+    }
+
+    /// Sets [`RigidBody::angle`].
+    pub fn angle(mut self, radians: f32) -> Self {
+        self.angle = radians;
+        self
+    }
+
+    /// Sets [`RigidBody::velocity`].
+    pub fn velocity(mut self, velocity: Vec2) -> Self {
+        self.velocity = velocity;
+        self
+    }
+
+    /// Sets [`RigidBody::angular_velocity`].
+    pub fn angular_velocity(mut self, radians_per_second: f32) -> Self {
+        self.angular_velocity = radians_per_second;
+        self
+    }
+
+    /// Adds a shape.
+    pub fn shape(mut self, shape: impl Into<ShapeDef>) -> Self {
+        self.shapes.push(shape.into());
+        self
+    }
+
+    /// Sets [`RigidBody::mass`].
+    pub fn mass(mut self, kilograms: f32) -> Self {
+        self.mass = Some(kilograms);
+        self
+    }
+
+    /// Sets the friction of all shapes so far.
+    pub fn friction(mut self, friction: f32) -> Self {
+        self.shapes.iter_mut().for_each(|s| s.material.friction = friction);
+        self
+    }
+
+    /// Sets the restitution of all shapes so far.
+    pub fn restitution(mut self, restitution: f32) -> Self {
+        self.shapes.iter_mut().for_each(|s| s.material.restitution = restitution);
+        self
+    }
+
+    /// Sets [`RigidBody::linear_damping`] and [`RigidBody::angular_damping`].
+    pub fn damping(mut self, linear: f32, angular: f32) -> Self {
+        self.linear_damping = linear;
+        self.angular_damping = angular;
+        self
+    }
+
+    /// Sets [`RigidBody::gravity_scale`].
+    pub fn gravity_scale(mut self, scale: f32) -> Self {
+        self.gravity_scale = scale;
+        self
+    }
+
+    /// Sets [`RigidBody::locks`].
+    pub fn locks(mut self, locks: Locks) -> Self {
+        self.locks = locks;
+        self
+    }
+
+    /// Keeps it from turning.
+    pub fn lock_rotation(mut self) -> Self {
+        self.locks.rotation = true;
+        self
+    }
+
+    /// Makes it a bullet: see [`RigidBody::bullet`].
+    pub fn bullet(mut self) -> Self {
+        self.bullet = true;
+        self
+    }
+
+    /// Starts it asleep.
+    pub fn asleep(mut self) -> Self {
+        self.awake = false;
+        self
+    }
+
+    /// Sets [`RigidBody::can_sleep`].
+    pub fn can_sleep(mut self, can_sleep: bool) -> Self {
+        self.can_sleep = can_sleep;
+        self
+    }
+
+    /// Sets [`RigidBody::user_data`].
+    pub fn user_data(mut self, data: u64) -> Self {
+        self.user_data = data;
+        self
+    }
+}

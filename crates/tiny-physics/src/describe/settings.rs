@@ -1,0 +1,103 @@
+//! Numbers that govern a whole world.
+
+/// How two materials make one coefficient.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Mix {
+    /// Square root of the product: one zero makes zero.
+    #[default]
+    GeometricMean,
+    /// Half of the sum.
+    Average,
+    /// The smaller.
+    Min,
+    /// The larger.
+    Max,
+    /// The product.
+    Multiply,
+}
+
+impl Mix {
+    /// The coefficient of a pair.
+    #[inline]
+    pub fn apply(self, a: f32, b: f32) -> f32 {
+        match self {
+            Self::GeometricMean => (a * b).sqrt(),
+            Self::Average => 0.5 * (a + b),
+            Self::Min => {
+                if a < b {
+                    a
+                } else {
+                    b
+                }
+            }
+            Self::Max => {
+                if a > b {
+                    a
+                } else {
+                    b
+                }
+            }
+            Self::Multiply => a * b,
+        }
+    }
+}
+
+/// Settings of a world. The defaults are good; lengths and speeds assume that 1 unit is about the
+/// size of a typical moving body (0.1 to 10 units).
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+pub struct Settings {
+    /// Solver substeps in a step; at least 1. More make stacks stiffer and joints tighter.
+    pub substeps: u32,
+    /// Solver iterations in a substep; at least 1. One substep with 10 iterations is the classic
+    /// scheme, four substeps with one iteration (the default) give more for the same time.
+    pub iterations: u32,
+    /// Units a metre-scaled constant is multiplied by: set 100 where a crate is 100 units (pixels) wide.
+    pub length_unit: f32,
+    /// Greatest contact stiffness, hertz; the substep rate lowers it where needed.
+    pub contact_hertz: f32,
+    /// Contact damping ratio, no unit.
+    pub contact_damping_ratio: f32,
+    /// Greatest speed at which overlap is pushed out, metres a second.
+    pub push_speed: f32,
+    /// Approach speed below which nothing bounces, metres a second.
+    pub restitution_threshold: f32,
+    /// Approach speed above which a hit event is sent, metres a second.
+    pub hit_event_threshold: f32,
+    /// Greatest speed of a body, metres a second.
+    pub max_speed: f32,
+    /// Do islands at rest fall asleep?
+    pub sleep: bool,
+    /// Time at rest before an island sleeps, seconds.
+    pub time_to_sleep: f32,
+    /// Are fast bodies swept against static shapes (and bullets against moving ones)?
+    pub continuous: bool,
+    /// Friction of a pair from the frictions of its shapes.
+    pub friction_mix: Mix,
+    /// Restitution of a pair from the restitutions of its shapes.
+    pub restitution_mix: Mix,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            substeps: 4,
+            iterations: 1,
+            length_unit: 1.0,
+            contact_hertz: 30.0,
+            contact_damping_ratio: 10.0,
+            push_speed: 3.0,
+            restitution_threshold: 1.0,
+            hit_event_threshold: 1.0,
+            max_speed: 400.0,
+            sleep: true,
+            time_to_sleep: 0.5,
+            continuous: true,
+            friction_mix: Mix::GeometricMean,
+            restitution_mix: Mix::Min,
+        }
+    }
+}

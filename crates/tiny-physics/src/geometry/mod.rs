@@ -1,0 +1,10 @@
+//! Shapes and everything that can be computed about them without knowing bodies.
+//!
+//! Above [`math`](crate::math), below the dynamics: mass properties, bounding boxes, ray casts,
+//! distance, time of impact and contact manifolds of pairs of shapes.
+
+mod polygon;
+mod shape;
+
+pub use polygon::Polygon;
+pub use shape::Shape;

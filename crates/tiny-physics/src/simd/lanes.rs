@@ -1,0 +1,518 @@
+//! The lane vector that kernels are written over, and its instances.
+
+use crate::threads::SharedRows;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+use fearless_simd::{Avx2, Avx512, f32x8, f32x16};
+use fearless_simd::{Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, f32x4};
+
+/// Lanes in one storage block: the widest level. Narrower levels walk a block in several strides, so
+/// the data layout does not depend on the level.
+pub(crate) const BLOCK: usize = 16;
+
+/// Eight floats that are gathered and scattered together: the solver's copy of a body.
+pub(crate) type Row = [f32; 8];
+
+/// A vector of `f32`, one lane per constraint (or pair, or body).
+pub(crate) trait Lanes:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// Number of lanes; divides [`BLOCK`].
+    const WIDTH: usize;
+    /// Proof that the machine has the instructions.
+    type Token: Copy;
+    /// One truth value a lane.
+    type Mask: Copy;
+
+    /// All lanes equal.
+    fn splat(token: Self::Token, value: f32) -> Self;
+    /// The first `WIDTH` values of `source`.
+    fn load(token: Self::Token, source: &[f32]) -> Self;
+    /// Into the first `WIDTH` places of `target`.
+    fn store(self, target: &mut [f32]);
+    /// Square root, correctly rounded.
+    fn sqrt(self) -> Self;
+    /// Sign bit cleared.
+    fn abs(self) -> Self;
+    /// `self < other`; false for NaN.
+    fn lt(self, other: Self) -> Self::Mask;
+    /// `self <= other`; false for NaN.
+    fn le(self, other: Self) -> Self::Mask;
+    /// `self == other`; false for NaN.
+    fn eq(self, other: Self) -> Self::Mask;
+    /// `self > other`; false for NaN.
+    #[inline(always)]
+    fn gt(self, other: Self) -> Self::Mask {
+        other.lt(self)
+    }
+    /// `yes` where the mask is set, else `no`.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// Both.
+    fn and(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// Either.
+    fn or(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// The opposite.
+    fn not(a: Self::Mask) -> Self::Mask;
+    /// Bit `i` set where lane `i` is.
+    fn bits(mask: Self::Mask) -> u32;
+    /// Lane `i` set where bit `i` is.
+    fn from_bits(token: Self::Token, bits: u32) -> Self::Mask;
+
+    /// The smaller, as `self < other ? self : other`.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self::select(self.lt(other), self, other)
+    }
+    /// The larger, as `self > other ? self : other`.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self::select(self.gt(other), self, other)
+    }
+    /// Not below `low`, not above `high`.
+    #[inline(always)]
+    fn clamp(self, low: Self, high: Self) -> Self {
+        self.max(low).min(high)
+    }
+
+    /// Turns rows into lanes: result `k` holds float `k` of the rows at the first `WIDTH` indices.
+    fn gather(token: Self::Token, rows: SharedRows<'_>, indices: &[u32]) -> [Self; 8];
+
+    /// Writes the first half of rows back: float `k` of the row at `indices[i]` becomes lane `i` of
+    /// `values[k]`, for the lanes whose bit in `write` is set.
+    fn scatter(values: [Self; 4], rows: SharedRows<'_>, indices: &[u32], write: u32);
+}
+
+/// The lane type of an instruction set.
+pub(crate) trait Native: Simd {
+    /// Its widest vector that is quick.
+    type Lanes: Lanes<Token = Self>;
+}
+
+impl Lanes for f32 {
+    const WIDTH: usize = 1;
+    type Token = ();
+    type Mask = bool;
+
+    #[inline(always)]
+    fn splat((): (), value: f32) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn load((): (), source: &[f32]) -> Self {
+        source[0]
+    }
+    #[inline(always)]
+    fn store(self, target: &mut [f32]) {
+        target[0] = self;
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f32::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f32::abs(self)
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> bool {
+        self < other
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> bool {
+        self <= other
+    }
+    #[inline(always)]
+    fn eq(self, other: Self) -> bool {
+        self == other
+    }
+    #[inline(always)]
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+    #[inline(always)]
+    fn and(a: bool, b: bool) -> bool {
+        a & b
+    }
+    #[inline(always)]
+    fn or(a: bool, b: bool) -> bool {
+        a | b
+    }
+    #[inline(always)]
+    fn not(a: bool) -> bool {
+        !a
+    }
+    #[inline(always)]
+    fn bits(mask: bool) -> u32 {
+        u32::from(mask)
+    }
+    #[inline(always)]
+    fn from_bits((): (), bits: u32) -> bool {
+        bits & 1 != 0
+    }
+    #[inline(always)]
+    fn gather((): (), rows: SharedRows<'_>, indices: &[u32]) -> [Self; 8] {
+        rows.read(indices[0])
+    }
+    #[inline(always)]
+    fn scatter(values: [Self; 4], rows: SharedRows<'_>, indices: &[u32], write: u32) {
+        if write & 1 != 0 {
+            rows.write_half(indices[0], values);
+        }
+    }
+}
+
+/// The operations that all vector instances take from the portable vector type unchanged.
+macro_rules! portable_operations {
+    ($width:literal) => {
+        const WIDTH: usize = $width;
+
+        #[inline(always)]
+        fn splat(token: Self::Token, value: f32) -> Self {
+            fearless_simd::SimdFrom::simd_from(token, value)
+        }
+        #[inline(always)]
+        fn load(token: Self::Token, source: &[f32]) -> Self {
+            Self::from_slice(token, &source[..$width])
+        }
+        #[inline(always)]
+        fn store(self, target: &mut [f32]) {
+            self.store_slice(&mut target[..$width]);
+        }
+        #[inline(always)]
+        fn sqrt(self) -> Self {
+            SimdFloat::sqrt(self)
+        }
+        #[inline(always)]
+        fn abs(self) -> Self {
+            SimdBase::abs(self)
+        }
+        #[inline(always)]
+        fn lt(self, other: Self) -> Self::Mask {
+            SimdBase::simd_lt(self, other)
+        }
+        #[inline(always)]
+        fn le(self, other: Self) -> Self::Mask {
+            SimdBase::simd_le(self, other)
+        }
+        #[inline(always)]
+        fn eq(self, other: Self) -> Self::Mask {
+            SimdBase::simd_eq(self, other)
+        }
+        #[inline(always)]
+        fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+            Select::select(mask, yes, no)
+        }
+        #[inline(always)]
+        fn and(a: Self::Mask, b: Self::Mask) -> Self::Mask {
+            a & b
+        }
+        #[inline(always)]
+        fn or(a: Self::Mask, b: Self::Mask) -> Self::Mask {
+            a | b
+        }
+        #[inline(always)]
+        fn not(a: Self::Mask) -> Self::Mask {
+            !a
+        }
+        #[inline(always)]
+        fn bits(mask: Self::Mask) -> u32 {
+            mask.to_bitmask() as u32
+        }
+        #[inline(always)]
+        fn from_bits(token: Self::Token, bits: u32) -> Self::Mask {
+            SimdMask::from_bitmask(token, u64::from(bits))
+        }
+    };
+}
+
+/// Four lanes: SSE2, SSE4.2, NEON, wasm simd128.
+impl<S: Simd> Lanes for f32x4<S> {
+    type Token = S;
+    type Mask = <Self as SimdBase<S>>::Mask;
+    portable_operations!(4);
+
+    #[inline(always)]
+    fn gather(token: S, rows: SharedRows<'_>, indices: &[u32]) -> [Self; 8] {
+        let r = [
+            rows.read(indices[0]),
+            rows.read(indices[1]),
+            rows.read(indices[2]),
+            rows.read(indices[3]),
+        ];
+        let low = transpose4([
+            Self::from_slice(token, &r[0][..4]),
+            Self::from_slice(token, &r[1][..4]),
+            Self::from_slice(token, &r[2][..4]),
+            Self::from_slice(token, &r[3][..4]),
+        ]);
+        let high = transpose4([
+            Self::from_slice(token, &r[0][4..]),
+            Self::from_slice(token, &r[1][4..]),
+            Self::from_slice(token, &r[2][4..]),
+            Self::from_slice(token, &r[3][4..]),
+        ]);
+        [low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]]
+    }
+
+    #[inline(always)]
+    fn scatter(values: [Self; 4], rows: SharedRows<'_>, indices: &[u32], write: u32) {
+        write_rows(transpose4(values), rows, indices, write);
+    }
+}
+
+/// Transposes a 4 x 4 square of floats.
+#[inline(always)]
+fn transpose4<S: Simd>([a, b, c, d]: [f32x4<S>; 4]) -> [f32x4<S>; 4] {
+    let (ac_low, ac_high) = (a.zip_low(c), a.zip_high(c));
+    let (bd_low, bd_high) = (b.zip_low(d), b.zip_high(d));
+    [
+        ac_low.zip_low(bd_low),
+        ac_low.zip_high(bd_low),
+        ac_high.zip_low(bd_high),
+        ac_high.zip_high(bd_high),
+    ]
+}
+
+/// Writes four half rows where the bits say so.
+#[inline(always)]
+fn write_rows<S: Simd>(values: [f32x4<S>; 4], rows: SharedRows<'_>, indices: &[u32], write: u32) {
+    let indices = &indices[..4];
+    for i in 0..4 {
+        if write >> i & 1 != 0 {
+            let mut half = [0.0; 4];
+            values[i].store_slice(&mut half);
+            rows.write_half(indices[i], half);
+        }
+    }
+}
+
+/// Eight lanes: AVX2.
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+impl Lanes for f32x8<Avx2> {
+    type Token = Avx2;
+    type Mask = <Self as SimdBase<Avx2>>::Mask;
+    portable_operations!(8);
+
+    #[inline(always)]
+    fn gather(token: Avx2, rows: SharedRows<'_>, indices: &[u32]) -> [Self; 8] {
+        let indices = &indices[..8];
+        let low = |i: usize| {
+            let (a, b) = (rows.read(indices[i]), rows.read(indices[i + 4]));
+            f32x4::from_slice(token, &a[..4]).combine(f32x4::from_slice(token, &b[..4]))
+        };
+        let high = |i: usize| {
+            let (a, b) = (rows.read(indices[i]), rows.read(indices[i + 4]));
+            f32x4::from_slice(token, &a[4..]).combine(f32x4::from_slice(token, &b[4..]))
+        };
+        let [a, b, c, d] = transpose4_in_blocks_avx2(token, low(0), low(1), low(2), low(3));
+        let [e, f, g, h] = transpose4_in_blocks_avx2(token, high(0), high(1), high(2), high(3));
+        [a, b, c, d, e, f, g, h]
+    }
+
+    #[inline(always)]
+    fn scatter(values: [Self; 4], rows: SharedRows<'_>, indices: &[u32], write: u32) {
+        use fearless_simd::ExtractToken;
+        let [a, b, c, d] = values;
+        let t = transpose4_in_blocks_avx2(a.token(), a, b, c, d).map(SimdSplit::split);
+        write_rows([t[0].0, t[1].0, t[2].0, t[3].0], rows, indices, write);
+        write_rows([t[0].1, t[1].1, t[2].1, t[3].1], rows, &indices[4..], write >> 4);
+    }
+}
+
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+fearless_simd::kernel!(
+    /// Transposes the 4 x 4 squares in both halves: eight shuffles, where the portable zips, which
+    /// cross the halves, would take sixteen.
+    #[inline(always)]
+    fn transpose4_in_blocks_avx2(
+        token: Avx2,
+        a: f32x8<Avx2>,
+        b: f32x8<Avx2>,
+        c: f32x8<Avx2>,
+        d: f32x8<Avx2>,
+    ) -> [f32x8<Avx2>; 4] {
+        #[cfg(target_arch = "x86")]
+        use core::arch::x86::*;
+        #[cfg(target_arch = "x86_64")]
+        use core::arch::x86_64::*;
+        use fearless_simd::SimdInto;
+        let (a, b, c, d): (__m256, __m256, __m256, __m256) =
+            (a.into(), b.into(), c.into(), d.into());
+        let (ab_low, ab_high) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+        let (cd_low, cd_high) = (_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
+        [
+            _mm256_shuffle_ps::<0b01_00_01_00>(ab_low, cd_low).simd_into(token),
+            _mm256_shuffle_ps::<0b11_10_11_10>(ab_low, cd_low).simd_into(token),
+            _mm256_shuffle_ps::<0b01_00_01_00>(ab_high, cd_high).simd_into(token),
+            _mm256_shuffle_ps::<0b11_10_11_10>(ab_high, cd_high).simd_into(token),
+        ]
+    }
+);
+
+/// Sixteen lanes: AVX-512.
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+impl Lanes for f32x16<Avx512> {
+    type Token = Avx512;
+    type Mask = <Self as SimdBase<Avx512>>::Mask;
+    portable_operations!(16);
+
+    #[inline(always)]
+    fn gather(token: Avx512, rows: SharedRows<'_>, indices: &[u32]) -> [Self; 8] {
+        let indices = &indices[..16];
+        let quarter =
+            |i: usize, at: usize| f32x4::from_slice(token, &rows.read(indices[i])[at..at + 4]);
+        let column = |i: usize, at: usize| {
+            quarter(i, at)
+                .combine(quarter(i + 4, at))
+                .combine(quarter(i + 8, at).combine(quarter(i + 12, at)))
+        };
+        let [a, b, c, d] = transpose4_in_blocks_avx512(
+            token,
+            column(0, 0),
+            column(1, 0),
+            column(2, 0),
+            column(3, 0),
+        );
+        let [e, f, g, h] = transpose4_in_blocks_avx512(
+            token,
+            column(0, 4),
+            column(1, 4),
+            column(2, 4),
+            column(3, 4),
+        );
+        [a, b, c, d, e, f, g, h]
+    }
+
+    #[inline(always)]
+    fn scatter(values: [Self; 4], rows: SharedRows<'_>, indices: &[u32], write: u32) {
+        use fearless_simd::ExtractToken;
+        let [a, b, c, d] = values;
+        let t = transpose4_in_blocks_avx512(a.token(), a, b, c, d).map(|v| {
+            let (low, high) = v.split();
+            (low.split(), high.split())
+        });
+        write_rows([t[0].0.0, t[1].0.0, t[2].0.0, t[3].0.0], rows, indices, write);
+        write_rows([t[0].0.1, t[1].0.1, t[2].0.1, t[3].0.1], rows, &indices[4..], write >> 4);
+        write_rows([t[0].1.0, t[1].1.0, t[2].1.0, t[3].1.0], rows, &indices[8..], write >> 8);
+        write_rows([t[0].1.1, t[1].1.1, t[2].1.1, t[3].1.1], rows, &indices[12..], write >> 12);
+    }
+}
+
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+fearless_simd::kernel!(
+    /// Transposes the 4 x 4 squares in all four quarters.
+    #[inline(always)]
+    fn transpose4_in_blocks_avx512(
+        token: Avx512,
+        a: f32x16<Avx512>,
+        b: f32x16<Avx512>,
+        c: f32x16<Avx512>,
+        d: f32x16<Avx512>,
+    ) -> [f32x16<Avx512>; 4] {
+        #[cfg(target_arch = "x86")]
+        use core::arch::x86::*;
+        #[cfg(target_arch = "x86_64")]
+        use core::arch::x86_64::*;
+        use fearless_simd::SimdInto;
+        let (a, b, c, d): (__m512, __m512, __m512, __m512) =
+            (a.into(), b.into(), c.into(), d.into());
+        let (ab_low, ab_high) = (_mm512_unpacklo_ps(a, b), _mm512_unpackhi_ps(a, b));
+        let (cd_low, cd_high) = (_mm512_unpacklo_ps(c, d), _mm512_unpackhi_ps(c, d));
+        [
+            _mm512_shuffle_ps::<0b01_00_01_00>(ab_low, cd_low).simd_into(token),
+            _mm512_shuffle_ps::<0b11_10_11_10>(ab_low, cd_low).simd_into(token),
+            _mm512_shuffle_ps::<0b01_00_01_00>(ab_high, cd_high).simd_into(token),
+            _mm512_shuffle_ps::<0b11_10_11_10>(ab_high, cd_high).simd_into(token),
+        ]
+    }
+);
+
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+mod native {
+    use super::{Avx2, Avx512, Native, f32x4, f32x8, f32x16};
+    use fearless_simd::{Sse2, Sse4_2};
+
+    impl Native for Sse2 {
+        type Lanes = f32x4<Self>;
+    }
+    impl Native for Sse4_2 {
+        type Lanes = f32x4<Self>;
+    }
+    impl Native for Avx2 {
+        type Lanes = f32x8<Self>;
+    }
+    impl Native for Avx512 {
+        type Lanes = f32x16<Self>;
+    }
+}
+
+#[cfg(target_arch = "aarch64")]
+impl Native for fearless_simd::Neon {
+    type Lanes = f32x4<Self>;
+}
+
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+impl Native for fearless_simd::WasmSimd128 {
+    type Lanes = f32x4<Self>;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::{LaneKernel, SimdLevel, dispatch};
+
+    struct GatherScatter<'a> {
+        rows: SharedRows<'a>,
+        indices: &'a [u32; BLOCK],
+    }
+
+    impl LaneKernel for GatherScatter<'_> {
+        type Output = ();
+
+        /// Swaps x and y of every even row, adds column 4 to column 2.
+        #[inline(always)]
+        fn run<L: Lanes>(self, token: L::Token) {
+            for indices in self.indices.chunks_exact(L::WIDTH) {
+                let r = L::gather(token, self.rows, indices);
+                let even = L::eq(r[6], L::splat(token, 0.0));
+                let values =
+                    [L::select(even, r[1], r[0]), L::select(even, r[0], r[1]), r[2] + r[4], r[3]];
+                L::scatter(
+                    values,
+                    self.rows,
+                    indices,
+                    L::bits(L::not(L::lt(r[7], L::splat(token, 1.0)))),
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn gather_and_scatter_agree_on_every_level() {
+        let start: Vec<Row> = (0..40)
+            .map(|i| {
+                let f = i as f32;
+                [f, f + 0.5, f * 2.0, 1.0, f * 0.25, 7.0, (i % 2) as f32, (i % 3) as f32]
+            })
+            .collect();
+        let indices: [u32; BLOCK] = core::array::from_fn(|i| (i as u32 * 7 + 3) % 40);
+        let mut expected = start.clone();
+        for &i in &indices {
+            let r = start[i as usize];
+            if r[7] >= 1.0 {
+                let (x, y) = if r[6] == 0.0 { (r[1], r[0]) } else { (r[0], r[1]) };
+                expected[i as usize][..3].copy_from_slice(&[x, y, r[2] + r[4]]);
+            }
+        }
+        for level in SimdLevel::available() {
+            let mut rows = start.clone();
+            dispatch(level, GatherScatter { rows: SharedRows::new(&mut rows), indices: &indices });
+            assert_eq!(rows, expected, "{level}");
+        }
+    }
+}
