@@ -1,4 +1,5 @@
 //! tiny-physics.
+pub mod broad_phase;
 mod describe;
 mod error;
 pub mod geometry;
