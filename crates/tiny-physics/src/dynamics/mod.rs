@@ -7,6 +7,7 @@ mod blocks;
 mod bodies;
 mod contacts;
 mod graph;
+mod joints;
 mod pair_table;
 mod shapes;
 
@@ -14,5 +15,6 @@ pub(crate) use blocks::{ConstraintBlock, ManifoldBlock, PointLanes, SurfaceBlock
 pub(crate) use bodies::{Bodies, BodyInfo, Motion, NULL, Slot};
 pub(crate) use contacts::{Contact, Contacts, Place, SavedPoint};
 pub(crate) use graph::{Bucket, COLOURS, Graph, IDLE, OVERFLOW};
+pub(crate) use joints::{JointGraph, Joints};
 pub(crate) use pair_table::PairTable;
 pub(crate) use shapes::{ShapeRecord, Shapes};

@@ -52,7 +52,10 @@ pub(crate) fn run(
         time_rest(bodies, index, options.dt);
         let info = &bodies.infos[i];
         let reach = motion.length() + turn.abs() * info.max_extent;
-        if options.continuous && info.kind == BodyKind::Dynamic && reach > SAFE_FRACTION * info.min_extent {
+        if options.continuous
+            && info.kind == BodyKind::Dynamic
+            && reach > SAFE_FRACTION * info.min_extent
+        {
             fast.push(FastBody { body: index, start });
         } else {
             update_boxes(bodies, shapes, broad_phase, index, motion);

@@ -4,7 +4,10 @@
 //! world.
 
 pub(crate) mod contact_solver;
+pub(crate) mod continuous;
 pub(crate) mod finalize;
 pub(crate) mod integrate;
 pub(crate) mod narrow_phase;
+pub(crate) mod pairs;
 pub(crate) mod sleep;
+pub(crate) mod touching;

@@ -6,10 +6,7 @@
 //! after the pass are simply run again.
 
 use crate::dynamics::{Bucket, ConstraintBlock, ManifoldBlock, ShapeRecord, SurfaceBlock, flags};
-use crate::geometry::manifold::{
-    self, BoxBox, BoxCapsule, BoxCircle, CapsuleCapsule, CapsuleCircle, CircleCircle, LaneManifold,
-    LanePair, PairClass,
-};
+use crate::geometry::manifold::{self, LaneManifold, LanePair, PairClass};
 use crate::math::{Pose, Rot, Transform, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, Row, SimdLevel, dispatch};
 
@@ -49,6 +46,19 @@ impl<'a> Blocks<'a> {
             touching: &mut bucket.touching,
         }
     }
+
+    /// One block of a bucket of touching contacts.
+    pub(crate) fn of_block(bucket: &'a mut Bucket, block: usize) -> Self {
+        let range = block..block + 1;
+        Self {
+            count: (bucket.contacts.len() - block * BLOCK).min(BLOCK),
+            manifolds: &mut bucket.manifolds[range.clone()],
+            constraints: &mut bucket.constraints[range.clone()],
+            surfaces: &mut bucket.surfaces[range.clone()],
+            flags: &bucket.flags[range.clone()],
+            touching: &mut bucket.touching[range],
+        }
+    }
 }
 
 /// Updates blocks of a class.
@@ -83,9 +93,11 @@ trait PairKernel {
 }
 
 macro_rules! lane_pair_kernel {
-    ($($class:ident $points:literal),*) => {$(
+    ($($class:ident = $function:ident),*) => {$(
+        struct $class;
+
         impl PairKernel for $class {
-            const POINTS: usize = $points;
+            const POINTS: usize = PairClass::$class.max_points();
             #[inline(always)]
             fn collide<L: Lanes>(
                 token: L::Token,
@@ -94,13 +106,20 @@ macro_rules! lane_pair_kernel {
                 _: usize,
                 pair: &LanePair<L>,
             ) -> LaneManifold<L> {
-                <$class as manifold::LaneCollide>::collide(token, pair, L::splat(token, context.speculative_distance))
+                manifold::$function(token, pair, L::splat(token, context.speculative_distance))
             }
         }
     )*};
 }
 
-lane_pair_kernel!(BoxBox 2, BoxCapsule 2, BoxCircle 1, CapsuleCapsule 2, CapsuleCircle 1, CircleCircle 1);
+lane_pair_kernel!(
+    BoxBox = box_box,
+    BoxCapsule = box_capsule,
+    BoxCircle = box_circle,
+    CapsuleCapsule = capsule_capsule,
+    CapsuleCircle = capsule_circle,
+    CircleCircle = circle_circle
+);
 
 /// Pairs with a general polygon: one after the other.
 struct General;
@@ -126,7 +145,8 @@ impl PairKernel for General {
                 Vec2::new(frames[0][i], frames[1][i]),
                 Rot { c: frames[2][i], s: frames[3][i] },
             );
-            let values = general_lane(context, block.shape_a[at + i], block.shape_b[at + i], b_in_a);
+            let values =
+                general_lane(context, block.shape_a[at + i], block.shape_b[at + i], b_in_a);
             for (lane, value) in out.iter_mut().zip(values) {
                 lane[i] = value;
             }
@@ -143,9 +163,12 @@ impl PairKernel for General {
 
 /// One manifold as ten floats: normal, two points, separations, ids.
 fn general_lane(context: &Context<'_>, a: u32, b: u32, b_in_a: Transform) -> [f32; 10] {
-    let (Some(a), Some(b)) = (context.shapes.get(a as usize), context.shapes.get(b as usize)) else {
+    let (Some(a), Some(b)) = (context.shapes.get(a as usize), context.shapes.get(b as usize))
+    else {
         return NO_POINTS;
     };
+    // The kernels' frame of B is that of its rounded box; A, a general polygon, has no other frame.
+    let b_in_a = b_in_a.compose(b.box_frame.inverse());
     let m = manifold::collide(&a.shape, &b.shape, b_in_a, context.speculative_distance);
     let mut out = NO_POINTS;
     out[0] = m.normal.x;
@@ -180,11 +203,13 @@ impl<K: PairKernel> LaneKernel for Update<'_, K> {
             let mut at = 0;
             while at < lanes {
                 let bits = if constrained {
-                    let geometry = Geometry::<L>::compute::<K>(token, &context, &blocks.manifolds[index], at);
+                    let geometry =
+                        Geometry::<L>::compute::<K>(token, &context, &blocks.manifolds[index], at);
                     write_constraint::<L, K>(token, &context, &geometry, &mut blocks, index, at);
                     geometry.touching
                 } else {
-                    Geometry::<L>::compute::<K>(token, &context, &blocks.manifolds[index], at).touching
+                    Geometry::<L>::compute::<K>(token, &context, &blocks.manifolds[index], at)
+                        .touching
                 };
                 touching |= bits << at;
                 at += L::WIDTH;
@@ -225,10 +250,7 @@ impl<L: Lanes> Geometry<L> {
         let frame_b = compose(turn_b, [shape_b[2], shape_b[3]]);
         let place_a = rotate(turn_a, [shape_a[0], shape_a[1]]);
         let place_b = rotate(turn_b, [shape_b[0], shape_b[1]]);
-        let offset = [
-            between[0] + place_b[0] - place_a[0],
-            between[1] + place_b[1] - place_a[1],
-        ];
+        let offset = [between[0] + place_b[0] - place_a[0], between[1] + place_b[1] - place_a[1]];
         let pair = LanePair {
             p: unrotate(frame_a, offset),
             q: unrotate(frame_a, frame_b),
