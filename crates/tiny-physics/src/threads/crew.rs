@@ -127,8 +127,10 @@ impl Crew {
 
     /// The exclusive use of the crew, unless someone has it.
     pub(super) fn open(&self) -> Option<Section<'_>> {
-        let taken = self.shared.open.swap(true, Ordering::Acquire);
-        (!taken).then_some(Section { crew: self, not_sync: PhantomData })
+        if self.shared.open.swap(true, Ordering::Acquire) {
+            return None;
+        }
+        Some(Section { crew: self, not_sync: PhantomData })
     }
 
     /// Lets everybody look: at a stage, or at the end.
@@ -417,7 +419,9 @@ mod tests {
     fn a_crew_has_one_owner_at_a_time() {
         let crew = Crew::hire(2).expect("threads");
         let section = crew.open();
-        assert!(section.is_some() && crew.open().is_none());
+        assert!(section.is_some());
+        // Asking must not free it.
+        assert!(crew.open().is_none() && crew.open().is_none());
         drop(section);
         assert!(crew.open().is_some());
     }
