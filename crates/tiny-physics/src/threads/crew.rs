@@ -14,7 +14,8 @@
 //! What one stage wrote is seen by the next: count-offs release, the caller's wait acquires, the seats
 //! it fills release, and claims acquire.
 //!
-//! No wake-up is lost: a worker first enters itself among the sleepers, then looks at `news` once more,
+//! Waking a thread costs the waker more than many a stage, so the caller wakes one sleeper a stage, and
+//! each worker that wakes up to work wakes two more. No wake-up is lost: a worker first enters itself among the sleepers, then looks at `news` once more,
 //! while the caller first raises `news` and then looks at the sleepers, all sequentially consistent; at
 //! least one of them sees the other.
 
@@ -23,8 +24,8 @@ use std::cell::UnsafeCell;
 use std::marker::PhantomData;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
-use std::thread::{self, JoinHandle};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::thread::{self, JoinHandle, Thread};
 use std::time::{Duration, Instant};
 
 #[cfg(debug_assertions)]
@@ -63,6 +64,8 @@ struct Shared {
     news: Counter,
     /// Bit m is set while member m is parked or about to be.
     sleepers: AtomicU64,
+    /// The worker of each seat, for its wakers; set before it first sleeps.
+    threads: Box<[OnceLock<Thread>]>,
     /// A section is open.
     open: AtomicBool,
     /// Workers are to end.
@@ -138,17 +141,7 @@ impl Crew {
     fn tell(&self) {
         self.shared.news.0.fetch_add(1, Ordering::SeqCst);
         if self.shared.sleepers.load(Ordering::SeqCst) != 0 {
-            self.wake();
-        }
-    }
-
-    #[cold]
-    fn wake(&self) {
-        let sleepers = self.shared.sleepers.swap(0, Ordering::AcqRel);
-        for (at, thread) in self.threads.iter().enumerate() {
-            if sleepers >> (at + 1) & 1 != 0 {
-                thread.thread().unpark();
-            }
+            self.shared.wake_one();
         }
     }
 }
@@ -223,6 +216,7 @@ impl Shared {
             unfinished: Counter(AtomicUsize::new(0)),
             news: Counter(AtomicUsize::new(0)),
             sleepers: AtomicU64::new(0),
+            threads: (0..member_count).map(|_| OnceLock::new()).collect(),
             open: AtomicBool::new(false),
             closing: AtomicBool::new(false),
             panics: AtomicUsize::new(0),
@@ -317,6 +311,7 @@ impl Shared {
 
     /// The life of a worker.
     fn work(&self, member: usize) {
+        self.threads[member].get_or_init(thread::current);
         let mut seen = 0;
         loop {
             seen = self.wait_for_news(member, seen);
@@ -356,14 +351,33 @@ impl Shared {
     fn park(&self, member: usize, seen: usize) -> usize {
         let bit = 1 << member;
         loop {
-            // Again after each wake-up: the waker clears the bit, and may be one of an earlier stage.
+            // Again after each wake-up: the waker clears the bit, and may be late, from an earlier stage.
             self.sleepers.fetch_or(bit, Ordering::SeqCst);
             let news = self.news.0.load(Ordering::SeqCst);
             if news != seen {
                 self.sleepers.fetch_and(!bit, Ordering::AcqRel);
+                self.wake_one();
+                self.wake_one();
                 return news;
             }
             thread::park();
+        }
+    }
+
+    /// Wakes one sleeper, if there is one.
+    #[cold]
+    fn wake_one(&self) {
+        let mut sleepers = self.sleepers.load(Ordering::SeqCst);
+        while sleepers != 0 {
+            let member = sleepers.trailing_zeros();
+            let bit = 1 << member;
+            sleepers = self.sleepers.fetch_and(!bit, Ordering::AcqRel);
+            if sleepers & bit != 0 {
+                if let Some(thread) = self.threads[member as usize].get() {
+                    thread.unpark();
+                }
+                return;
+            }
         }
     }
 }
@@ -428,16 +442,22 @@ mod tests {
 
     #[test]
     fn workers_park_when_idle_and_wake_for_work() {
-        let crew = Crew::hire(2).expect("threads");
-        let asleep = || crew.shared.sleepers.load(Ordering::SeqCst) != 0;
-        for _ in 0..20 {
+        let crew = Crew::hire(4).expect("threads");
+        let wait = |done: &dyn Fn() -> bool| {
             let start = Instant::now();
-            while !asleep() {
-                assert!(start.elapsed() < Duration::from_secs(20), "the worker does not park");
+            while !done() {
+                assert!(start.elapsed() < Duration::from_secs(60), "waited in vain");
                 thread::yield_now();
             }
-            // One chunk a member: the worker's is only done in time if it wakes, or by the caller.
-            crew.open().expect("free").run(2, &|_| ());
+        };
+        for _ in 0..20 {
+            wait(&|| crew.shared.sleepers.load(Ordering::SeqCst).count_ones() == 3);
+            // All members must come, or the chunks wait for ever.
+            let come = AtomicUsize::new(0);
+            crew.open().expect("free").run(4, &|_| {
+                come.fetch_add(1, Ordering::SeqCst);
+                wait(&|| come.load(Ordering::SeqCst) == 4);
+            });
         }
     }
 
