@@ -31,14 +31,14 @@
 //! | section without a stage | 1 | 6 | 6 | |
 //! | empty stage, a chunk each | 1 | 25-150 | 40-135 | 105-120 (`scope`) |
 //! | empty stage, 64 chunks | 34 | 400-1,150 | 400-1,350 | 1,400-1,650 (`par_iter`) |
-//! | stage in which all members meet | 31 | 140-300 | a time slice | 610-700 (`scope`) |
+//! | stage in which all members meet | 31 | 140-300 (1,400 in one run) | a time slice | 610-700 (`scope`) |
 //! | first stage after 16 ms of rest | 280 | 9,500-13,000 | 17,000-24,000 | 44,000-139,000 |
 //!
 //! A rested section's first stage costs its caller one wake-up of the operating system, which takes
 //! long on virtual cores. Waking all workers from the caller instead cost 36,000-52,000 with 4 threads.
 //! How soon a woken worker gets a core of its own is the system's choice; on that machine two threads
 //! often shared a core for the first 0.3 ms, in which the caller does the work alone. Rayon was rejected
-//! for its cost a stage, three to four times as much, and for its size.
+//! for its cost a stage, twice to four times as much where all take part, and for its size.
 #![allow(unsafe_code)]
 
 #[cfg(not(all(feature = "parallel", target_has_atomic = "64", not(target_family = "wasm"))))]
