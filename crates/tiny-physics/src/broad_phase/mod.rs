@@ -5,11 +5,13 @@
 
 mod cast;
 mod proxies;
+mod spatial_hash;
 mod stack;
 mod tree;
 
 pub use cast::BoxCast;
 pub use proxies::{BroadPhase, ProxyDef, ProxyId, ProxyKind, sort_pairs};
+pub use spatial_hash::SpatialHash;
 pub use tree::DynamicTree;
 
 use crate::math::{Aabb, Vec2};
