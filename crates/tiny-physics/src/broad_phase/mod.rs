@@ -8,11 +8,14 @@ mod proxies;
 mod spatial_hash;
 mod stack;
 mod tree;
+mod wide;
 
 pub use cast::BoxCast;
 pub use proxies::{BroadPhase, ProxyDef, ProxyId, ProxyKind, sort_pairs};
 pub use spatial_hash::SpatialHash;
-pub use tree::DynamicTree;
+#[doc(hidden)]
+pub use tree::DynamicTree as BinaryTree;
+pub use wide::WideTree as DynamicTree;
 
 use crate::math::{Aabb, Vec2};
 

@@ -37,7 +37,7 @@ impl Node {
 /// with NaN in it overlaps nothing; coordinates beyond [`LIMIT`](super::LIMIT) count as that limit.
 ///
 /// ```
-/// use tiny_physics::{Aabb, Vec2, broad_phase::DynamicTree};
+/// use tiny_physics::{Aabb, Vec2, broad_phase::BinaryTree as DynamicTree};
 /// use std::ops::ControlFlow;
 /// let mut tree = DynamicTree::new();
 /// tree.insert(7, Aabb::from_center(Vec2::ZERO, Vec2::splat(1.0)), 1);
