@@ -5,7 +5,7 @@
 
 use std::ops::ControlFlow;
 use std::time::Instant;
-use tiny_physics::broad_phase::{BinaryTree, DynamicTree};
+use tiny_physics::broad_phase::{BroadPhase, DynamicTree, ProxyDef, ProxyId, ProxyKind};
 use tiny_physics::{Aabb, Vec2};
 
 const MARGIN: f32 = 0.1;
@@ -16,16 +16,16 @@ trait Finder {
     fn insert(&mut self, id: u32, aabb: Aabb);
     /// The boxes of these ids are new.
     fn moved(&mut self, ids: &[u32], fat: &[Aabb]);
-    fn query(&self, aabb: &Aabb, visit: &mut dyn FnMut(u32));
     fn pairs(&self, ids: &[u32], fat: &[Aabb], is_moved: &[bool]) -> (usize, u64);
+}
+
+fn mixed(a: u32, b: u32) -> u64 {
+    (u64::from(a) << 32 | u64::from(b)).wrapping_mul(0x9E37_79B9_7F4A_7C15)
 }
 
 /// Counts pairs and mixes them into a number that does not depend on their order.
 macro_rules! count_pairs {
     () => {
-        fn query(&self, aabb: &Aabb, visit: &mut dyn FnMut(u32)) {
-            self.find(aabb, |id| visit(id));
-        }
         fn pairs(&self, ids: &[u32], fat: &[Aabb], is_moved: &[bool]) -> (usize, u64) {
             let (mut count, mut sum) = (0, 0u64);
             for &id in ids {
@@ -33,7 +33,9 @@ macro_rules! count_pairs {
                     if other != id && (other > id || !is_moved[other as usize]) {
                         count += 1;
                         let (a, b) = if id < other { (id, other) } else { (other, id) };
-                        sum = sum.wrapping_add((u64::from(a) << 32 | u64::from(b)).wrapping_mul(0x9E37_79B9_7F4A_7C15));
+                        sum = sum.wrapping_add(
+                            (u64::from(a) << 32 | u64::from(b)).wrapping_mul(0x9E37_79B9_7F4A_7C15),
+                        );
                     }
                 });
             }
@@ -42,13 +44,13 @@ macro_rules! count_pairs {
     };
 }
 
-struct Binary {
-    tree: BinaryTree,
-    rebuild_every: usize,
-    moves: usize,
+/// The tree alone: every moved box asks for itself.
+#[derive(Default)]
+struct Tree {
+    tree: DynamicTree,
 }
 
-impl Binary {
+impl Tree {
     #[inline]
     fn find(&self, aabb: &Aabb, mut visit: impl FnMut(u32)) {
         self.tree.query(aabb, u64::MAX, |id| {
@@ -58,9 +60,9 @@ impl Binary {
     }
 }
 
-impl Finder for Binary {
+impl Finder for Tree {
     fn name(&self) -> String {
-        format!("binary/{}", self.rebuild_every)
+        "tree, one by one".into()
     }
     fn insert(&mut self, id: u32, aabb: Aabb) {
         self.tree.insert(id, aabb, 1);
@@ -69,55 +71,44 @@ impl Finder for Binary {
         for &id in ids {
             self.tree.update(id, fat[id as usize]);
         }
-        self.moves += ids.len();
-        if self.rebuild_every != 0 && self.moves > self.rebuild_every * self.tree.len() {
-            self.moves = 0;
-            self.tree.rebuild();
-        }
+        self.tree.maintain();
     }
     count_pairs!();
 }
 
-/// Eight-ary: `stretch` in place or `update` (reinsertion), and a rebuild after so many moves.
-struct Wide {
-    tree: DynamicTree,
-    stretch: bool,
-    rebuild_tenths: usize,
-    moves: usize,
+/// What the world uses.
+#[derive(Default)]
+struct Facade {
+    broad_phase: BroadPhase,
+    groups: usize,
 }
 
-impl Wide {
-    #[inline]
-    fn find(&self, aabb: &Aabb, mut visit: impl FnMut(u32)) {
-        self.tree.query(aabb, u64::MAX, |id| {
-            visit(id);
-            ControlFlow::Continue(())
-        });
-    }
-}
-
-impl Finder for Wide {
+impl Finder for Facade {
     fn name(&self) -> String {
-        format!("wide {}/{}", if self.stretch { "stretch" } else { "update" }, self.rebuild_tenths)
+        "broad phase".into()
     }
-    fn insert(&mut self, id: u32, aabb: Aabb) {
-        self.tree.insert(id, aabb, 1);
+    fn insert(&mut self, user: u32, aabb: Aabb) {
+        let kind = ProxyKind::Dynamic;
+        let def = ProxyDef { kind, category: 1, mask: u64::MAX, user, margin: 0.0 };
+        assert_eq!(self.broad_phase.create_proxy(def, aabb), ProxyId(user));
     }
     fn moved(&mut self, ids: &[u32], fat: &[Aabb]) {
+        self.broad_phase.clear_moved();
         for &id in ids {
-            if self.stretch {
-                self.tree.stretch(id, fat[id as usize]);
-            } else {
-                self.tree.update(id, fat[id as usize]);
-            }
+            self.broad_phase.set_fat_aabb(ProxyId(id), fat[id as usize]);
         }
-        self.moves += ids.len();
-        if self.rebuild_tenths != 0 && self.moves * 10 > self.rebuild_tenths * self.tree.len() {
-            self.moves = 0;
-            self.tree.rebuild();
-        }
+        self.groups = self.broad_phase.prepare_pairs();
     }
-    count_pairs!();
+    fn pairs(&self, _: &[u32], _: &[Aabb], _: &[bool]) -> (usize, u64) {
+        let (mut count, mut sum) = (0, 0u64);
+        let accept = |a, b| {
+            count += 1;
+            sum = sum.wrapping_add(mixed(a, b));
+            false
+        };
+        self.broad_phase.query_groups(0..self.groups, accept, &mut Vec::new());
+        (count, sum)
+    }
 }
 
 /// Uniform grid made anew every step by counting sort; each box in the cell of its centre.
@@ -257,7 +248,9 @@ impl Scene {
             let noise = Vec2::new(random.unit() - 0.5, random.unit() - 0.5);
             let v = &mut self.velocity[i];
             match self.kind {
-                Motion::Stir => *v = p.perp() * (10.0 / extent) * (p.length() / extent) + noise * 8.0,
+                Motion::Stir => {
+                    *v = p.perp() * (10.0 / extent) * (p.length() / extent) + noise * 8.0
+                }
                 Motion::Fall => *v += Vec2::new(0.0, -10.0 * dt) + noise,
                 Motion::Rest => *v = noise * 0.01,
                 Motion::Smash => {
@@ -279,15 +272,8 @@ fn run(mut scene: Scene) {
     let count = scene.center.len();
     let tight = |scene: &Scene, i: usize| Aabb::from_center(scene.center[i], scene.half[i]);
     let mut fat: Vec<Aabb> = (0..count).map(|i| tight(&scene, i).grown(MARGIN)).collect();
-    let mut finders: Vec<Box<dyn Finder>> = vec![
-        Box::new(Binary { tree: BinaryTree::new(), rebuild_every: 0, moves: 0 }),
-        Box::new(Binary { tree: BinaryTree::new(), rebuild_every: 1, moves: 0 }),
-        Box::new(Binary { tree: BinaryTree::new(), rebuild_every: 4, moves: 0 }),
-        Box::new(Grid::default()),
-    ];
-    for (stretch, rebuild_tenths) in [(false, 0), (false, 20), (true, 5), (true, 10), (true, 20), (true, 40)] {
-        finders.push(Box::new(Wide { tree: DynamicTree::new(), stretch, rebuild_tenths, moves: 0 }));
-    }
+    let mut finders: Vec<Box<dyn Finder>> =
+        vec![Box::<Tree>::default(), Box::<Facade>::default(), Box::<Grid>::default()];
     for finder in &mut finders {
         let start = Instant::now();
         for (id, aabb) in fat.iter().enumerate() {

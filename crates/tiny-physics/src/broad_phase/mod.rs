@@ -8,14 +8,11 @@ mod proxies;
 mod spatial_hash;
 mod stack;
 mod tree;
-mod wide;
 
 pub use cast::BoxCast;
-pub use proxies::{BroadPhase, ProxyDef, ProxyId, ProxyKind, sort_pairs};
+pub use proxies::{BroadPhase, ProxyDef, ProxyId, ProxyKind};
 pub use spatial_hash::SpatialHash;
-#[doc(hidden)]
-pub use tree::DynamicTree as BinaryTree;
-pub use wide::WideTree as DynamicTree;
+pub use tree::DynamicTree;
 
 use crate::math::{Aabb, Vec2};
 
@@ -34,6 +31,12 @@ fn clamped(aabb: Aabb) -> Aabb {
     }
     let (low, high) = (Vec2::splat(-LIMIT), Vec2::splat(LIMIT));
     Aabb::new(aabb.min.max(low).min(high), aabb.max.max(low).min(high))
+}
+
+/// Sorts pairs and drops repeated ones: the last step after ranges were queried by several threads.
+pub fn sort_pairs(pairs: &mut Vec<(u32, u32)>) {
+    pairs.sort_unstable_by_key(|&(a, b)| u64::from(a) << 32 | u64::from(b));
+    pairs.dedup();
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Proxies of shapes, and the pairs of them that came close.
 
-use super::{BoxCast, DynamicTree};
+use super::tree::WIDTH;
+use super::{BoxCast, DynamicTree, sort_pairs};
 use crate::math::{Aabb, Vec2};
 use core::ops::{ControlFlow, Range};
 
@@ -66,6 +67,45 @@ struct Proxy {
 
 const _: () = assert!(size_of::<Proxy>() == 32);
 
+/// A moved proxy that asks for its partners.
+#[derive(Clone, Copy)]
+struct Member {
+    aabb: Aabb,
+    category: u64,
+    mask: u64,
+    id: u32,
+    user: u32,
+}
+
+impl Member {
+    const NONE: Self = Self { aabb: Aabb::EMPTY, category: 0, mask: 0, id: 0, user: 0 };
+}
+
+/// The moved proxies of one node: they are near each other and go down the trees together.
+struct Group {
+    members: [Member; WIDTH],
+    count: usize,
+    aabb: Aabb,
+    mask: u64,
+}
+
+impl Group {
+    #[inline]
+    fn members(&self) -> &[Member] {
+        &self.members[..self.count]
+    }
+
+    /// Is the common box small enough to ask together? One huge member would send the others everywhere.
+    #[inline]
+    fn is_compact(&self) -> bool {
+        let total = self.members().iter().fold(0.0, |sum, member| sum + member.aabb.perimeter());
+        self.aabb.perimeter() * self.count as f32 <= COMPACT * total
+    }
+}
+
+/// A group is compact while its box is no longer around than this many of its members.
+const COMPACT: f32 = 5.0;
+
 /// Proxies of all shapes, and which of them have to look for new partners.
 ///
 /// A proxy's *fat box* is its tight box and a margin. While the tight box stays inside, nothing
@@ -79,6 +119,10 @@ pub struct BroadPhase {
     proxies: Vec<Proxy>,
     free: Vec<u32>,
     moved: Vec<ProxyId>,
+    /// Tree and node of the moved proxies, while pairs are asked for.
+    groups: Vec<(ProxyKind, u32)>,
+    /// For each node, which children moved.
+    marks: [Vec<u8>; 3],
     /// By [`ProxyKind`].
     trees: [DynamicTree; 3],
 }
@@ -203,52 +247,109 @@ impl BroadPhase {
         &self.moved
     }
 
-    /// Adds the pairs of a range of [`BroadPhase::moved`] to `out`, unsorted. A pair of two moved
-    /// proxies is found by one of the two alone, so disjoint ranges give disjoint pairs. `accept` can turn
-    /// a pair down early (it gets the `user` numbers, smaller first): what it turns down need not be sorted.
-    pub fn query_moved(
+    /// Gets ready for [`BroadPhase::query_groups`] and returns the number of groups: moved proxies that are
+    /// near each other ask together. It also keeps the trees good.
+    pub fn prepare_pairs(&mut self) -> usize {
+        for (tree, marks) in self.trees.iter_mut().zip(&mut self.marks) {
+            tree.maintain();
+            marks.clear();
+            marks.resize(tree.node_count(), 0);
+        }
+        self.groups.clear();
+        for &id in &self.moved {
+            let Some(kind) = self.proxies[id.0 as usize].kind else { continue };
+            let Some((node, lane)) = self.trees[kind as usize].place(id.0) else { continue };
+            let mark = &mut self.marks[kind as usize][node as usize];
+            if *mark == 0 {
+                self.groups.push((kind, node));
+            }
+            *mark |= 1 << lane;
+        }
+        for &(kind, node) in &self.groups {
+            self.trees[kind as usize].refit(node);
+        }
+        self.groups.len()
+    }
+
+    /// Adds the pairs of a range of groups to `out`, unsorted. A pair of two moved proxies is
+    /// found by one of the two alone, so disjoint ranges give disjoint pairs. `accept` can turn a pair down
+    /// early (it gets the `user` numbers, smaller first): what it turns down need not be sorted.
+    ///
+    /// For several threads: [`prepare_pairs`](Self::prepare_pairs) gives the number of groups; cut that into ranges in
+    /// any way, join the lists, [`sort_pairs`], [`clear_moved`](Self::clear_moved). Nothing else may
+    /// change in between.
+    pub fn query_groups(
         &self,
         range: Range<usize>,
         mut accept: impl FnMut(u32, u32) -> bool,
         out: &mut Vec<(u32, u32)>,
     ) {
-        for &id in self.moved.get(range).unwrap_or_default() {
-            let proxy = &self.proxies[id.0 as usize];
-            let (Some(kind), Some(aabb)) = (proxy.kind, self.fat_aabb(id)) else { continue };
-            for &partner in kind.partners() {
-                self.trees[partner as usize].query(&aabb, proxy.mask, |other_id| {
-                    let other = &self.proxies[other_id as usize];
-                    let mine = other_id > id.0 || (other_id != id.0 && !other.moved);
-                    if mine && other.mask & proxy.category != 0 {
-                        let pair = ordered(proxy.user, other.user);
-                        if accept(pair.0, pair.1) {
-                            out.push(pair);
-                        }
+        for &(kind, node) in self.groups.get(range).unwrap_or_default() {
+            let group = self.group(kind, node);
+            let mut test = |member: &Member, other_id: u32| {
+                let other = &self.proxies[other_id as usize];
+                let mine = other_id > member.id || (other_id != member.id && !other.moved);
+                if mine && other.mask & member.category != 0 && other.category & member.mask != 0 {
+                    let pair = ordered(member.user, other.user);
+                    if accept(pair.0, pair.1) {
+                        out.push(pair);
                     }
-                    ControlFlow::Continue(())
-                });
+                }
+            };
+            for &partner in kind.partners() {
+                let tree = &self.trees[partner as usize];
+                if group.is_compact() {
+                    tree.query_bottom(&group.aabb, group.mask, |node| {
+                        for member in group.members() {
+                            tree.query_node(node, &member.aabb, |id| test(member, id));
+                        }
+                    });
+                    continue;
+                }
+                for member in group.members() {
+                    tree.query(&member.aabb, member.mask, |id| {
+                        test(member, id);
+                        ControlFlow::Continue(())
+                    });
+                }
             }
         }
     }
 
-    /// Forgets which proxies moved. Call it after all ranges have been queried.
+    #[inline]
+    fn group(&self, kind: ProxyKind, node: u32) -> Group {
+        let mut group =
+            Group { members: [Member::NONE; WIDTH], count: 0, aabb: Aabb::EMPTY, mask: 0 };
+        let mut lanes = self.marks[kind as usize][node as usize];
+        while lanes != 0 {
+            let (id, aabb) = self.trees[kind as usize].leaf(node, lanes.trailing_zeros() as usize);
+            lanes &= lanes - 1;
+            let Proxy { category, mask, user, .. } = self.proxies[id as usize];
+            group.members[group.count] = Member { aabb, category, mask, id, user };
+            group.count += 1;
+            group.aabb = group.aabb.union(&aabb);
+            group.mask |= mask;
+        }
+        group
+    }
+
+    /// Forgets which proxies moved. Call it after all groups have been queried.
     pub fn clear_moved(&mut self) {
         for id in self.moved.drain(..) {
             self.proxies[id.0 as usize].moved = false;
         }
+        self.groups.clear();
     }
 
-    /// All pairs of the moved proxies into `out` (its old contents are dropped), sorted; then forgets which moved.
+    /// All pairs of the moved proxies into `out` (its old contents are dropped), sorted; then forgets which
+    /// moved.
     pub fn update_pairs(&mut self, out: &mut Vec<(u32, u32)>) {
         out.clear();
-        self.maintain();
-        self.query_moved(0..self.moved.len(), |_, _| true, out);
+        let count = self.prepare_pairs();
+        self.query_groups(0..count, |_, _| true, out);
         sort_pairs(out);
         self.clear_moved();
     }
-
-    /// Keeps the trees good after many moves. Call it before the queries of a step; it changes no result.
-    pub fn maintain(&mut self) {}
 
     /// Calls `visit` with the `user` number of every proxy of any kind whose fat box overlaps `aabb` and whose
     /// category has a bit of `mask`, until it breaks.
@@ -319,10 +420,4 @@ impl BroadPhase {
 #[inline]
 fn ordered(a: u32, b: u32) -> (u32, u32) {
     if a < b { (a, b) } else { (b, a) }
-}
-
-/// Sorts pairs and drops repeated ones: the last step after ranges were queried by several threads.
-pub fn sort_pairs(pairs: &mut Vec<(u32, u32)>) {
-    pairs.sort_unstable_by_key(|&(a, b)| u64::from(a) << 32 | u64::from(b));
-    pairs.dedup();
 }
