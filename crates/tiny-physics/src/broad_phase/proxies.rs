@@ -103,6 +103,36 @@ impl Group {
     }
 }
 
+/// Children of nodes that were hit, set aside for [`BroadPhase::drain`].
+struct Hits {
+    /// Node in the upper half, then the member's index, then one bit a child.
+    words: [u64; Self::CAPACITY + 1],
+    count: usize,
+    /// Member's index and proxy of the pairs to report.
+    kept: [(u32, u32); Self::CAPACITY * WIDTH + 1],
+}
+
+impl Hits {
+    const CAPACITY: usize = 64;
+
+    fn new() -> Self {
+        let (words, kept) = ([0; Self::CAPACITY + 1], [(0, 0); Self::CAPACITY * WIDTH + 1]);
+        Self { words, count: 0, kept }
+    }
+
+    #[inline]
+    fn push(&mut self, node: u32, member: usize, bits: u32) {
+        self.words[self.count] = u64::from(node) << 32 | (member as u64) << 8 | u64::from(bits);
+        self.count += usize::from(bits != 0);
+    }
+
+    /// Is there no room for another node and all members?
+    #[inline]
+    fn is_full(&self) -> bool {
+        self.count + WIDTH > Self::CAPACITY
+    }
+}
+
 /// A group is compact while its box is no longer around than this many of its members.
 const COMPACT: f32 = 5.0;
 
@@ -284,36 +314,97 @@ impl BroadPhase {
         mut accept: impl FnMut(u32, u32) -> bool,
         out: &mut Vec<(u32, u32)>,
     ) {
+        let mut hits = Hits::new();
         for &(kind, node) in self.groups.get(range).unwrap_or_default() {
             let group = self.group(kind, node);
-            let mut test = |member: &Member, other_id: u32| {
-                let other = &self.proxies[other_id as usize];
-                let mine = other_id > member.id || (other_id != member.id && !other.moved);
-                if mine && other.mask & member.category != 0 && other.category & member.mask != 0 {
-                    let pair = ordered(member.user, other.user);
-                    if accept(pair.0, pair.1) {
-                        out.push(pair);
-                    }
+            let mut report = |member: usize, other: u32| {
+                let pair = ordered(group.members[member].user, self.proxies[other as usize].user);
+                if accept(pair.0, pair.1) {
+                    out.push(pair);
                 }
             };
             for &partner in kind.partners() {
                 let tree = &self.trees[partner as usize];
                 if group.is_compact() {
-                    tree.query_bottom(&group.aabb, group.mask, |node| {
-                        for member in group.members() {
-                            tree.query_node(node, &member.aabb, |id| test(member, id));
-                        }
-                    });
-                    continue;
-                }
-                for member in group.members() {
-                    tree.query(&member.aabb, member.mask, |id| {
-                        test(member, id);
-                        ControlFlow::Continue(())
-                    });
+                    self.query_together(tree, &group, &mut hits, &mut report);
+                } else {
+                    self.query_one_by_one(tree, &group, &mut report);
                 }
             }
         }
+    }
+
+    #[inline]
+    fn query_together(
+        &self,
+        tree: &DynamicTree,
+        group: &Group,
+        hits: &mut Hits,
+        report: &mut impl FnMut(usize, u32),
+    ) {
+        tree.query_bottom(&group.aabb, group.mask, |node| {
+            for (index, member) in group.members().iter().enumerate() {
+                hits.push(node, index, tree.overlaps(node, &member.aabb));
+            }
+            if hits.is_full() {
+                self.drain(tree, group, hits, report);
+            }
+        });
+        self.drain(tree, group, hits, report);
+    }
+
+    /// Turns the hits that were set aside into pairs. How many children of a node are hit, and which of
+    /// two moved proxies reports, is noise to the branch predictor: so both loops go on by arithmetic.
+    #[inline]
+    fn drain(
+        &self,
+        tree: &DynamicTree,
+        group: &Group,
+        hits: &mut Hits,
+        report: &mut impl FnMut(usize, u32),
+    ) {
+        let (mut at, mut kept) = (0, 0);
+        let mut word = hits.words[0];
+        while at < hits.count {
+            let index = (word >> 8) as usize % WIDTH;
+            let other = tree.child((word >> 32) as u32, word.trailing_zeros() as usize % WIDTH);
+            hits.kept[kept] = (index as u32, other);
+            kept += usize::from(self.is_mine(&group.members[index], other));
+            word &= word - 1;
+            let done = word & 0xff == 0;
+            at += usize::from(done);
+            word = if done { hits.words[at] } else { word };
+        }
+        hits.count = 0;
+        for &(member, other) in &hits.kept[..kept] {
+            report(member as usize, other);
+        }
+    }
+
+    #[inline]
+    fn query_one_by_one(
+        &self,
+        tree: &DynamicTree,
+        group: &Group,
+        report: &mut impl FnMut(usize, u32),
+    ) {
+        for (index, member) in group.members().iter().enumerate() {
+            tree.query(&member.aabb, member.mask, |other| {
+                if self.is_mine(member, other) {
+                    report(index, other);
+                }
+                ControlFlow::Continue(())
+            });
+        }
+    }
+
+    /// Is it for the moved `member` to report its pair with `other`, if the filters agree to one?
+    #[inline]
+    fn is_mine(&self, member: &Member, other_id: u32) -> bool {
+        let other = &self.proxies[other_id as usize];
+        ((other_id > member.id) | ((other_id != member.id) & !other.moved))
+            & (other.mask & member.category != 0)
+            & (other.category & member.mask != 0)
     }
 
     #[inline]

@@ -315,15 +315,16 @@ impl DynamicTree {
         }
     }
 
-    /// Calls `visit` with the ids in a node of the lowest level whose boxes overlap `aabb`.
+    /// Bit `i` set where child `i` of a node overlaps the box.
     #[inline]
-    pub(super) fn query_node(&self, index: u32, aabb: &Aabb, mut visit: impl FnMut(u32)) {
-        let mut bits = self.boxes[index as usize].overlaps(aabb);
-        while bits != 0 {
-            let lane = bits.trailing_zeros() as usize % WIDTH;
-            bits &= bits - 1;
-            visit(self.nodes[index as usize].child[lane]);
-        }
+    pub(super) fn overlaps(&self, index: u32, aabb: &Aabb) -> u32 {
+        self.boxes[index as usize].overlaps(aabb)
+    }
+
+    /// Id in a lane of a node of the lowest level.
+    #[inline]
+    pub(super) fn child(&self, index: u32, lane: usize) -> u32 {
+        self.nodes[index as usize].child[lane]
     }
 
     /// Number of nodes, free ones included.
