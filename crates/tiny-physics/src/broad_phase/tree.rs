@@ -54,15 +54,16 @@ impl Boxes {
     /// Bit `i` set where lane `i` overlaps the box.
     #[inline]
     fn overlaps(&self, aabb: &Aabb) -> u32 {
-        let mut bits = 0;
-        for lane in 0..WIDTH {
+        let mut bits = [0u32; WIDTH];
+        for (lane, bit) in bits.iter_mut().enumerate() {
             let hit = (self.min_x[lane] <= aabb.max.x)
                 & (aabb.min.x <= self.max_x[lane])
                 & (self.min_y[lane] <= aabb.max.y)
                 & (aabb.min.y <= self.max_y[lane]);
-            bits |= u32::from(hit) << lane;
+            *bit = u32::from(hit).wrapping_neg() & 1 << lane;
         }
-        bits
+        let [a, b, c, d, e, f, g, h] = bits;
+        ((a | e) | (b | f)) | ((c | g) | (d | h))
     }
 
     /// The union of all lanes.
