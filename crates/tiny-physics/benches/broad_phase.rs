@@ -5,7 +5,9 @@
 
 use std::ops::ControlFlow;
 use std::time::Instant;
-use tiny_physics::broad_phase::{BroadPhase, DynamicTree, ProxyDef, ProxyId, ProxyKind};
+use tiny_physics::broad_phase::{
+    BroadPhase, DynamicTree, ProxyDef, ProxyId, ProxyKind, SpatialHash,
+};
 use tiny_physics::{Aabb, Vec2};
 
 const MARGIN: f32 = 0.1;
@@ -109,6 +111,45 @@ impl Finder for Facade {
         self.broad_phase.query_groups(0..self.groups, accept, &mut Vec::new());
         (count, sum)
     }
+}
+
+/// The spatial hash, filled anew every step.
+struct Hash {
+    hash: SpatialHash,
+    boxes: Vec<Aabb>,
+}
+
+impl Hash {
+    fn new(boxes: &[Aabb]) -> Self {
+        let cell_size = SpatialHash::suggested_cell_size(boxes.iter().copied());
+        Self { hash: SpatialHash::new(cell_size).expect("a positive size"), boxes: Vec::new() }
+    }
+    #[inline]
+    fn find(&self, aabb: &Aabb, mut visit: impl FnMut(u32)) {
+        self.hash.query(aabb, |id| {
+            visit(id);
+            ControlFlow::Continue(())
+        });
+    }
+}
+
+impl Finder for Hash {
+    fn name(&self) -> String {
+        "spatial hash".into()
+    }
+    fn insert(&mut self, _: u32, aabb: Aabb) {
+        self.boxes.push(aabb);
+    }
+    fn moved(&mut self, ids: &[u32], fat: &[Aabb]) {
+        for &id in ids {
+            self.boxes[id as usize] = fat[id as usize];
+        }
+        self.hash.clear();
+        for (id, aabb) in self.boxes.iter().enumerate() {
+            self.hash.insert(id as u32, *aabb);
+        }
+    }
+    count_pairs!();
 }
 
 /// Uniform grid made anew every step by counting sort; each box in the cell of its centre.
@@ -272,8 +313,12 @@ fn run(mut scene: Scene) {
     let count = scene.center.len();
     let tight = |scene: &Scene, i: usize| Aabb::from_center(scene.center[i], scene.half[i]);
     let mut fat: Vec<Aabb> = (0..count).map(|i| tight(&scene, i).grown(MARGIN)).collect();
-    let mut finders: Vec<Box<dyn Finder>> =
-        vec![Box::<Tree>::default(), Box::<Facade>::default(), Box::<Grid>::default()];
+    let mut finders: Vec<Box<dyn Finder>> = vec![
+        Box::<Tree>::default(),
+        Box::<Facade>::default(),
+        Box::<Grid>::default(),
+        Box::new(Hash::new(&fat)),
+    ];
     for finder in &mut finders {
         let start = Instant::now();
         for (id, aabb) in fat.iter().enumerate() {
