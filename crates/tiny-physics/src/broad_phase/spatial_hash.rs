@@ -1,11 +1,11 @@
-//! A spatial hash: space cut into square cells, a box entered into every cell that it covers, and only
-//! boxes that share a cell compared.
+//! A spatial hash: space cut into square cells, a box entered into every cell that it covers, and
+//! only boxes that share a cell compared.
 //!
-//! The cells that are in use live in one open-addressing table with linear probing, at most half full; the boxes of
-//! a cell are a chain through one flat array. A pair that shares several cells is found once, in the
-//! cell of the lower left corner of the two boxes' common part, so nothing has to be remembered or
-//! removed (the reference point of Dittrich and Seeger, "Data Redundancy and Duplicate Detection in
-//! Spatial Join Processing", 2000).
+//! The cells that are in use live in one open-addressing table with linear probing, at most half
+//! full; the boxes of a cell are a chain through one flat array. A pair that shares several cells
+//! is found once, in the cell of the lower left corner of the two boxes' common part, so nothing
+//! has to be remembered or removed (the reference point of Dittrich and Seeger, "Data Redundancy
+//! and Duplicate Detection in Spatial Join Processing", 2000).
 
 use super::{DynamicTree, NONE, clamped, sort_pairs};
 use crate::error::Error;
@@ -44,14 +44,14 @@ struct Link {
 
 /// A broad phase for boxes that are collected anew every step.
 ///
-/// Fill it with [`insert`](Self::insert), ask for [`pairs`](Self::pairs), [`clear`](Self::clear) it for
-/// the next step; memory is reused. The best cell size is 1 to 2 times the largest common
-/// box ([`suggested_cell_size`](Self::suggested_cell_size)): much smaller, and every box is in many cells; much
-/// larger, and every cell has many boxes.
+/// Fill it with [`insert`](Self::insert), ask for [`pairs`](Self::pairs), [`clear`](Self::clear) it
+/// for the next step; memory is reused. The best cell size is 1 to 2 times the largest common box
+/// ([`suggested_cell_size`](Self::suggested_cell_size)): much smaller, and every box is in many
+/// cells; much larger, and every cell has many boxes.
 ///
-/// A box that covers very many cells does not go into them but into a small tree, so a floor of 10 km costs
-/// no more than a crate. A box with NaN in it or with `min > max` overlaps nothing; coordinates beyond
-/// [`LIMIT`](super::LIMIT) count as that limit.
+/// A box that covers very many cells does not go into them but into a small tree, so a floor of 10
+/// km costs no more than a crate. A box with NaN in it or with `min > max` overlaps nothing;
+/// coordinates beyond [`LIMIT`](super::LIMIT) count as that limit.
 ///
 /// ```
 /// use tiny_physics::{Aabb, Vec2, broad_phase::SpatialHash};
@@ -102,8 +102,8 @@ impl SpatialHash {
         })
     }
 
-    /// A good cell size for these boxes: 1.25 times the longest side among those that are no more than
-    /// 8 times the median, so that a few huge boxes do not count. 1 where no box has a size.
+    /// A good cell size for these boxes: 1.25 times the longest side among those that are no more
+    /// than 8 times the median, so that a few huge boxes do not count. 1 where no box has a size.
     pub fn suggested_cell_size(boxes: impl IntoIterator<Item = Aabb>) -> f32 {
         let longest = |aabb: Aabb| {
             let size = aabb.max - aabb.min;
@@ -161,8 +161,8 @@ impl SpatialHash {
         }
     }
 
-    /// All pairs of ids whose boxes overlap (edges count) into `out` (its old contents are dropped):
-    /// each once, the smaller id first, sorted.
+    /// All pairs of ids whose boxes overlap (edges count) into `out` (its old contents are
+    /// dropped): each once, the smaller id first, sorted.
     pub fn pairs(&self, out: &mut Vec<(u32, u32)>) {
         out.clear();
         for cell in &self.table {
@@ -174,8 +174,8 @@ impl SpatialHash {
         sort_pairs(out);
     }
 
-    /// Calls `visit` with the id of every box that overlaps `aabb` (edges count), until it breaks. In no
-    /// particular order.
+    /// Calls `visit` with the id of every box that overlaps `aabb` (edges count), until it breaks.
+    /// In no particular order.
     pub fn query(&self, aabb: &Aabb, mut visit: impl FnMut(u32) -> ControlFlow<()>) {
         let aabb = clamped(*aabb);
         let (low, high) = self.cells(&aabb);
@@ -212,8 +212,8 @@ impl SpatialHash {
         (cell(aabb.min), cell(aabb.max))
     }
 
-    /// Index of the cell of a coordinate; far away many cells have the same index, which is slow there
-    /// but stays right because the order is kept.
+    /// Index of the cell of a coordinate; far away many cells have the same index, which is slow
+    /// there but stays right because the order is kept.
     #[inline]
     fn cell(&self, coordinate: f32) -> i32 {
         let scaled = coordinate * self.per_metre;

@@ -1,10 +1,10 @@
 //! A dynamic tree of boxes with eight children a node.
 //!
-//! An R-tree (Guttman, "R-Trees: A Dynamic Index Structure for Spatial Searching", 1984) whose nodes
-//! keep the boxes of their children as four rows of eight floats, so that one node is tested with a handful of vector
-//! compares. All leaves are at the same depth, so a million boxes are seven to ten levels at worst,
-//! whatever the order of insertion. A new box goes down where it adds the least perimeter; a full node is
-//! cut in two along the axis where its boxes spread more.
+//! An R-tree (Guttman, "R-Trees: A Dynamic Index Structure for Spatial Searching", 1984) whose
+//! nodes keep the boxes of their children as four rows of eight floats, so that one node is tested
+//! with a handful of vector compares. All leaves are at the same depth, so a million boxes are
+//! seven to ten levels at worst, whatever the order of insertion. A new box goes down where it adds
+//! the least perimeter; a full node is cut in two along the axis where its boxes spread more.
 //!
 //! Every child has the union of its leaves' categories, so a query skips subtrees that it cannot
 //! collide with. Results of a query do not depend on the shape of the tree, only their order does.
@@ -112,8 +112,9 @@ struct Branch {
 
 /// A map from small ids to boxes, with fast queries by area.
 ///
-/// Ids are the caller's: dense numbers, because a table over all ids up to the largest is kept. A box
-/// with NaN in it overlaps nothing; coordinates beyond [`LIMIT`](super::LIMIT) count as that limit.
+/// Ids are the caller's: dense numbers, because a table over all ids up to the largest is kept. A
+/// box with NaN in it overlaps nothing; coordinates beyond [`LIMIT`](super::LIMIT) count as that
+/// limit.
 ///
 /// ```
 /// use tiny_physics::{Aabb, Vec2, broad_phase::DynamicTree};
@@ -245,8 +246,8 @@ impl DynamicTree {
 
     /// Gives a box that is in the tree a new place; false where the id has none.
     ///
-    /// The box stays in its node, whose ancestors grow where they have to: cheap, but the tree gets worse until
-    /// [`maintain`](Self::maintain).
+    /// The box stays in its node, whose ancestors grow where they have to: cheap, but the tree gets
+    /// worse until [`maintain`](Self::maintain).
     #[inline]
     pub fn update(&mut self, id: u32, aabb: Aabb) -> bool {
         let Some((node, lane)) = self.place(id) else { return false };
@@ -265,8 +266,8 @@ impl DynamicTree {
         true
     }
 
-    /// Calls `visit` with every id whose box overlaps `aabb` (edges count) and whose category has a bit of
-    /// `mask`, until it breaks. The order depends on the shape of the tree.
+    /// Calls `visit` with every id whose box overlaps `aabb` (edges count) and whose category has a
+    /// bit of `mask`, until it breaks. The order depends on the shape of the tree.
     #[inline]
     pub fn query(&self, aabb: &Aabb, mask: u64, mut visit: impl FnMut(u32) -> ControlFlow<()>) {
         let aabb = clamped(*aabb);
@@ -291,8 +292,8 @@ impl DynamicTree {
         }
     }
 
-    /// Calls `visit` with every node of the lowest level that may have children which overlap `aabb` and have
-    /// a bit of `mask`.
+    /// Calls `visit` with every node of the lowest level that may have children which overlap
+    /// `aabb` and have a bit of `mask`.
     #[inline]
     pub(super) fn query_bottom(&self, aabb: &Aabb, mask: u64, mut visit: impl FnMut(u32)) {
         let mut stack = Stack::new();
@@ -339,9 +340,9 @@ impl DynamicTree {
         (self.nodes[index as usize].child[lane], self.boxes[index as usize].get(lane))
     }
 
-    /// Calls `visit` with the ids whose box the cast may hit before `max_fraction`, roughly the nearest
-    /// first. `visit` gets the id and the current limit and returns the new one: the same to go on, the fraction of
-    /// a hit to look only for nearer ones, 0 to stop.
+    /// Calls `visit` with the ids whose box the cast may hit before `max_fraction`, roughly the
+    /// nearest first. `visit` gets the id and the current limit and returns the new one: the same
+    /// to go on, the fraction of a hit to look only for nearer ones, 0 to stop.
     pub fn cast(
         &self,
         cast: &BoxCast,
@@ -379,8 +380,8 @@ impl DynamicTree {
         }
     }
 
-    /// Builds the tree anew where that is worth it: once about as much has changed as there are boxes, and
-    /// the nodes have become larger by a quarter.
+    /// Builds the tree anew where that is worth it: once about as much has changed as there are
+    /// boxes, and the nodes have become larger by a quarter.
     pub fn maintain(&mut self) {
         if self.changes <= self.count + 64 {
             return;
@@ -418,8 +419,8 @@ impl DynamicTree {
         if self.root == NONE { 0 } else { u32::from(self.nodes[self.root as usize].level) + 1 }
     }
 
-    /// Perimeters of all inner nodes over the perimeter of the root: about how many nodes a query of
-    /// random place looks at. Lower is better.
+    /// Perimeters of all inner nodes over the perimeter of the root: about how many nodes a query
+    /// of random place looks at. Lower is better.
     pub fn area_ratio(&self) -> f32 {
         let root = self.bounds().perimeter();
         if self.root == NONE || root <= 0.0 || root.is_nan() {
@@ -626,7 +627,8 @@ impl DynamicTree {
         }
     }
 
-    /// Shares the children of a full node and one more between it and a new node; gives the new one.
+    /// Shares the children of a full node and one more between it and a new node; gives the new
+    /// one.
     fn split(&mut self, index: u32, extra: Branch) -> Branch {
         let mut all = [extra; WIDTH + 1];
         for (lane, branch) in all[..WIDTH].iter_mut().enumerate() {
