@@ -29,6 +29,7 @@
 //! tenth over SSE2: what costs is branches that cannot be predicted (draining hits without them
 //! took a third off) and memory.
 
+mod boxes;
 mod cast;
 mod proxies;
 mod spatial_hash;

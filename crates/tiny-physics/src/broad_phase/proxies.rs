@@ -7,7 +7,7 @@
 //! Invariants: a proxy is in the tree of its kind under its own number; it is flagged as moved
 //! exactly when it is in the buffer; nodes hold the fat boxes below them.
 
-use super::tree::WIDTH;
+use super::boxes::WIDTH;
 use super::{BoxCast, DynamicTree, sort_pairs};
 use crate::math::{Aabb, Vec2};
 use core::ops::{ControlFlow, Range};

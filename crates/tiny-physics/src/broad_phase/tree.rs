@@ -9,73 +9,11 @@
 //! Every child has the union of its leaves' categories, so a query skips subtrees that it cannot
 //! collide with. Results of a query do not depend on the shape of the tree, only their order does.
 
+use super::boxes::{Boxes, WIDTH};
 use super::stack::Stack;
 use super::{BoxCast, NONE, clamped};
-use crate::math::{Aabb, Vec2};
+use crate::math::Aabb;
 use core::ops::ControlFlow;
-
-/// Children of a node.
-pub(super) const WIDTH: usize = 8;
-
-/// The boxes of a node's children; lanes without a child are [`Aabb::EMPTY`].
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
-struct Boxes {
-    min_x: [f32; WIDTH],
-    min_y: [f32; WIDTH],
-    max_x: [f32; WIDTH],
-    max_y: [f32; WIDTH],
-}
-
-const _: () = assert!(size_of::<Boxes>() == 128);
-
-impl Boxes {
-    const EMPTY: Self = Self {
-        min_x: [f32::INFINITY; WIDTH],
-        min_y: [f32::INFINITY; WIDTH],
-        max_x: [f32::NEG_INFINITY; WIDTH],
-        max_y: [f32::NEG_INFINITY; WIDTH],
-    };
-
-    #[inline]
-    fn get(&self, lane: usize) -> Aabb {
-        Aabb::new(
-            Vec2::new(self.min_x[lane], self.min_y[lane]),
-            Vec2::new(self.max_x[lane], self.max_y[lane]),
-        )
-    }
-
-    #[inline]
-    fn set(&mut self, lane: usize, aabb: Aabb) {
-        (self.min_x[lane], self.min_y[lane]) = (aabb.min.x, aabb.min.y);
-        (self.max_x[lane], self.max_y[lane]) = (aabb.max.x, aabb.max.y);
-    }
-
-    /// Bit `i` set where lane `i` overlaps the box.
-    #[inline]
-    fn overlaps(&self, aabb: &Aabb) -> u32 {
-        let mut bits = [0u32; WIDTH];
-        for (lane, bit) in bits.iter_mut().enumerate() {
-            let hit = (self.min_x[lane] <= aabb.max.x)
-                & (aabb.min.x <= self.max_x[lane])
-                & (self.min_y[lane] <= aabb.max.y)
-                & (aabb.min.y <= self.max_y[lane]);
-            *bit = u32::from(hit).wrapping_neg() & 1 << lane;
-        }
-        let [a, b, c, d, e, f, g, h] = bits;
-        ((a | e) | (b | f)) | ((c | g) | (d | h))
-    }
-
-    /// The union of all lanes.
-    #[inline]
-    fn union(&self) -> Aabb {
-        let mut all = self.get(0);
-        for lane in 1..WIDTH {
-            all = all.union(&self.get(lane));
-        }
-        all
-    }
-}
 
 /// Everything of a node but the boxes.
 #[derive(Clone, Copy, Debug)]
