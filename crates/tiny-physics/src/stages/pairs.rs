@@ -6,8 +6,8 @@ use crate::dynamics::{Bodies, Contact, Contacts, Graph, Joints, NULL, Place, Sav
 use crate::geometry::manifold::PairClass;
 use crate::threads::Team;
 
-/// Shapes whose partners one member of the team looks for at a time.
-const CHUNK: usize = 32;
+/// Groups of moved shapes whose partners one member of the team looks for at a time.
+const CHUNK: usize = 8;
 
 /// Finds the pairs around shapes that left their fat boxes which may collide and have no contact yet,
 /// each once, sorted.
@@ -18,10 +18,11 @@ pub(crate) fn find_new(
     found: &mut Vec<Vec<(u32, u32)>>,
     pairs: &mut Vec<(u32, u32)>,
 ) {
+    let group_count = broad_phase.prepare_pairs();
     let boxes = &*broad_phase;
-    let chunks = team.map_chunks(boxes.moved().len(), CHUNK, found, |range, found| {
+    let chunks = team.map_chunks(group_count, CHUNK, found, |range, found| {
         found.clear();
-        boxes.query_moved(range, |a, b| stores.may_meet(a, b), found);
+        boxes.query_groups(range, |a, b| stores.may_meet(a, b), found);
     });
     pairs.clear();
     chunks.iter().for_each(|found| pairs.extend_from_slice(found));

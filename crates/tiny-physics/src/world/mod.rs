@@ -178,7 +178,6 @@ impl World {
 
     /// Drops contacts of shapes that left their fat boxes and their partners; finds new partners.
     fn update_pairs(&mut self, team: &Team) {
-        self.broad_phase.maintain();
         self.stats.moved_shapes = self.broad_phase.moved().len();
         let Self { broad_phase, shapes, bodies, contacts, joints, scratch, .. } = self;
         pairs::find_parted(broad_phase, bodies, shapes, contacts, &mut scratch.parted);
