@@ -3,6 +3,7 @@
 //! Above [`math`](crate::math), below the dynamics: mass properties, bounding boxes, ray casts,
 //! distance, time of impact and contact manifolds of pairs of shapes.
 
+pub(crate) mod manifold;
 mod polygon;
 mod shape;
 
