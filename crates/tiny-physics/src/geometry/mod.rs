@@ -7,5 +7,6 @@ pub(crate) mod manifold;
 mod polygon;
 mod shape;
 
+pub use manifold::{Contact, Manifold, ManifoldPoint, collide, contact};
 pub use polygon::Polygon;
 pub use shape::Shape;

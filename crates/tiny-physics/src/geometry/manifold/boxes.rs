@@ -21,7 +21,7 @@ pub(crate) fn box_box<L: Lanes>(
     let scale = Scale::of(token, pair);
     let view = View::along_best_axis(token, pair, scale.bias);
     let edge = Edge::facing(token, &view);
-    let normal = nearest_direction(token, &view, &edge, &scale, max_separation);
+    let normal = nearest_direction(token, &view, &edge, scale.noise);
     let overlap = Overlap::of(token, &view, &edge, normal);
     view.manifold(token, pair, &overlap, max_separation, &scale)
 }
@@ -232,8 +232,7 @@ fn nearest_direction<L: Lanes>(
     token: L::Token,
     view: &View<L>,
     edge: &Edge<L>,
-    scale: &Scale<L>,
-    max_separation: L,
+    noise: L,
 ) -> [L; 2] {
     let (zero, one) = (L::splat(token, 0.0), L::splat(token, 1.0));
     let [tangent_n, tangent_t] = edge.tangent;
@@ -249,9 +248,8 @@ fn nearest_direction<L: Lanes>(
 
     let length = (dn * dn + dt * dt).sqrt();
     let beside = view.half[1].lt(lowest_t.abs());
-    let reach = max_separation + scale.radius + scale.noise;
-    let in_reach = L::and(length.gt(scale.noise), length.lt(reach));
-    let corner = L::and(L::and(beside, dn.gt(zero)), in_reach);
+    let usable = L::and(length.gt(noise), length.lt(L::splat(token, f32::INFINITY)));
+    let corner = L::and(L::and(beside, dn.gt(zero)), usable);
     let inv_length = one / L::select(corner, length, one);
     [L::select(corner, dn * inv_length, one), L::select(corner, dt * inv_length, zero)]
 }

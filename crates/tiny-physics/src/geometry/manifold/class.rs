@@ -92,7 +92,7 @@ impl PairClass {
 }
 
 /// All points within `radius` of a box, which may have no width or no height or neither.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct RoundedBox {
     /// The box's own frame, its centre at the origin, in the shape's frame.
     pub frame: Transform,

@@ -33,10 +33,18 @@ mod boxes;
 mod capsule;
 mod circle;
 mod class;
+mod collide;
+mod contact;
+mod general;
 mod lane;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use boxes::box_box;
 pub(crate) use capsule::{box_capsule, capsule_capsule};
 pub(crate) use circle::{box_circle, capsule_circle, circle_circle};
 pub(crate) use class::{PairClass, RoundedBox, ShapeClass};
+pub use collide::{Manifold, ManifoldPoint, collide};
+pub use contact::{Contact, contact};
+pub(crate) use general::collide_general;
 pub(crate) use lane::{LaneManifold, LanePair};
