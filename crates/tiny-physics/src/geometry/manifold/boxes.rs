@@ -11,6 +11,9 @@ const AXIS_BIAS: f32 = 5.0e-4;
 /// Below this fraction of both boxes' size, the direction between two corners is rounding noise.
 const NOISE: f32 = 4.0e-5;
 
+/// Two points nearer to each other than this fraction of both boxes' size are one.
+const MIN_WIDTH: f32 = 4.0e-6;
+
 /// Box against box, both with a radius; A and B may be flat (capsules) or points (circles).
 #[inline(always)]
 pub(crate) fn box_box<L: Lanes>(
@@ -31,8 +34,10 @@ pub(crate) fn box_box<L: Lanes>(
 struct Scale<L> {
     /// What an axis must be better by.
     bias: L,
-    /// Shorter than this is rounding.
+    /// Shorter than this has no direction.
     noise: L,
+    /// Narrower than this is one point.
+    width: L,
     /// Both radii.
     radius: L,
 }
@@ -45,6 +50,7 @@ impl<L: Lanes> Scale<L> {
         Self {
             bias: L::splat(token, AXIS_BIAS) * size_a.min(size_b),
             noise: L::splat(token, NOISE) * (size_a + size_b),
+            width: L::splat(token, MIN_WIDTH) * (size_a + size_b),
             radius: pair.a[2] + pair.b[2],
         }
     }
@@ -152,7 +158,7 @@ impl<L: Lanes> View<L> {
             L::select(self.flipped, overlap.high, overlap.low),
             L::select(self.flipped, overlap.low, overlap.high),
         ];
-        let wide = (overlap.high - overlap.low).gt(scale.noise);
+        let wide = (overlap.high - overlap.low).gt(scale.width);
 
         let direction = self.direction_in_a(pair, overlap.normal);
         let normal = [

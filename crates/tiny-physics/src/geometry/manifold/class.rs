@@ -71,8 +71,8 @@ impl PairClass {
         }
     }
 
-    /// Collides pairs of this class that lie in lanes. `General` pairs are no rounded boxes: theirs is
-    /// an empty answer of the box kernel's form only if the caller gives it boxes, so do not.
+    /// Collides pairs of this class that lie in lanes. `General` pairs have no lane form and do not come
+    /// here; [`collide_general`](super::collide_general) is for them.
     #[inline(always)]
     pub fn collide<L: Lanes>(
         self,

@@ -16,6 +16,9 @@ const AXIS_BIAS: f32 = 5.0e-4;
 /// Below this fraction of both shapes' size, the direction between two corners is rounding noise.
 const NOISE: f32 = 4.0e-5;
 
+/// Two points nearer to each other than this fraction of both shapes' size are one.
+const MIN_WIDTH: f32 = 4.0e-6;
+
 /// An edge this steep against the normal (sine of the angle between them) counts as its lowest end alone.
 const MIN_SINE: f32 = 0.1;
 
@@ -56,7 +59,14 @@ fn collide_cores(a: &Core, b: &Core, max_separation: f32) -> Manifold {
     let normal = reference.nearest_direction(face, other, other_face, noise);
     let (normal, face_a, face_b) =
         if flipped { (-normal, other_face, face) } else { (normal, face, other_face) };
-    overlap(a, face_a, b, face_b, normal, Limits { max_separation, noise })
+    overlap(
+        a,
+        face_a,
+        b,
+        face_b,
+        normal,
+        Limits { max_separation, width: MIN_WIDTH * (a.size + b.size) },
+    )
 }
 
 impl Core {
@@ -165,18 +175,19 @@ impl Core {
 fn nearest_on_segment([a, b]: [Vec2; 2], point: Vec2) -> Vec2 {
     let edge = b - a;
     let (along, length_sq) = (edge.dot(point - a), edge.length_sq());
-    if !(along > 0.0) {
-        a
-    } else if along >= length_sq {
+    if along >= length_sq && length_sq > 0.0 {
         b
-    } else {
+    } else if along > 0.0 {
         a + edge * (along / length_sq)
+    } else {
+        a
     }
 }
 
 struct Limits {
     max_separation: f32,
-    noise: f32,
+    /// Narrower than this is one point.
+    width: f32,
 }
 
 /// Both edges seen along the normal: the ends of the overlap of their shadows are the points.
@@ -200,7 +211,7 @@ fn overlap(
         low = 0.5 * (low + high);
         high = low;
     }
-    let ends = if high - low > limits.noise { [Some(low), Some(high)] } else { [Some(low), None] };
+    let ends = if high - low > limits.width { [Some(low), Some(high)] } else { [Some(low), None] };
     let mut manifold = Manifold::EMPTY;
     for (i, at) in ends.into_iter().enumerate() {
         let Some(at) = at else { continue };
@@ -260,7 +271,7 @@ mod tests {
         let count = 3 + (random.next() * 5.99) as usize;
         let (x, y) = (random.range(0.2, 1.5), random.range(0.2, 1.5));
         let mut angles: Vec<f32> = (0..count)
-            .map(|i| (i as f32 + random.range(0.0, 0.9)) * 6.283 / count as f32)
+            .map(|i| (i as f32 + random.range(0.0, 0.9)) * core::f32::consts::TAU / count as f32)
             .collect();
         angles.dedup();
         let points: Vec<Vec2> = angles

@@ -28,7 +28,7 @@ impl Random {
         match (self.next() * 4.0) as u32 {
             0 => Rot::from_angle((self.next() * 8.0).floor() * core::f32::consts::FRAC_PI_4),
             1 => Rot::from_angle(self.range(-1.0e-3, 1.0e-3)),
-            _ => Rot::from_angle(self.range(-3.14, 3.14)),
+            _ => Rot::from_angle(self.range(-core::f32::consts::PI, core::f32::consts::PI)),
         }
     }
 }
@@ -298,7 +298,7 @@ fn side_by_side_capsules_touch_in_two_points_and_crossed_ones_in_one() {
     let upright = collide(&capsule, &capsule, at(0.25, 1.4, 1.6), 0.02);
     assert_eq!(upright.points().len(), 1);
     assert!((upright.normal - Vec2::Y).length() < 1e-6);
-    let crossed = collide(&capsule, &capsule, at(0.5, 0.25, 1.5707964), 0.02);
+    let crossed = collide(&capsule, &capsule, at(0.5, 0.25, core::f32::consts::FRAC_PI_2), 0.02);
     assert!((crossed.normal - Vec2::X).length() < 1e-6, "leaves by the nearer end: {crossed:?}");
     assert!((separation(&crossed) + 1.0).abs() < 1e-5);
 }
@@ -344,7 +344,7 @@ const CLASSES: [PairClass; 6] = [
 /// Sixteen pairs in structure-of-arrays form: ten rows of numbers.
 type Rows = [[f32; BLOCK]; 10];
 
-/// Runs a class over sixteen pairs; nine rows come out.
+/// Runs a class over sixteen pairs; ten rows come out.
 struct CollideBlock<'a> {
     class: PairClass,
     rows: &'a Rows,
