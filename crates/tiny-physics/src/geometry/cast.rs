@@ -118,7 +118,9 @@ mod tests {
         ) {
             let circle = Shape::circle(radius).unwrap();
             let start = Transform::new(origin, Rot::IDENTITY);
-            prop_assume!(distance(&a, &circle, start).separation > 1e-3);
+            if distance(&a, &circle, start).separation < 1e-3 {
+                return Ok(());
+            }
             let exact = a.circle_cast(&Ray::new(origin, translation), radius);
             let cast = shape_cast(&a, &circle, start, translation);
             match (exact, cast) {

@@ -162,8 +162,11 @@ fn dot(a: DVec2, b: DVec2) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::testing::any_shape;
     use super::*;
     use crate::geometry::Polygon;
+    use crate::math::Rot;
+    use proptest::prelude::*;
 
     fn close(a: f32, b: f32, relative: f32) -> bool {
         (a - b).abs() <= relative * (1.0 + b.abs())
@@ -204,5 +207,60 @@ mod tests {
         assert!(close(half.inertia_about(Vec2::X), half.inertia + half.mass, 1e-6));
         assert!(close(whole.with_mass(12.0).inertia, whole.inertia, 1e-6));
         assert_eq!(MassProperties::default().with_mass(3.0), MassProperties::default());
+    }
+
+    /// Sums over the middles of a grid of cells.
+    fn integrated(shape: &Shape) -> MassProperties {
+        const CELLS: usize = 300;
+        let bounds = shape.aabb(Transform::IDENTITY);
+        let cell = (bounds.max - bounds.min) / CELLS as f32;
+        let area = f64::from(cell.x * cell.y);
+        let mut sum = Moments { area: 0.0, first: DVec2::ZERO, second: 0.0 };
+        for i in 0..CELLS * CELLS {
+            let (column, row) = ((i % CELLS) as f32 + 0.5, (i / CELLS) as f32 + 0.5);
+            let point = bounds.min + Vec2::new(cell.x * column, cell.y * row);
+            if shape.contains(point) {
+                let point = DVec2::from(point);
+                sum.area += area;
+                sum.first = sum.first + point * area;
+                sum.second += dot(point, point) * area;
+            }
+        }
+        let center = sum.first * (1.0 / sum.area);
+        MassProperties {
+            mass: sum.area as f32,
+            center: center.to_vec2(),
+            inertia: (sum.second - sum.area * dot(center, center)) as f32,
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(60))]
+        #[test]
+        fn formulas_agree_with_integration(shape in any_shape()) {
+            let found = shape.mass_properties(1.0);
+            // Slivers fall between the cells of the grid.
+            if found.mass < 0.05 {
+                return Ok(());
+            }
+            let expected = integrated(&shape);
+            prop_assert!((found.mass / expected.mass - 1.0).abs() < 0.02, "{found:?} {expected:?}");
+            prop_assert!((found.inertia / expected.inertia - 1.0).abs() < 0.02, "{found:?} {expected:?}");
+            prop_assert!(found.center.distance(expected.center) < 0.01, "{found:?} {expected:?}");
+        }
+
+        #[test]
+        fn turning_a_polygon_turns_its_mass(
+            polygon in super::super::testing::any_polygon(),
+            angle in -4.0_f32..4.0,
+        ) {
+            let frame = Transform::new(Vec2::new(3.0, -2.0), Rot::from_angle(angle));
+            let Ok(moved) = polygon.transformed(frame) else { return Ok(()) };
+            let expected = Shape::from(polygon).mass_properties(2.0).transformed(frame);
+            let found = Shape::from(moved).mass_properties(2.0);
+            prop_assert!((found.mass - expected.mass).abs() < 1e-4 * (1.0 + expected.mass));
+            prop_assert!((found.inertia - expected.inertia).abs() < 1e-4 * (1.0 + expected.inertia));
+            prop_assert!(found.center.distance(expected.center) < 1e-3);
+        }
     }
 }

@@ -78,7 +78,7 @@ mod tests {
         let rect = Shape::rect(1.0, 0.5).unwrap();
         assert!(rect.contains(Vec2::ZERO) && rect.contains(Vec2::new(1.0, 0.5)));
         assert!(!rect.contains(Vec2::new(1.001, 0.0)));
-        assert_eq!(rect.closest_point(Vec2::new(3.0, 0.2)), Vec2::new(1.0, 0.2));
+        assert_eq!(rect.closest_point(Vec2::new(3.0, 0.25)), Vec2::new(1.0, 0.25));
         assert_eq!(rect.closest_point(Vec2::new(0.2, 0.1)), Vec2::new(0.2, 0.1));
         let rounded = Shape::from(Polygon::rect(1.0, 0.5).unwrap().rounded(0.5).unwrap());
         assert!(!rounded.contains(Vec2::new(1.49, 0.99)));

@@ -239,7 +239,9 @@ mod tests {
             origin in any_vec(3.0),
             translation in any_vec(6.0),
         ) {
-            prop_assume!(translation.length() > 0.1 && !shape.contains(origin));
+            if translation.length() < 0.1 || shape.contains(origin) {
+                return Ok(());
+            }
             let ray = Ray::new(origin, translation);
             let hit = shape.ray_cast(&ray);
             let end = hit.map_or(1.0, |hit| hit.fraction);

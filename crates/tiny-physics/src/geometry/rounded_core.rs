@@ -95,7 +95,8 @@ impl Core {
 pub(super) fn edge_normal(start: Vec2, end: Vec2) -> Vec2 {
     let edge = end - start;
     let length = edge.length();
-    if length > 0.0 { Vec2::new(edge.y, -edge.x) / length } else { Vec2::ZERO }
+    // 0 - x, not -x: no negative zero.
+    if length > 0.0 { Vec2::new(edge.y, 0.0 - edge.x) / length } else { Vec2::ZERO }
 }
 
 /// The four corners of a box around the origin, anticlockwise from the lower left.
