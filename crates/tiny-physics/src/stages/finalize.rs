@@ -13,6 +13,10 @@ pub(crate) struct FastBody {
     pub(crate) body: u32,
     /// Pose of the centre of mass at the start of the step.
     pub(crate) start: Pose,
+    /// What it moved, metres.
+    pub(crate) motion: Vec2,
+    /// What it turned, radians.
+    pub(crate) turn: f32,
 }
 
 /// What [`run`] needs to know of the world's settings.
@@ -110,7 +114,7 @@ fn finalize_body(
     let reach = motion.length() + turn.abs() * info.max_extent;
     let moving = info.kind == BodyKind::Dynamic;
     if options.continuous && moving && reach > SAFE_FRACTION * info.min_extent {
-        found.fast.push(FastBody { body: index, start });
+        found.fast.push(FastBody { body: index, start, motion, turn });
         return;
     }
     for shape in shapes.of_body(info.first_shape) {

@@ -302,14 +302,8 @@ impl World {
 
     /// Stops fast bodies where they would have gone through something.
     fn sweep_fast_bodies(&mut self) {
-        let speculative = SPECULATIVE_DISTANCE * self.settings.length_unit;
-        continuous::run(
-            &self.scratch.fast,
-            &mut self.bodies,
-            &self.shapes,
-            &mut self.broad_phase,
-            speculative,
-        );
+        let Self { bodies, shapes, broad_phase, joints, scratch, .. } = self;
+        continuous::run(&scratch.fast, bodies, shapes, joints, broad_phase);
     }
 
     /// Looks for islands at rest now and then, and lets them sleep.

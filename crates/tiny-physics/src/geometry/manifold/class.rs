@@ -55,7 +55,25 @@ pub(crate) enum PairClass {
 
 impl PairClass {
     /// Number of classes.
-    pub const COUNT: usize = 7;
+    pub const COUNT: usize = Self::ALL.len();
+    /// Every class, in the order of their numbers.
+    pub const ALL: [Self; 7] = [
+        Self::BoxBox,
+        Self::BoxCapsule,
+        Self::BoxCircle,
+        Self::CapsuleCapsule,
+        Self::CapsuleCircle,
+        Self::CircleCircle,
+        Self::General,
+    ];
+
+    /// Greatest number of contact points of a pair: 1 where a circle takes part.
+    pub const fn max_points(self) -> usize {
+        match self {
+            Self::BoxCircle | Self::CapsuleCircle | Self::CircleCircle => 1,
+            Self::BoxBox | Self::BoxCapsule | Self::CapsuleCapsule | Self::General => 2,
+        }
+    }
 
     /// The class of two shapes, in either order. The one with the higher [`ShapeClass`] is A.
     pub fn of(a: ShapeClass, b: ShapeClass) -> Self {
