@@ -272,17 +272,23 @@ struct Profile<L> {
 }
 
 impl<L: Lanes> Profile<L> {
-    /// An edge seen along the normal `(kn, kt)`. Its tangent is never along the normal: for the
-    /// reference the angle to the normal is at least 45 degrees, for the other at least 22.
+    /// The reference face: at height `half[0]`, flat, `half[1]` to both sides of the middle. The normal
+    /// is within 45 degrees of `n`.
     #[inline(always)]
-    fn of(center: [L; 2], tangent: [L; 2], half: L, [kn, kt]: [L; 2]) -> Self {
-        let across = tangent[1] * kn - tangent[0] * kt;
-        let along = tangent[0] * kn + tangent[1] * kt;
+    fn of_reference(half: [L; 2], [kn, kt]: [L; 2]) -> Self {
+        Self { middle: -(half[0] * kt), height: half[0] * kn, slope: kt / kn, half: half[1] * kn }
+    }
+
+    /// The edge that faces it. The angle between its tangent and the normal is at least 22 degrees.
+    #[inline(always)]
+    fn of_edge(edge: &Edge<L>, [kn, kt]: [L; 2]) -> Self {
+        let across = edge.tangent[1] * kn - edge.tangent[0] * kt;
+        let along = edge.tangent[0] * kn + edge.tangent[1] * kt;
         Self {
-            middle: center[1] * kn - center[0] * kt,
-            height: center[0] * kn + center[1] * kt,
+            middle: edge.center[1] * kn - edge.center[0] * kt,
+            height: edge.center[0] * kn + edge.center[1] * kt,
             slope: along / across,
-            half: half * across,
+            half: edge.half * across,
         }
     }
 
@@ -307,9 +313,9 @@ impl<L: Lanes> Overlap<L> {
     /// Shadows that only just miss each other count as one point in the middle of the gap.
     #[inline(always)]
     fn of(token: L::Token, view: &View<L>, edge: &Edge<L>, normal: [L; 2]) -> Self {
-        let (zero, one, half) = (L::splat(token, 0.0), L::splat(token, 1.0), L::splat(token, 0.5));
-        let reference = Profile::of([view.half[0], zero], [zero, one], view.half[1], normal);
-        let other = Profile::of(edge.center, edge.tangent, edge.half, normal);
+        let half = L::splat(token, 0.5);
+        let reference = Profile::of_reference(view.half, normal);
+        let other = Profile::of_edge(edge, normal);
         let low = (reference.middle - reference.half).max(other.middle - other.half);
         let high = (reference.middle + reference.half).min(other.middle + other.half);
         let middle = half * (low + high);

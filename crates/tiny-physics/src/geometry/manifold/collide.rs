@@ -7,13 +7,15 @@ use crate::math::{Transform, Vec2};
 
 /// Where two shapes touch: a normal and up to two points, all in the frame of shape A.
 ///
-/// Dereference to a slice with [`Manifold::points`]; what lies beyond is zero.
+/// [`Manifold::points()`] is the slice of those that are there; what lies beyond is zero.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Manifold {
     /// Unit, from A to B; zero where there are no points.
     pub normal: Vec2,
-    points: [ManifoldPoint; 2],
-    count: u8,
+    /// How many of `points` are there: 0, 1 or 2.
+    pub count: u8,
+    /// The points, in no order of depth.
+    pub points: [ManifoldPoint; 2],
 }
 
 /// One point of a [`Manifold`].
@@ -35,10 +37,10 @@ impl Manifold {
         count: 0,
     };
 
-    /// None, one or two points.
+    /// The points that are there.
     #[inline]
     pub fn points(&self) -> &[ManifoldPoint] {
-        &self.points[..usize::from(self.count)]
+        &self.points[..usize::from(self.count).min(2)]
     }
 
     /// The point with the least separation; the first of two equal ones.

@@ -26,7 +26,7 @@ const MAX_POINTS: usize = 8;
 
 /// The convex hull of up to eight points, widened by a radius.
 #[derive(Clone, Copy)]
-struct Core {
+struct Outline {
     points: [Vec2; MAX_POINTS],
     /// Normal `i` belongs to the edge from point `i` to the next, which may have no length.
     normals: [Vec2; MAX_POINTS],
@@ -43,10 +43,10 @@ pub(crate) fn collide_general(
     b_in_a: Transform,
     max_separation: f32,
 ) -> Manifold {
-    collide_cores(&Core::of(a, Transform::IDENTITY), &Core::of(b, b_in_a), max_separation)
+    collide_outlines(&Outline::of(a, Transform::IDENTITY), &Outline::of(b, b_in_a), max_separation)
 }
 
-fn collide_cores(a: &Core, b: &Core, max_separation: f32) -> Manifold {
+fn collide_outlines(a: &Outline, b: &Outline, max_separation: f32) -> Manifold {
     let bias = AXIS_BIAS * if a.size < b.size { a.size } else { b.size };
     let noise = NOISE * (a.size + b.size);
 
@@ -69,7 +69,7 @@ fn collide_cores(a: &Core, b: &Core, max_separation: f32) -> Manifold {
     )
 }
 
-impl Core {
+impl Outline {
     fn of(shape: &Shape, frame: Transform) -> Self {
         match shape {
             Shape::Polygon(polygon) => {
@@ -92,7 +92,7 @@ impl Core {
     }
 
     fn new(points: &[Vec2], normals: &[Vec2], radius: f32, frame: Transform) -> Self {
-        let mut core = Self {
+        let mut outline = Self {
             points: [Vec2::ZERO; MAX_POINTS],
             normals: [Vec2::X; MAX_POINTS],
             count: points.len(),
@@ -100,16 +100,16 @@ impl Core {
             size: radius,
         };
         let (mut low, mut high) = (Vec2::splat(f32::INFINITY), Vec2::splat(f32::NEG_INFINITY));
-        for i in 0..core.count {
-            core.points[i] = frame.apply(points[i]);
-            core.normals[i] = frame.q.rotate(normals[i]);
+        for i in 0..outline.count {
+            outline.points[i] = frame.apply(points[i]);
+            outline.normals[i] = frame.q.rotate(normals[i]);
             (low, high) = (low.min(points[i]), high.max(points[i]));
         }
-        core.size += 0.5 * ((high.x - low.x) + (high.y - low.y));
-        core
+        outline.size += 0.5 * ((high.x - low.x) + (high.y - low.y));
+        outline
     }
 
-    /// The face that separates this core from `other` most, and by how much.
+    /// The face that separates this outline from `other` most, and by how much.
     fn best_face(&self, other: &Self, bias: f32) -> (usize, f32) {
         let mut best = (0, f32::NEG_INFINITY);
         for face in 0..self.count {
@@ -192,9 +192,9 @@ struct Limits {
 
 /// Both edges seen along the normal: the ends of the overlap of their shadows are the points.
 fn overlap(
-    a: &Core,
+    a: &Outline,
     face_a: usize,
-    b: &Core,
+    b: &Outline,
     face_b: usize,
     normal: Vec2,
     limits: Limits,
@@ -267,7 +267,7 @@ mod tests {
     use crate::math::{Rot, sin_cos};
 
     /// Corners of a random convex polygon: points on an ellipse, some of them close together.
-    fn random_core(random: &mut Random, frame: Transform) -> Core {
+    fn random_outline(random: &mut Random, frame: Transform) -> Outline {
         let count = 3 + (random.next() * 5.99) as usize;
         let (x, y) = (random.range(0.2, 1.5), random.range(0.2, 1.5));
         let mut angles: Vec<f32> = (0..count)
@@ -285,12 +285,15 @@ mod tests {
             .map(|i| -(points[(i + 1) % count] - points[i]).perp().normalized())
             .collect();
         let radius = if random.next() < 0.5 { 0.0 } else { random.range(0.01, 0.5) };
-        Core::new(&points, &normals, radius, frame)
+        Outline::new(&points, &normals, radius, frame)
     }
 
-    fn oracle(a: &Core, b: &Core) -> f64 {
-        let points = |core: &Core| {
-            core.points[..core.count].iter().map(|p| [p.x.into(), p.y.into()]).collect::<Vec<_>>()
+    fn oracle(a: &Outline, b: &Outline) -> f64 {
+        let points = |outline: &Outline| {
+            outline.points[..outline.count]
+                .iter()
+                .map(|p| [p.x.into(), p.y.into()])
+                .collect::<Vec<_>>()
         };
         oracle_of_points(&points(a), &points(b)) - f64::from(a.radius) - f64::from(b.radius)
     }
@@ -299,18 +302,18 @@ mod tests {
     fn polygons_agree_with_the_oracle() {
         let mut random = Random(4242);
         for _ in 0..20_000 {
-            let a = random_core(&mut random, Transform::IDENTITY);
+            let a = random_outline(&mut random, Transform::IDENTITY);
             let frame = Transform::new(random.vec(3.0), random.rot());
             let b = if random.next() < 0.7 {
-                random_core(&mut random, frame)
+                random_outline(&mut random, frame)
             } else {
                 let half = random.range(0.0, 1.0);
                 let half_extents = Vec2::new(if half < 0.3 { 0.0 } else { half }, 0.0);
                 let rounded = RoundedBox { half_extents, radius: 0.2, ..RoundedBox::default() };
-                Core::of_box(&rounded, frame)
+                Outline::of_box(&rounded, frame)
             };
             for (a, b) in [(&a, &b), (&b, &a)] {
-                let manifold = collide_cores(a, b, 100.0);
+                let manifold = collide_outlines(a, b, 100.0);
                 let expected = oracle(a, b);
                 let found = f64::from(manifold.deepest().unwrap().separation);
                 assert!((found - expected).abs() < 3.0e-3, "{found} is not {expected}");
@@ -325,11 +328,11 @@ mod tests {
         let side = Vec2::new(2.0, 1.0).normalized();
         let normals = [-Vec2::Y, side, Vec2::new(-side.x, side.y)];
         let frame = Transform::new(Vec2::new(0.25, 1.0), Rot::IDENTITY);
-        let triangle = Core::new(&corners, &normals, 0.0, frame);
+        let triangle = Outline::new(&corners, &normals, 0.0, frame);
         let half_extents = Vec2::new(10.0, 1.0);
         let floor = RoundedBox { half_extents, ..RoundedBox::default() };
-        let floor = Core::of_box(&floor, Transform::IDENTITY);
-        let manifold = collide_cores(&floor, &triangle, 0.02);
+        let floor = Outline::of_box(&floor, Transform::IDENTITY);
+        let manifold = collide_outlines(&floor, &triangle, 0.02);
         assert_eq!(manifold.normal, Vec2::Y);
         let points: Vec<Vec2> = manifold.points().iter().map(|point| point.point).collect();
         assert_eq!(points, [Vec2::new(0.75, 1.0), Vec2::new(-0.25, 1.0)]);

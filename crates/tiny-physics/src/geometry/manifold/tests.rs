@@ -128,6 +128,10 @@ fn shapes(random: &mut Random) -> Vec<Shape> {
     let (center, rotation) = (random.vec(0.5), random.rot());
     shapes.push(Polygon::turned_rect(w, h, center, rotation).unwrap().into());
     shapes.push(Polygon::rect(4.0 * w, 0.2 * h).unwrap().into());
+    shapes.push(Polygon::rect(w, h).unwrap().rounded(0.4 * r).unwrap().into());
+    shapes.push(Polygon::regular(3 + (w * 3.0) as usize, h).unwrap().rounded(0.1).unwrap().into());
+    let sharp = [Vec2::ZERO, Vec2::new(1.0, 0.05), Vec2::new(2.0, 0.3)];
+    shapes.push(Shape::hull(&sharp).unwrap());
     shapes
 }
 
