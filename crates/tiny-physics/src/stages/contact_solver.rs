@@ -97,7 +97,12 @@ pub(crate) fn run(
 }
 
 /// Runs a pass over blocks of the overflow: the one-lane instance, in order.
-pub(crate) fn run_in_order(pass: Pass, parameters: &Parameters, rows: SharedRows<'_>, blocks: Blocks<'_>) {
+pub(crate) fn run_in_order(
+    pass: Pass,
+    parameters: &Parameters,
+    rows: SharedRows<'_>,
+    blocks: Blocks<'_>,
+) {
     run(SimdLevel::Scalar, pass, parameters, rows, blocks);
 }
 
@@ -202,9 +207,7 @@ impl<L: Lanes> Pair<L> {
     #[inline(always)]
     fn store(self, stride: &Stride<'_, L>, block: &ConstraintBlock) {
         let zero = stride.constants.zero;
-        let mask = |body: &[L; 8]| {
-            L::bits(zero.lt(body[Slot::INV_MASS] + body[Slot::INV_INERTIA]))
-        };
+        let mask = |body: &[L; 8]| L::bits(zero.lt(body[Slot::INV_MASS] + body[Slot::INV_INERTIA]));
         let (write_a, write_b) = (mask(&self.a), mask(&self.b));
         let half = |body: [L; 8]| [body[0], body[1], body[2], body[3]];
         L::scatter(half(self.a), stride.rows, &block.body_a[stride.at..], write_a);
@@ -215,7 +218,8 @@ impl<L: Lanes> Pair<L> {
     #[inline(always)]
     fn normal_velocity(&self, arm_a: L, arm_b: L) -> L {
         let (a, b) = (&self.a, &self.b);
-        self.normal[0] * (b[Slot::VX] - a[Slot::VX]) + self.normal[1] * (b[Slot::VY] - a[Slot::VY])
+        self.normal[0] * (b[Slot::VX] - a[Slot::VX])
+            + self.normal[1] * (b[Slot::VY] - a[Slot::VY])
             + (arm_b * b[Slot::W] - arm_a * a[Slot::W])
     }
 

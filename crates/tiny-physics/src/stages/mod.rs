@@ -6,5 +6,6 @@
 pub(crate) mod contact_solver;
 pub(crate) mod finalize;
 pub(crate) mod integrate;
+pub(crate) mod joint_solver;
 pub(crate) mod narrow_phase;
 pub(crate) mod sleep;
