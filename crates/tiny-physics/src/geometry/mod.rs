@@ -10,6 +10,7 @@ mod cast;
 mod data;
 mod distance;
 mod hull;
+pub(crate) mod manifold;
 mod mass;
 mod point;
 mod polygon;
@@ -24,6 +25,7 @@ mod testing;
 
 pub use cast::{CastHit, shape_cast};
 pub use distance::{Distance, distance};
+pub use manifold::{Contact, Manifold, ManifoldPoint, collide, contact};
 pub use mass::MassProperties;
 pub use polygon::{MAX_VERTICES, Polygon};
 pub use ray::{Ray, RayHit};

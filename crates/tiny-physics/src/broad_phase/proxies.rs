@@ -1,0 +1,547 @@
+//! Proxies of shapes, and the pairs of them that came close.
+//!
+//! In a step: every shape that moved tells its tight box ([`BroadPhase::move_proxy`]), then the
+//! pairs of those that left their fat boxes are asked for ([`BroadPhase::prepare_pairs`],
+//! [`BroadPhase::query_groups`] on any number of threads, [`BroadPhase::clear_moved`]).
+//!
+//! Invariants: a proxy is in the tree of its kind under its own number; it is flagged as moved
+//! exactly when it is in the buffer; nodes hold the fat boxes below them.
+
+use super::boxes::WIDTH;
+use super::{BoxCast, DynamicTree, sort_pairs};
+use crate::math::{Aabb, Vec2};
+use core::ops::{ControlFlow, Range};
+
+/// The leaf of a shape in the broad phase.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct ProxyId(pub u32);
+
+impl ProxyId {
+    /// No proxy.
+    pub const NONE: Self = Self(u32::MAX);
+}
+
+/// The kind of body that a proxy belongs to. Pairs need at least one dynamic proxy.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum ProxyKind {
+    /// Never moves by itself.
+    Static,
+    /// Moves as it is told.
+    Kinematic,
+    /// Moved by forces and contacts.
+    Dynamic,
+}
+
+impl ProxyKind {
+    /// Kinds that can pair with this one.
+    #[inline]
+    fn partners(self) -> &'static [Self] {
+        match self {
+            Self::Static | Self::Kinematic => &[Self::Dynamic],
+            Self::Dynamic => &[Self::Dynamic, Self::Static, Self::Kinematic],
+        }
+    }
+}
+
+/// What a proxy is.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ProxyDef {
+    /// Which tree it lives in.
+    pub kind: ProxyKind,
+    /// What it is, as bits.
+    pub category: u64,
+    /// What it pairs with, as bits of the other's category; both ways must agree.
+    pub mask: u64,
+    /// The caller's name for it; pairs are made of these.
+    pub user: u32,
+    /// Room around the tight box in the fat box, metres.
+    pub margin: f32,
+}
+
+/// What a query looks at for each hit; 32 bytes.
+#[derive(Clone, Copy, Debug)]
+struct Proxy {
+    category: u64,
+    mask: u64,
+    user: u32,
+    margin: f32,
+    /// `None` for a free entry.
+    kind: Option<ProxyKind>,
+    /// Is it in the buffer?
+    moved: bool,
+}
+
+const _: () = assert!(size_of::<Proxy>() == 32);
+
+/// A moved proxy that asks for its partners.
+#[derive(Clone, Copy)]
+struct Member {
+    aabb: Aabb,
+    category: u64,
+    mask: u64,
+    id: u32,
+    user: u32,
+}
+
+impl Member {
+    const NONE: Self = Self { aabb: Aabb::EMPTY, category: 0, mask: 0, id: 0, user: 0 };
+}
+
+/// The moved proxies of one node: they are near each other and go down the trees together.
+struct Group {
+    members: [Member; WIDTH],
+    count: usize,
+    aabb: Aabb,
+    mask: u64,
+}
+
+impl Group {
+    #[inline]
+    fn members(&self) -> &[Member] {
+        &self.members[..self.count]
+    }
+
+    /// Is the common box small enough to ask together? One huge member would send the others
+    /// everywhere.
+    #[inline]
+    fn is_compact(&self) -> bool {
+        let total = self.members().iter().fold(0.0, |sum, member| sum + member.aabb.perimeter());
+        self.aabb.perimeter() * self.count as f32 <= COMPACT * total
+    }
+}
+
+/// Children of nodes that were hit, set aside for [`BroadPhase::drain`].
+struct Hits {
+    /// Node in the upper half, then the member's index, then one bit a child.
+    words: [u64; Self::CAPACITY + 1],
+    count: usize,
+    /// Member's index and proxy of the pairs to report.
+    kept: [(u32, u32); Self::CAPACITY * WIDTH + 1],
+}
+
+impl Hits {
+    const CAPACITY: usize = 64;
+
+    fn new() -> Self {
+        let (words, kept) = ([0; Self::CAPACITY + 1], [(0, 0); Self::CAPACITY * WIDTH + 1]);
+        Self { words, count: 0, kept }
+    }
+
+    #[inline]
+    fn push(&mut self, node: u32, member: usize, bits: u32) {
+        self.words[self.count] = u64::from(node) << 32 | (member as u64) << 8 | u64::from(bits);
+        self.count += usize::from(bits != 0);
+    }
+
+    /// Is there no room for another node and all members?
+    #[inline]
+    fn is_full(&self) -> bool {
+        self.count + WIDTH > Self::CAPACITY
+    }
+}
+
+/// A group is compact while its perimeter is at most this many times the mean of its members'. With
+/// 3, too many groups were split up (half as slow again); 4 and 8 are within noise of 5.
+const COMPACT: f32 = 5.0;
+
+/// Proxies of all shapes, and which of them have to look for new partners.
+///
+/// A proxy's *fat box* is its tight box and a margin. While the tight box stays inside, nothing
+/// happens; when it leaves, the fat box is made anew and the proxy goes into the buffer of moved
+/// ones. [`BroadPhase::update_pairs`] asks for the partners of the moved ones alone, so what rests
+/// costs nothing.
+///
+/// Pairs are of the callers' `user` numbers, smaller first, sorted, each once: the same whatever
+/// the shape of the trees and however many threads asked.
+#[derive(Debug, Default)]
+pub struct BroadPhase {
+    proxies: Vec<Proxy>,
+    free: Vec<u32>,
+    moved: Vec<ProxyId>,
+    /// Tree and node of the moved proxies, while pairs are asked for.
+    groups: Vec<(ProxyKind, u32)>,
+    /// For each node, which children moved.
+    marks: [Vec<u8>; 3],
+    /// By [`ProxyKind`].
+    trees: [DynamicTree; 3],
+}
+
+impl Clone for BroadPhase {
+    fn clone(&self) -> Self {
+        let mut copy = Self::default();
+        copy.clone_from(self);
+        copy
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        self.proxies.clone_from(&source.proxies);
+        self.free.clone_from(&source.free);
+        self.moved.clone_from(&source.moved);
+        self.groups.clone_from(&source.groups);
+        self.marks.clone_from(&source.marks);
+        self.trees.clone_from(&source.trees);
+    }
+}
+
+impl BroadPhase {
+    /// Without proxies.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Number of proxies.
+    pub fn len(&self) -> usize {
+        self.proxies.len() - self.free.len()
+    }
+
+    /// Is there no proxy?
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The tree of all proxies of a kind; its ids are those of the proxies.
+    pub fn tree(&self, kind: ProxyKind) -> &DynamicTree {
+        &self.trees[kind as usize]
+    }
+
+    /// Adds a proxy around the tight box; it is buffered.
+    pub fn create_proxy(&mut self, def: ProxyDef, tight: Aabb) -> ProxyId {
+        let ProxyDef { kind, category, mask, user, margin } = def;
+        let mut proxy = Proxy { category, mask, user, margin, kind: Some(kind), moved: false };
+        let index = self.free.pop().unwrap_or(self.proxies.len() as u32);
+        match self.proxies.get_mut(index as usize) {
+            Some(entry) => {
+                proxy.moved = entry.moved;
+                *entry = proxy;
+            }
+            None => self.proxies.push(proxy),
+        }
+        let id = ProxyId(index);
+        self.trees[kind as usize].insert(index, tight.grown(margin), category);
+        self.buffer(id);
+        id
+    }
+
+    /// Removes a proxy; false where there is none. Its id may be given to a later one. In the
+    /// buffer its entry stays behind until the next update, and is passed over (or serves the later
+    /// one).
+    pub fn destroy_proxy(&mut self, id: ProxyId) -> bool {
+        let Some(kind) = self.kind(id) else { return false };
+        self.trees[kind as usize].remove(id.0);
+        self.proxies[id.0 as usize].kind = None;
+        self.free.push(id.0);
+        true
+    }
+
+    /// The kind of a proxy, `None` where there is none.
+    pub fn kind(&self, id: ProxyId) -> Option<ProxyKind> {
+        self.proxies.get(id.0 as usize)?.kind
+    }
+
+    /// The caller's name for a proxy.
+    pub fn user(&self, id: ProxyId) -> Option<u32> {
+        self.kind(id).map(|_| self.proxies[id.0 as usize].user)
+    }
+
+    /// The fat box of a proxy.
+    #[inline]
+    pub fn fat_aabb(&self, id: ProxyId) -> Option<Aabb> {
+        let kind = self.proxies.get(id.0 as usize)?.kind?;
+        self.trees[kind as usize].get(id.0)
+    }
+
+    /// The fat box that a proxy needs for this tight box: `None` while the one it has is enough.
+    /// `displacement` is the motion that is expected soon, metres: the box reaches as far ahead.
+    ///
+    /// Takes `&self`, so that several threads can ask; then [`BroadPhase::set_fat_aabb`].
+    #[inline]
+    pub fn needed_fat_aabb(&self, id: ProxyId, tight: Aabb, displacement: Vec2) -> Option<Aabb> {
+        let fat = self.fat_aabb(id)?;
+        if fat.contains(&tight) {
+            return None;
+        }
+        let fat = tight.grown(self.proxies[id.0 as usize].margin);
+        let (back, ahead) = (displacement.min(Vec2::ZERO), displacement.max(Vec2::ZERO));
+        Some(Aabb::new(fat.min + back, fat.max + ahead))
+    }
+
+    /// Gives a proxy a fat box as it is, and buffers it. False where there is no such proxy.
+    pub fn set_fat_aabb(&mut self, id: ProxyId, fat: Aabb) -> bool {
+        let Some(kind) = self.kind(id) else { return false };
+        self.trees[kind as usize].update(id.0, fat);
+        self.buffer(id);
+        true
+    }
+
+    /// Tells where a proxy is now. True where it left its fat box and was buffered.
+    pub fn move_proxy(&mut self, id: ProxyId, tight: Aabb, displacement: Vec2) -> bool {
+        match self.needed_fat_aabb(id, tight, displacement) {
+            Some(fat) => self.set_fat_aabb(id, fat),
+            None => false,
+        }
+    }
+
+    /// Changes what a proxy is and pairs with, and buffers it. False where there is no such proxy.
+    pub fn set_filter(&mut self, id: ProxyId, category: u64, mask: u64) -> bool {
+        let Some(kind) = self.kind(id) else { return false };
+        self.trees[kind as usize].set_category(id.0, category);
+        let proxy = &mut self.proxies[id.0 as usize];
+        (proxy.category, proxy.mask) = (category, mask);
+        self.buffer(id);
+        true
+    }
+
+    /// Makes the next update look for all partners of a proxy, though it has not moved.
+    pub fn buffer(&mut self, id: ProxyId) {
+        if self.kind(id).is_some() && !self.proxies[id.0 as usize].moved {
+            self.proxies[id.0 as usize].moved = true;
+            self.moved.push(id);
+        }
+    }
+
+    /// The buffered proxies; some may be gone since.
+    pub fn moved(&self) -> &[ProxyId] {
+        &self.moved
+    }
+
+    /// Gets ready for [`BroadPhase::query_groups`] and returns the number of groups: moved proxies
+    /// that are near each other ask together. It also keeps the trees good.
+    pub fn prepare_pairs(&mut self) -> usize {
+        for (tree, marks) in self.trees.iter_mut().zip(&mut self.marks) {
+            tree.maintain();
+            marks.clear();
+            marks.resize(tree.node_count(), 0);
+        }
+        self.groups.clear();
+        for &id in &self.moved {
+            let Some(kind) = self.proxies[id.0 as usize].kind else { continue };
+            let Some((node, lane)) = self.trees[kind as usize].place(id.0) else { continue };
+            let mark = &mut self.marks[kind as usize][node as usize];
+            if *mark == 0 {
+                self.groups.push((kind, node));
+            }
+            *mark |= 1 << lane;
+        }
+        // Near in the tree is near in memory: a quarter less for refitting 300,000 boxes, nothing
+        // lost on few.
+        self.groups.sort_unstable_by_key(|&(kind, node)| (kind as u8, node));
+        for &(kind, node) in &self.groups {
+            self.trees[kind as usize].refit(node);
+        }
+        self.groups.len()
+    }
+
+    /// Adds the pairs of a range of groups to `out`, unsorted. A pair of two moved proxies is found
+    /// by one of the two alone, so disjoint ranges give disjoint pairs. `accept` can turn a pair
+    /// down early (it gets the `user` numbers, smaller first): what it turns down need not be
+    /// sorted.
+    ///
+    /// For several threads: [`prepare_pairs`](Self::prepare_pairs) gives the number of groups; cut
+    /// that into ranges in any way, join the lists, [`sort_pairs`],
+    /// [`clear_moved`](Self::clear_moved). Nothing else may change in between.
+    pub fn query_groups(
+        &self,
+        range: Range<usize>,
+        mut accept: impl FnMut(u32, u32) -> bool,
+        out: &mut Vec<(u32, u32)>,
+    ) {
+        let mut hits = Hits::new();
+        for &(kind, node) in self.groups.get(range).unwrap_or_default() {
+            let group = self.group(kind, node);
+            let mut report = |member: usize, other: u32| {
+                let pair = ordered(group.members[member].user, self.proxies[other as usize].user);
+                if accept(pair.0, pair.1) {
+                    out.push(pair);
+                }
+            };
+            for &partner in kind.partners() {
+                let tree = &self.trees[partner as usize];
+                if group.is_compact() {
+                    self.query_together(tree, &group, &mut hits, &mut report);
+                } else {
+                    self.query_one_by_one(tree, &group, &mut report);
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn query_together(
+        &self,
+        tree: &DynamicTree,
+        group: &Group,
+        hits: &mut Hits,
+        report: &mut impl FnMut(usize, u32),
+    ) {
+        tree.query_bottom(&group.aabb, group.mask, |node| {
+            for (index, member) in group.members().iter().enumerate() {
+                hits.push(node, index, tree.overlaps(node, &member.aabb));
+            }
+            if hits.is_full() {
+                self.drain(tree, group, hits, report);
+            }
+        });
+        self.drain(tree, group, hits, report);
+    }
+
+    /// Turns the hits that were set aside into pairs. How many children of a node are hit, and
+    /// which of two moved proxies reports, is noise to the branch predictor: so both loops go on by
+    /// arithmetic.
+    #[inline]
+    fn drain(
+        &self,
+        tree: &DynamicTree,
+        group: &Group,
+        hits: &mut Hits,
+        report: &mut impl FnMut(usize, u32),
+    ) {
+        let (mut at, mut kept) = (0, 0);
+        let mut word = hits.words[0];
+        while at < hits.count {
+            let index = (word >> 8) as usize % WIDTH;
+            let other = tree.child((word >> 32) as u32, word.trailing_zeros() as usize % WIDTH);
+            hits.kept[kept] = (index as u32, other);
+            kept += usize::from(self.is_mine(&group.members[index], other));
+            word &= word - 1;
+            let done = word & 0xff == 0;
+            at += usize::from(done);
+            word = if done { hits.words[at] } else { word };
+        }
+        hits.count = 0;
+        for &(member, other) in &hits.kept[..kept] {
+            report(member as usize, other);
+        }
+    }
+
+    #[inline]
+    fn query_one_by_one(
+        &self,
+        tree: &DynamicTree,
+        group: &Group,
+        report: &mut impl FnMut(usize, u32),
+    ) {
+        for (index, member) in group.members().iter().enumerate() {
+            tree.query(&member.aabb, member.mask, |other| {
+                if self.is_mine(member, other) {
+                    report(index, other);
+                }
+                ControlFlow::Continue(())
+            });
+        }
+    }
+
+    /// Is it for the moved `member` to report its pair with `other`, if the filters agree to one?
+    #[inline]
+    fn is_mine(&self, member: &Member, other_id: u32) -> bool {
+        let other = &self.proxies[other_id as usize];
+        ((other_id > member.id) | ((other_id != member.id) & !other.moved))
+            & (other.mask & member.category != 0)
+            & (other.category & member.mask != 0)
+    }
+
+    #[inline]
+    fn group(&self, kind: ProxyKind, node: u32) -> Group {
+        let mut group =
+            Group { members: [Member::NONE; WIDTH], count: 0, aabb: Aabb::EMPTY, mask: 0 };
+        let mut lanes = self.marks[kind as usize][node as usize];
+        while lanes != 0 {
+            let (id, aabb) = self.trees[kind as usize].leaf(node, lanes.trailing_zeros() as usize);
+            lanes &= lanes - 1;
+            let Proxy { category, mask, user, .. } = self.proxies[id as usize];
+            group.members[group.count] = Member { aabb, category, mask, id, user };
+            group.count += 1;
+            group.aabb = group.aabb.union(&aabb);
+            group.mask |= mask;
+        }
+        group
+    }
+
+    /// Forgets which proxies moved. Call it after all groups have been queried.
+    pub fn clear_moved(&mut self) {
+        for id in self.moved.drain(..) {
+            self.proxies[id.0 as usize].moved = false;
+        }
+        self.groups.clear();
+    }
+
+    /// All pairs of the moved proxies into `out` (its old contents are dropped), sorted; then
+    /// forgets which moved.
+    pub fn update_pairs(&mut self, out: &mut Vec<(u32, u32)>) {
+        out.clear();
+        let count = self.prepare_pairs();
+        self.query_groups(0..count, |_, _| true, out);
+        sort_pairs(out);
+        self.clear_moved();
+    }
+
+    /// Calls `visit` with the `user` number of every proxy of any kind whose fat box overlaps
+    /// `aabb` and whose category has a bit of `mask`, until it breaks.
+    pub fn query(&self, aabb: &Aabb, mask: u64, mut visit: impl FnMut(u32) -> ControlFlow<()>) {
+        let mut flow = ControlFlow::Continue(());
+        for tree in &self.trees {
+            if flow.is_continue() {
+                tree.query(aabb, mask, |id| {
+                    flow = visit(self.proxies[id as usize].user);
+                    flow
+                });
+            }
+        }
+    }
+
+    /// Calls `visit` with the `user` numbers of proxies whose fat box the cast may hit before the
+    /// limit; see [`DynamicTree::cast`].
+    pub fn cast(
+        &self,
+        cast: &BoxCast,
+        max_fraction: f32,
+        mask: u64,
+        mut visit: impl FnMut(u32, f32) -> f32,
+    ) {
+        let mut limit = max_fraction;
+        for tree in &self.trees {
+            tree.cast(cast, limit, mask, |id, current| {
+                let fraction = visit(self.proxies[id as usize].user, current);
+                if fraction < limit {
+                    limit = fraction;
+                }
+                fraction
+            });
+            if limit <= 0.0 {
+                return;
+            }
+        }
+    }
+
+    /// Checks every invariant. For tests.
+    ///
+    /// # Errors
+    ///
+    /// Says what is wrong.
+    pub fn validate(&self) -> Result<(), String> {
+        for tree in &self.trees {
+            tree.validate()?;
+        }
+        let mut counts = [0; 3];
+        for (index, proxy) in self.proxies.iter().enumerate() {
+            let buffered = self.moved.iter().filter(|id| id.0 as usize == index).count();
+            if buffered != usize::from(proxy.moved) {
+                return Err(format!("proxy {index} is {buffered} times in the buffer"));
+            }
+            let Some(kind) = proxy.kind else { continue };
+            counts[kind as usize] += 1;
+            if !self.trees[kind as usize].contains(index as u32) {
+                return Err(format!("proxy {index} is not in its tree"));
+            }
+        }
+        if counts != [0, 1, 2].map(|kind| self.trees[kind].len()) {
+            return Err(format!("{counts:?} proxies, but the trees have others"));
+        }
+        Ok(())
+    }
+}
+
+#[inline]
+fn ordered(a: u32, b: u32) -> (u32, u32) {
+    if a < b { (a, b) } else { (b, a) }
+}
