@@ -40,9 +40,8 @@ impl MassProperties {
     }
 
     /// Several parts of one frame as one. Without mass at all, the centre is the mean of the centres.
-    pub fn combine(parts: impl IntoIterator<Item = Self>) -> Self {
-        let mut parts = parts.into_iter().peekable();
-        let origin = DVec2::from(parts.peek().map_or(Vec2::ZERO, |part| part.center));
+    pub fn combined(parts: &[Self]) -> Self {
+        let origin = DVec2::from(parts.first().map_or(Vec2::ZERO, |part| part.center));
         let mut sum = Moments { area: 0.0, first: DVec2::ZERO, second: 0.0 };
         let (mut centers, mut count) = (DVec2::ZERO, 0.0);
         for part in parts {
@@ -202,10 +201,10 @@ mod tests {
         let whole = Shape::rect(2.0, 1.0).unwrap().mass_properties(1.5);
         let half = Shape::rect(1.0, 1.0).unwrap().mass_properties(1.5);
         let at = |x| half.transformed(Transform::from_angle(Vec2::new(x, 0.0), 0.0));
-        let both = MassProperties::combine([at(-1.0), at(1.0)]);
+        let both = MassProperties::combined(&[at(-1.0), at(1.0)]);
         assert!(close(both.mass, whole.mass, 1e-6) && close(both.inertia, whole.inertia, 1e-6));
         assert_eq!(both.center, Vec2::ZERO);
-        assert_eq!(MassProperties::combine([]), MassProperties::default());
+        assert_eq!(MassProperties::combined(&[]), MassProperties::default());
         assert!(close(half.inertia_about(Vec2::X), half.inertia + half.mass, 1e-6));
         assert!(close(whole.with_mass(12.0).inertia, whole.inertia, 1e-6));
         assert_eq!(MassProperties::default().with_mass(3.0), MassProperties::default());
