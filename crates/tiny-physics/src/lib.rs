@@ -1,4 +1,5 @@
 //! tiny-physics.
+mod debug_draw;
 mod describe;
 mod error;
 pub mod geometry;
@@ -6,6 +7,9 @@ pub mod math;
 mod simd;
 mod threads;
 
+pub use debug_draw::{
+    Color, DEPTH_SCALE, DebugDraw, DebugDrawOptions, Layer, Palette, depth_color, draw_bounds, draw_shape,
+};
 pub use describe::*;
 pub use error::Error;
 pub use geometry::{Polygon, Shape};
