@@ -8,7 +8,8 @@ mod simd;
 mod threads;
 
 pub use debug_draw::{
-    Color, DEPTH_SCALE, DebugDraw, DebugDrawOptions, Layer, Palette, depth_color, draw_bounds, draw_shape,
+    Color, DEPTH_SCALE, DebugDraw, DebugDrawOptions, Layer, Palette, depth_color, draw_bounds,
+    draw_shape,
 };
 pub use describe::*;
 pub use error::Error;
