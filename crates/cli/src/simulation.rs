@@ -1,16 +1,17 @@
 //! A scene that runs on the engine, as the commands need it.
 
 use crate::args::WorldArgs;
+use crate::engine::Engine;
 use crate::failure::Outcome;
 use core::fmt;
 use tiny_physics::{Aabb, BodyId, BodyKind, DVec2, Pose, Rot, Vec2, World};
-use tiny_physics_scenes::{Player, Scene, WorldHost};
+use tiny_physics_scenes::{Player, Scene};
 
 /// A scene, its world, and a body that the mouse may hold.
 pub struct Simulation {
     scene: Scene,
     how: WorldArgs,
-    player: Player<WorldHost>,
+    player: Player<Engine>,
     held: Option<Held>,
 }
 
@@ -66,7 +67,8 @@ impl Simulation {
         if let Some(level) = how.simd {
             world.set_simd(level)?;
         }
-        let player = Player::new(&scene, WorldHost::new(world));
+        let player = Player::new(&scene, Engine::new(world));
+        player.host().check()?;
         Ok(Self { scene, how: how.clone(), player, held: None })
     }
 
@@ -92,11 +94,11 @@ impl Simulation {
 
     /// The world.
     pub fn world(&self) -> &World {
-        self.player.host().world()
+        &self.player.host().world
     }
 
     fn world_mut(&mut self) -> &mut World {
-        self.player.host_mut().world_mut()
+        &mut self.player.host_mut().world
     }
 
     /// Length of a step, seconds.
@@ -184,18 +186,18 @@ impl Simulation {
             self.held = None;
             return;
         };
-        let point = body.pose().apply(held.local);
-        let arm = point.relative_to(body.center_f64());
-        let velocity = body.velocity() + arm.perp() * body.angular_velocity();
+        let view = body.as_ref();
+        let point = view.pose().apply(held.local);
+        let arm = point.relative_to(view.center());
+        let velocity = view.velocity_at(point);
         let wanted = held.target.relative_to(point) * PULL_RATE;
         let change = wanted - velocity - gravity * dt;
         let most = PULL_LIMIT * dt;
         let change = if change.length() > most { change.normalized() * most } else { change };
         // What the point weighs against an impulse: less than the body where it can turn.
-        let turning =
-            if body.inertia() > 0.0 { arm.length_sq() * body.mass() / body.inertia() } else { 0.0 };
-        let mass = body.mass() / (1.0 + turning);
-        body.apply_impulse(change * mass, point.to_vec2());
+        let (mass, inertia) = (view.mass(), view.inertia());
+        let turning = if inertia > 0.0 { arm.length_sq() * mass / inertia } else { 0.0 };
+        body.apply_impulse(change * (mass / (1.0 + turning)), point);
     }
 }
 

@@ -102,7 +102,7 @@ fn report(
         ms_per_step,
         stage_ms,
         max_penetration_m: world.max_penetration(),
-        kinetic_energy_j: f64::from(world.kinetic_energy()),
+        kinetic_energy_j: world.kinetic_energy(),
         hash: format!("{:016x}", world.state_hash()),
     }
 }
