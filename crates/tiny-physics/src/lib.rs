@@ -1,11 +1,16 @@
 //! tiny-physics.
+pub mod broad_phase;
 mod debug_draw;
 mod describe;
+mod dynamics;
 mod error;
+mod fixed_step;
 pub mod geometry;
 pub mod math;
 mod simd;
+mod stages;
 mod threads;
+mod world;
 
 pub use debug_draw::{
     Color, DEPTH_SCALE, DebugDraw, DebugDrawOptions, Layer, Palette, depth_color, draw_bounds,
@@ -13,6 +18,8 @@ pub use debug_draw::{
 };
 pub use describe::*;
 pub use error::Error;
+pub use fixed_step::FixedStep;
 pub use geometry::{Polygon, Shape};
 pub use math::{Aabb, DVec2, Pose, Rot, Transform, Vec2};
 pub use simd::SimdLevel;
+pub use world::*;

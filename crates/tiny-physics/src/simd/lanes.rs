@@ -13,6 +13,26 @@ pub(crate) const BLOCK: usize = 16;
 /// Eight floats that are gathered and scattered together: the solver's copy of a body.
 pub(crate) type Row = [f32; 8];
 
+/// Something rows can be read from by index.
+pub(crate) trait RowSource: Copy {
+    /// A copy of row `index`.
+    fn read(self, index: u32) -> Row;
+}
+
+impl RowSource for &[Row] {
+    #[inline(always)]
+    fn read(self, index: u32) -> Row {
+        self[index as usize]
+    }
+}
+
+impl RowSource for SharedRows<'_> {
+    #[inline(always)]
+    fn read(self, index: u32) -> Row {
+        SharedRows::read(self, index)
+    }
+}
+
 /// A vector of `f32`, one lane per constraint (or pair, or body).
 pub(crate) trait Lanes:
     Copy
@@ -80,7 +100,7 @@ pub(crate) trait Lanes:
     }
 
     /// Turns rows into lanes: result `k` holds float `k` of the rows at the first `WIDTH` indices.
-    fn gather(token: Self::Token, rows: SharedRows<'_>, indices: &[u32]) -> [Self; 8];
+    fn gather(token: Self::Token, rows: impl RowSource, indices: &[u32]) -> [Self; 8];
 
     /// Writes the first half of rows back: float `k` of the row at `indices[i]` becomes lane `i` of
     /// `values[k]`, for the lanes whose bit in `write` is set.
@@ -155,7 +175,7 @@ impl Lanes for f32 {
         bits & 1 != 0
     }
     #[inline(always)]
-    fn gather((): (), rows: SharedRows<'_>, indices: &[u32]) -> [Self; 8] {
+    fn gather((): (), rows: impl RowSource, indices: &[u32]) -> [Self; 8] {
         rows.read(indices[0])
     }
     #[inline(always)]
@@ -237,7 +257,7 @@ impl<S: Simd> Lanes for f32x4<S> {
     portable_operations!(4);
 
     #[inline(always)]
-    fn gather(token: S, rows: SharedRows<'_>, indices: &[u32]) -> [Self; 8] {
+    fn gather(token: S, rows: impl RowSource, indices: &[u32]) -> [Self; 8] {
         let r = [
             rows.read(indices[0]),
             rows.read(indices[1]),
@@ -299,7 +319,7 @@ impl Lanes for f32x8<Avx2> {
     portable_operations!(8);
 
     #[inline(always)]
-    fn gather(token: Avx2, rows: SharedRows<'_>, indices: &[u32]) -> [Self; 8] {
+    fn gather(token: Avx2, rows: impl RowSource, indices: &[u32]) -> [Self; 8] {
         let indices = &indices[..8];
         let low = |i: usize| {
             let (a, b) = (rows.read(indices[i]), rows.read(indices[i + 4]));
@@ -362,7 +382,7 @@ impl Lanes for f32x16<Avx512> {
     portable_operations!(16);
 
     #[inline(always)]
-    fn gather(token: Avx512, rows: SharedRows<'_>, indices: &[u32]) -> [Self; 8] {
+    fn gather(token: Avx512, rows: impl RowSource, indices: &[u32]) -> [Self; 8] {
         let indices = &indices[..16];
         let quarter =
             |i: usize, at: usize| f32x4::from_slice(token, &rows.read(indices[i])[at..at + 4]);

@@ -1,0 +1,133 @@
+//! Contact data in blocks of lanes: structure of arrays, sixteen contacts a block.
+//!
+//! A block has the same layout at every SIMD level; narrower levels walk it in strides. Lanes past
+//! the end of a bucket point to body 0 and have zero effective masses, so kernels need no tail code.
+
+use crate::simd::BLOCK;
+
+/// Declares a block: arrays of one value a lane, with a function that copies a lane of one block
+/// into a lane of another.
+macro_rules! lane_block {
+    ($(#[$meta:meta])* $vis:vis struct $name:ident {
+        $($(#[$field_meta:meta])* $field:ident : $type:ty = $null:expr),* $(,)?
+    }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[repr(C, align(64))]
+        $vis struct $name {
+            $($(#[$field_meta])* pub(crate) $field: [$type; BLOCK],)*
+        }
+
+        impl $name {
+            /// All lanes empty.
+            pub(crate) const NULL: Self = Self { $($field: [$null; BLOCK],)* };
+
+            /// Copies one lane.
+            pub(crate) fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
+                $(self.$field[to] = source.$field[from];)*
+            }
+        }
+    };
+}
+
+lane_block! {
+    /// What the narrow phase keeps of a contact from step to step.
+    pub(crate) struct ManifoldBlock {
+        /// Body indices.
+        body_a: u32 = 0,
+        body_b: u32 = 0,
+        /// Shape indices.
+        shape_a: u32 = 0,
+        shape_b: u32 = 0,
+        /// Feature ids of the points, as floats; -1 is no point.
+        id_1: f32 = -1.0,
+        id_2: f32 = -1.0,
+        /// Mixed friction.
+        friction: f32 = 0.0,
+    }
+}
+
+lane_block! {
+    /// One contact point as the solver sees it.
+    pub(crate) struct PointLanes {
+        /// Separation at the start of the step, metres.
+        separation: f32 = 0.0,
+        /// Cross product of anchor and normal, on A and on B, metres.
+        normal_arm_a: f32 = 0.0,
+        normal_arm_b: f32 = 0.0,
+        /// Cross product of anchor and tangent, on A and on B, metres.
+        tangent_arm_a: f32 = 0.0,
+        tangent_arm_b: f32 = 0.0,
+        /// Effective masses, kilograms; zero where there is no point.
+        normal_mass: f32 = 0.0,
+        tangent_mass: f32 = 0.0,
+        /// Impulses of the last substep, newton seconds.
+        normal_impulse: f32 = 0.0,
+        tangent_impulse: f32 = 0.0,
+    }
+}
+
+/// The contact constraints of a block: all that the substeps read and write.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub(crate) struct ConstraintBlock {
+    pub(crate) body_a: [u32; BLOCK],
+    pub(crate) body_b: [u32; BLOCK],
+    /// Unit normal from A to B, world.
+    pub(crate) normal_x: [f32; BLOCK],
+    pub(crate) normal_y: [f32; BLOCK],
+    pub(crate) friction: [f32; BLOCK],
+    pub(crate) points: [PointLanes; 2],
+}
+
+impl ConstraintBlock {
+    pub(crate) const NULL: Self = Self {
+        body_a: [0; BLOCK],
+        body_b: [0; BLOCK],
+        normal_x: [0.0; BLOCK],
+        normal_y: [0.0; BLOCK],
+        friction: [0.0; BLOCK],
+        points: [PointLanes::NULL; 2],
+    };
+
+    /// Copies one lane.
+    pub(crate) fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
+        self.body_a[to] = source.body_a[from];
+        self.body_b[to] = source.body_b[from];
+        self.normal_x[to] = source.normal_x[from];
+        self.normal_y[to] = source.normal_y[from];
+        self.friction[to] = source.friction[from];
+        self.points[0].copy_lane(to, &source.points[0], from);
+        self.points[1].copy_lane(to, &source.points[1], from);
+    }
+}
+
+const _: () = assert!(size_of::<ConstraintBlock>() == 23 * BLOCK * 4);
+
+lane_block! {
+    /// The rarer properties of a contact, read only in blocks whose [`flags`] ask for them.
+    pub(crate) struct SurfaceBlock {
+        restitution: f32 = 0.0,
+        rolling_resistance: f32 = 0.0,
+        tangent_speed: f32 = 0.0,
+        rolling_impulse: f32 = 0.0,
+        /// Normal velocity of the points at the start of the step, negative when approaching.
+        approach_1: f32 = 0.0,
+        approach_2: f32 = 0.0,
+        /// Greatest normal impulse over the substeps.
+        peak_1: f32 = 0.0,
+        peak_2: f32 = 0.0,
+    }
+}
+
+/// What lanes of a block use beyond plain friction contact.
+pub(crate) mod flags {
+    /// Some lane bounces.
+    pub(crate) const RESTITUTION: u8 = 1;
+    /// Some lane resists rolling.
+    pub(crate) const ROLLING: u8 = 2;
+    /// Some lane has a moving surface.
+    pub(crate) const TANGENT_SPEED: u8 = 4;
+    /// Some lane sends hit events.
+    pub(crate) const HIT: u8 = 8;
+}

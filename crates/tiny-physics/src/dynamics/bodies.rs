@@ -1,0 +1,270 @@
+//! Bodies: hot rows for the solver, poses, and everything else.
+
+use crate::describe::{BodyKind, Locks};
+use crate::math::{DVec2, Pose, Rot, Vec2};
+use crate::simd::Row;
+
+/// No record: the end of a list.
+pub(crate) const NULL: u32 = u32::MAX;
+
+/// Positions of the parts of a body's [`Row`].
+pub(crate) struct Slot;
+
+impl Slot {
+    pub(crate) const VX: usize = 0;
+    pub(crate) const VY: usize = 1;
+    pub(crate) const W: usize = 2;
+    pub(crate) const INV_MASS: usize = 3;
+    pub(crate) const DX: usize = 4;
+    pub(crate) const DY: usize = 5;
+    pub(crate) const DA: usize = 6;
+    pub(crate) const INV_INERTIA: usize = 7;
+}
+
+/// What a substep adds to a body's velocity; computed once a step.
+#[derive(Clone, Copy, Default, PartialEq, Debug)]
+#[repr(C, align(32))]
+pub(crate) struct Motion {
+    /// Velocity gained from gravity and forces in a substep: x, y, angular.
+    pub(crate) gain: [f32; 3],
+    /// Factor of linear damping in a substep.
+    pub(crate) linear: f32,
+    /// Factor of angular damping in a substep.
+    pub(crate) angular: f32,
+    /// 0 on locked axes, else 1.
+    pub(crate) free: [f32; 3],
+}
+
+/// All of a body that a step does not touch in its inner loops.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct BodyInfo {
+    pub(crate) kind: BodyKind,
+    pub(crate) alive: bool,
+    pub(crate) enabled: bool,
+    pub(crate) awake: bool,
+    pub(crate) bullet: bool,
+    pub(crate) can_sleep: bool,
+    /// Some shape of the body turns with nothing: rotation is locked for good.
+    pub(crate) never_turns: bool,
+    pub(crate) locks: Locks,
+    pub(crate) generation: u32,
+    /// Centre of mass in the body's frame.
+    pub(crate) local_center: Vec2,
+    pub(crate) mass: f32,
+    pub(crate) inertia: f32,
+    /// Mass given by the user, if any.
+    pub(crate) fixed_mass: Option<f32>,
+    pub(crate) force: Vec2,
+    pub(crate) torque: f32,
+    pub(crate) gravity_scale: f32,
+    pub(crate) linear_damping: f32,
+    pub(crate) angular_damping: f32,
+    /// Seconds below the sleep speed.
+    pub(crate) sleep_time: f32,
+    pub(crate) sleep_speed: f32,
+    /// Smallest half width of a shape: how far it may move before it could jump over something.
+    pub(crate) min_extent: f32,
+    /// Greatest distance of a point of a shape from the centre of mass.
+    pub(crate) max_extent: f32,
+    pub(crate) first_shape: u32,
+    pub(crate) shape_count: u32,
+    /// First contact edge: contact index * 2 + side.
+    pub(crate) first_contact: u32,
+    /// First joint edge: joint index * 2 + side.
+    pub(crate) first_joint: u32,
+    /// Colours of the constraint graph that its contacts use, as bits.
+    pub(crate) contact_colours: u32,
+    /// Colours that its joints use, as bits.
+    pub(crate) joint_colours: u32,
+    /// Next body of the same sleeping island, in a ring; NULL while awake.
+    pub(crate) island_next: u32,
+    pub(crate) user_data: u64,
+}
+
+impl Default for BodyInfo {
+    fn default() -> Self {
+        Self {
+            kind: BodyKind::Static,
+            alive: false,
+            enabled: true,
+            awake: false,
+            bullet: false,
+            can_sleep: true,
+            never_turns: false,
+            locks: Locks::default(),
+            generation: 0,
+            local_center: Vec2::ZERO,
+            mass: 0.0,
+            inertia: 0.0,
+            fixed_mass: None,
+            force: Vec2::ZERO,
+            torque: 0.0,
+            gravity_scale: 1.0,
+            linear_damping: 0.0,
+            angular_damping: 0.0,
+            sleep_time: 0.0,
+            sleep_speed: 0.05,
+            min_extent: 0.0,
+            max_extent: 0.0,
+            first_shape: NULL,
+            shape_count: 0,
+            first_contact: NULL,
+            first_joint: NULL,
+            contact_colours: 0,
+            joint_colours: 0,
+            island_next: NULL,
+            user_data: 0,
+        }
+    }
+}
+
+/// All bodies of a world, by stable index. Body 0 is always there, static and without shapes: empty
+/// lanes of constraint blocks point to it, so its row must never be written.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Bodies {
+    /// Velocity, motion since the start of the step, inverse masses: see [`Slot`].
+    pub(crate) rows: Vec<Row>,
+    /// Frame of the centre of mass.
+    pub(crate) poses: Vec<Pose>,
+    pub(crate) motions: Vec<Motion>,
+    pub(crate) infos: Vec<BodyInfo>,
+    /// Moving (dynamic or kinematic) bodies that are awake and enabled, ascending.
+    pub(crate) awake: Vec<u32>,
+    /// `awake` has been appended to since it was last sorted.
+    pub(crate) awake_unsorted: bool,
+    free: Vec<u32>,
+    count: usize,
+}
+
+impl Bodies {
+    pub(crate) fn new() -> Self {
+        Self {
+            rows: vec![[0.0; 8]],
+            poses: vec![Pose::default()],
+            motions: vec![Motion::default()],
+            infos: vec![BodyInfo::default()],
+            awake: Vec::new(),
+            awake_unsorted: false,
+            free: Vec::new(),
+            count: 0,
+        }
+    }
+
+    /// Bodies alive, without body 0.
+    pub(crate) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Indices of the bodies alive, ascending.
+    pub(crate) fn indices(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..self.infos.len() as u32).filter(|&i| self.infos[i as usize].alive)
+    }
+
+    /// Puts a record in and gives its index. The generation of a reused place has gone up.
+    pub(crate) fn insert(&mut self, mut info: BodyInfo, pose: Pose) -> u32 {
+        self.count += 1;
+        info.alive = true;
+        if let Some(index) = self.free.pop() {
+            let i = index as usize;
+            info.generation = self.infos[i].generation;
+            self.infos[i] = info;
+            self.poses[i] = pose;
+            self.rows[i] = [0.0; 8];
+            self.motions[i] = Motion::default();
+            index
+        } else {
+            self.infos.push(info);
+            self.poses.push(pose);
+            self.rows.push([0.0; 8]);
+            self.motions.push(Motion::default());
+            self.infos.len() as u32 - 1
+        }
+    }
+
+    /// Takes a record out. The caller has unlinked everything that refers to it.
+    pub(crate) fn remove(&mut self, index: u32) {
+        self.count -= 1;
+        let info = &mut self.infos[index as usize];
+        *info = BodyInfo { generation: info.generation.wrapping_add(1), ..BodyInfo::default() };
+        self.rows[index as usize] = [0.0; 8];
+        self.free.push(index);
+    }
+
+    /// Appends to the awake list.
+    pub(crate) fn push_awake(&mut self, index: u32) {
+        self.awake_unsorted |= self.awake.last().is_some_and(|&last| last > index);
+        self.awake.push(index);
+    }
+
+    /// Brings the awake list into ascending order.
+    pub(crate) fn sort_awake(&mut self) {
+        if core::mem::take(&mut self.awake_unsorted) {
+            self.awake.sort_unstable();
+        }
+    }
+
+    /// Is the body dynamic? Only those have inverse masses, colours and islands.
+    #[inline]
+    pub(crate) fn is_dynamic(&self, index: u32) -> bool {
+        self.infos[index as usize].kind == BodyKind::Dynamic
+    }
+
+    /// Linear velocity of the centre of mass.
+    #[inline]
+    pub(crate) fn velocity(&self, index: u32) -> Vec2 {
+        let row = &self.rows[index as usize];
+        Vec2::new(row[Slot::VX], row[Slot::VY])
+    }
+
+    /// Angular velocity, radians a second.
+    #[inline]
+    pub(crate) fn angular_velocity(&self, index: u32) -> f32 {
+        self.rows[index as usize][Slot::W]
+    }
+
+    /// Inverse mass and inverse inertia as the solver uses them.
+    #[inline]
+    pub(crate) fn inverse_masses(&self, index: u32) -> (f32, f32) {
+        let row = &self.rows[index as usize];
+        (row[Slot::INV_MASS], row[Slot::INV_INERTIA])
+    }
+
+    pub(crate) fn set_velocity(&mut self, index: u32, velocity: Vec2) {
+        let row = &mut self.rows[index as usize];
+        row[Slot::VX] = velocity.x;
+        row[Slot::VY] = velocity.y;
+    }
+
+    pub(crate) fn set_angular_velocity(&mut self, index: u32, angular: f32) {
+        self.rows[index as usize][Slot::W] = angular;
+    }
+
+    /// The frame the user knows: origin of the body, not its centre of mass.
+    pub(crate) fn origin_pose(&self, index: u32) -> Pose {
+        let pose = self.poses[index as usize];
+        Pose::new(pose.apply(-self.infos[index as usize].local_center), pose.q)
+    }
+
+    /// Places the body by its origin.
+    pub(crate) fn set_origin_pose(&mut self, index: u32, position: DVec2, rotation: Rot) {
+        let center = self.infos[index as usize].local_center;
+        self.poses[index as usize] = Pose::new(position + rotation.rotate(center), rotation);
+    }
+
+    /// Writes the inverse masses that the solver works with.
+    pub(crate) fn update_inverse_masses(&mut self, index: u32) {
+        let info = &self.infos[index as usize];
+        let dynamic = info.kind == BodyKind::Dynamic;
+        let turns = dynamic && !info.locks.rotation && !info.never_turns && info.inertia > 0.0;
+        let row = &mut self.rows[index as usize];
+        row[Slot::INV_MASS] = if dynamic && info.mass > 0.0 { 1.0 / info.mass } else { 0.0 };
+        row[Slot::INV_INERTIA] = if turns { 1.0 / info.inertia } else { 0.0 };
+    }
+
+    /// Two bodies' records at once, to change both. `None` where they are the same body or one does
+    /// not exist.
+    pub(crate) fn pair_mut(&mut self, a: u32, b: u32) -> Option<(&mut BodyInfo, &mut BodyInfo)> {
+        let [a, b] = self.infos.get_disjoint_mut([a as usize, b as usize]).ok()?;
+        Some((a, b))
+    }
+}

@@ -1,0 +1,131 @@
+//! Contact records: pairs of shapes whose fat boxes overlap.
+
+use super::bodies::{Bodies, NULL};
+use super::pair_table::PairTable;
+use crate::geometry::manifold::PairClass;
+
+/// Impulses of a contact point that is not in the graph at the moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SavedPoint {
+    /// Feature id; -1 is no point.
+    pub(crate) id: f32,
+    pub(crate) normal_impulse: f32,
+    pub(crate) tangent_impulse: f32,
+}
+
+impl SavedPoint {
+    pub(crate) const NONE: Self = Self { id: -1.0, normal_impulse: 0.0, tangent_impulse: 0.0 };
+}
+
+/// Where the lanes of a contact are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// In the constraint graph: colour (or overflow, or idle) and slot in the bucket of its class.
+    Graph {
+        /// Index of the colour.
+        colour: u8,
+        /// Block * lanes + lane.
+        slot: u32,
+    },
+    /// Nowhere: its bodies sleep.
+    Asleep,
+}
+
+/// The lasting record of a pair.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Contact {
+    pub(crate) alive: bool,
+    /// Do the shapes touch (or nearly), as of the last narrow phase?
+    pub(crate) touching: bool,
+    /// Are begin and end events sent?
+    pub(crate) events: bool,
+    /// Are hit events sent?
+    pub(crate) hit_events: bool,
+    pub(crate) class: PairClass,
+    pub(crate) place: Place,
+    pub(crate) shape_a: u32,
+    pub(crate) shape_b: u32,
+    pub(crate) body_a: u32,
+    pub(crate) body_b: u32,
+    pub(crate) friction: f32,
+    pub(crate) restitution: f32,
+    pub(crate) rolling_resistance: f32,
+    pub(crate) tangent_speed: f32,
+    /// Impulses kept while the contact has no lane.
+    pub(crate) saved: [SavedPoint; 2],
+    /// Neighbours in the contact lists of A and B: (previous, next) edges.
+    pub(crate) links: [(u32, u32); 2],
+}
+
+/// All contacts of a world.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub(crate) struct Contacts {
+    pub(crate) records: Vec<Contact>,
+    pub(crate) pairs: PairTable,
+    free: Vec<u32>,
+}
+
+impl Contacts {
+    /// Puts a record in: into the pair table and both bodies' lists.
+    pub(crate) fn insert(&mut self, bodies: &mut Bodies, contact: Contact) -> u32 {
+        let (shape_a, shape_b) = (contact.shape_a, contact.shape_b);
+        let index = if let Some(index) = self.free.pop() {
+            self.records[index as usize] = contact;
+            index
+        } else {
+            self.records.push(contact);
+            self.records.len() as u32 - 1
+        };
+        self.pairs.insert(shape_a, shape_b, index);
+        self.link(bodies, index, 0);
+        self.link(bodies, index, 1);
+        index
+    }
+
+    /// Takes a record out. The caller has taken its lanes out of the graph.
+    pub(crate) fn remove(&mut self, bodies: &mut Bodies, index: u32) {
+        self.unlink(bodies, index, 0);
+        self.unlink(bodies, index, 1);
+        let contact = &mut self.records[index as usize];
+        contact.alive = false;
+        let (a, b) = (contact.shape_a, contact.shape_b);
+        self.pairs.remove(a, b);
+        self.free.push(index);
+    }
+
+    /// Contacts of a body as (contact, side) from the head of its list.
+    pub(crate) fn of_body(&self, first_edge: u32) -> impl Iterator<Item = (u32, u32)> + '_ {
+        core::iter::successors((first_edge != NULL).then_some(first_edge), |&edge| {
+            let next = self.records[edge as usize / 2].links[edge as usize % 2].1;
+            (next != NULL).then_some(next)
+        })
+        .map(|edge| (edge / 2, edge % 2))
+    }
+
+    fn body(&self, index: u32, side: usize) -> u32 {
+        let contact = &self.records[index as usize];
+        if side == 0 { contact.body_a } else { contact.body_b }
+    }
+
+    fn link(&mut self, bodies: &mut Bodies, index: u32, side: usize) {
+        let edge = index * 2 + side as u32;
+        let info = &mut bodies.infos[self.body(index, side) as usize];
+        let head = core::mem::replace(&mut info.first_contact, edge);
+        if head != NULL {
+            self.records[head as usize / 2].links[head as usize % 2].0 = edge;
+        }
+        self.records[index as usize].links[side] = (NULL, head);
+    }
+
+    fn unlink(&mut self, bodies: &mut Bodies, index: u32, side: usize) {
+        let (previous, next) = self.records[index as usize].links[side];
+        if previous == NULL {
+            bodies.infos[self.body(index, side) as usize].first_contact = next;
+        } else {
+            self.records[previous as usize / 2].links[previous as usize % 2].1 = next;
+        }
+        if next != NULL {
+            self.records[next as usize / 2].links[next as usize % 2].0 = previous;
+        }
+    }
+}

@@ -1,0 +1,290 @@
+//! The constraint graph: contacts in colours, so that no two of a colour share a moving body.
+//!
+//! Within a colour the order of work cannot matter, so lanes and threads do not change results. A
+//! contact keeps its colour while it touches; colours are given first-fit in the order of contact
+//! ids, so they depend on the history of the world alone. Contacts between two dynamic bodies take
+//! the lowest free colour, contacts with a body that nothing moves take the highest: those are solved
+//! last and so hold best. What finds no colour goes to the overflow, solved one by one with the
+//! one-lane instance of the same kernel. Contacts that do not touch wait in a colour of their own
+//! (`IDLE`) that the narrow phase visits and the solver does not.
+//!
+//! Inside a colour, contacts lie in buckets by pair class, so a block is of one kind.
+
+use super::blocks::{ConstraintBlock, ManifoldBlock, SurfaceBlock, flags};
+use super::bodies::Bodies;
+use super::contacts::{Contact, Contacts, Place, SavedPoint};
+use crate::geometry::manifold::PairClass;
+use crate::simd::BLOCK;
+
+/// Number of colours.
+pub(crate) const COLOURS: usize = 24;
+/// Index of the overflow among the colours.
+pub(crate) const OVERFLOW: usize = COLOURS;
+/// Index of the contacts that do not touch.
+pub(crate) const IDLE: usize = COLOURS + 1;
+
+/// Contacts of one colour and class.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub(crate) struct Bucket {
+    /// Contact index of each slot.
+    pub(crate) contacts: Vec<u32>,
+    pub(crate) manifolds: Vec<ManifoldBlock>,
+    /// As long as `manifolds`, but empty in the idle colour.
+    pub(crate) constraints: Vec<ConstraintBlock>,
+    pub(crate) surfaces: Vec<SurfaceBlock>,
+    /// [`flags`] of each block.
+    pub(crate) flags: Vec<u8>,
+    /// Which lanes touched in the last narrow phase, as bits.
+    pub(crate) touching: Vec<u16>,
+}
+
+impl Bucket {
+    /// The two bodies of a slot.
+    #[inline]
+    pub(crate) fn bodies(&self, slot: usize) -> (u32, u32) {
+        let block = &self.manifolds[slot / BLOCK];
+        (block.body_a[slot % BLOCK], block.body_b[slot % BLOCK])
+    }
+
+    /// Appends a contact and gives its slot.
+    fn push(&mut self, index: u32, contact: &Contact, constrained: bool) -> u32 {
+        let slot = self.contacts.len();
+        let (block, lane) = (slot / BLOCK, slot % BLOCK);
+        self.contacts.push(index);
+        if lane == 0 {
+            self.manifolds.push(ManifoldBlock::NULL);
+            self.touching.push(0);
+            self.flags.push(0);
+            if constrained {
+                self.constraints.push(ConstraintBlock::NULL);
+                self.surfaces.push(SurfaceBlock::NULL);
+            }
+        }
+        let manifold = &mut self.manifolds[block];
+        manifold.body_a[lane] = contact.body_a;
+        manifold.body_b[lane] = contact.body_b;
+        manifold.shape_a[lane] = contact.shape_a;
+        manifold.shape_b[lane] = contact.shape_b;
+        manifold.friction[lane] = contact.friction;
+        manifold.id_1[lane] = contact.saved[0].id;
+        manifold.id_2[lane] = contact.saved[1].id;
+        self.touching[block] |= u16::from(contact.touching) << lane;
+        if constrained {
+            self.fill_constraint(block, lane, contact);
+        }
+        slot as u32
+    }
+
+    fn fill_constraint(&mut self, block: usize, lane: usize, contact: &Contact) {
+        let constraint = &mut self.constraints[block];
+        constraint.body_a[lane] = contact.body_a;
+        constraint.body_b[lane] = contact.body_b;
+        for (point, saved) in constraint.points.iter_mut().zip(contact.saved) {
+            point.normal_impulse[lane] = saved.normal_impulse;
+            point.tangent_impulse[lane] = saved.tangent_impulse;
+        }
+        let surface = &mut self.surfaces[block];
+        surface.restitution[lane] = contact.restitution;
+        surface.rolling_resistance[lane] = contact.rolling_resistance;
+        surface.tangent_speed[lane] = contact.tangent_speed;
+        surface.rolling_impulse[lane] = 0.0;
+        self.flags[block] |= contact_flags(contact);
+    }
+
+    /// Takes a slot out; the last one moves into it. Gives the contact that moved, if one did.
+    fn swap_remove(&mut self, slot: u32) -> Option<u32> {
+        let last = self.contacts.len() - 1;
+        let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
+        let (last_block, last_lane) = (last / BLOCK, last % BLOCK);
+        self.contacts.swap_remove(slot as usize);
+        move_lane(
+            &mut self.manifolds,
+            (block, lane),
+            (last_block, last_lane),
+            &ManifoldBlock::NULL,
+            ManifoldBlock::copy_lane,
+        );
+        if !self.constraints.is_empty() {
+            move_lane(
+                &mut self.constraints,
+                (block, lane),
+                (last_block, last_lane),
+                &ConstraintBlock::NULL,
+                ConstraintBlock::copy_lane,
+            );
+            move_lane(
+                &mut self.surfaces,
+                (block, lane),
+                (last_block, last_lane),
+                &SurfaceBlock::NULL,
+                SurfaceBlock::copy_lane,
+            );
+        }
+        let touching = self.touching[last_block] >> last_lane & 1;
+        self.touching[block] = self.touching[block] & !(1 << lane) | touching << lane;
+        self.touching[last_block] &= !(1 << last_lane);
+        self.flags[block] |= self.flags[last_block];
+        if last_lane == 0 {
+            self.manifolds.pop();
+            self.constraints.pop();
+            self.surfaces.pop();
+            self.flags.pop();
+            self.touching.pop();
+        }
+        self.contacts.get(slot as usize).copied()
+    }
+
+    /// The impulses of all slots, in order; nothing for contacts that do not touch.
+    pub(crate) fn saved_points(&self) -> impl Iterator<Item = [SavedPoint; 2]> + '_ {
+        let count = if self.constraints.is_empty() { 0 } else { self.contacts.len() };
+        (0..count as u32).map(|slot| self.saved(slot))
+    }
+
+    /// The impulses of a slot, to be kept while the contact is elsewhere.
+    fn saved(&self, slot: u32) -> [SavedPoint; 2] {
+        let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
+        let Some(constraint) = self.constraints.get(block) else {
+            return [SavedPoint::NONE; 2];
+        };
+        let manifold = &self.manifolds[block];
+        let point = |k: usize, id: f32| SavedPoint {
+            id,
+            normal_impulse: constraint.points[k].normal_impulse[lane],
+            tangent_impulse: constraint.points[k].tangent_impulse[lane],
+        };
+        [point(0, manifold.id_1[lane]), point(1, manifold.id_2[lane])]
+    }
+}
+
+/// Copies lane `last` over lane `hole` and empties lane `last`.
+fn move_lane<B: Copy>(
+    blocks: &mut [B],
+    hole: (usize, usize),
+    last: (usize, usize),
+    null: &B,
+    copy: fn(&mut B, usize, &B, usize),
+) {
+    let source = blocks[last.0];
+    copy(&mut blocks[hole.0], hole.1, &source, last.1);
+    copy(&mut blocks[last.0], last.1, null, 0);
+}
+
+fn contact_flags(contact: &Contact) -> u8 {
+    let flag = |set: bool, flag: u8| if set { flag } else { 0 };
+    flag(contact.restitution > 0.0, flags::RESTITUTION)
+        | flag(contact.rolling_resistance > 0.0, flags::ROLLING)
+        | flag(contact.tangent_speed != 0.0, flags::TANGENT_SPEED)
+        | flag(contact.hit_events, flags::HIT)
+}
+
+/// All colours, the overflow and the idle contacts.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Graph {
+    /// `buckets[colour][class]`.
+    pub(crate) buckets: Vec<[Bucket; PairClass::COUNT]>,
+    touching: usize,
+    /// Blocks (colour, class, block) that got a touching contact since the last narrow phase.
+    fresh: Vec<(u8, u8, u32)>,
+}
+
+impl Graph {
+    pub(crate) fn new() -> Self {
+        Self {
+            buckets: (0..=IDLE).map(|_| Default::default()).collect(),
+            touching: 0,
+            fresh: Vec::new(),
+        }
+    }
+
+    /// Contacts that touch and are awake.
+    pub(crate) fn touching_count(&self) -> usize {
+        self.touching
+    }
+
+    /// Puts a contact into the graph: into a colour if it touches, else among the idle ones.
+    pub(crate) fn insert(&mut self, bodies: &mut Bodies, contacts: &mut Contacts, index: u32) {
+        let contact = &mut contacts.records[index as usize];
+        debug_assert_eq!(contact.place, Place::Asleep);
+        let colour = if contact.touching {
+            self.touching += 1;
+            take_colour(bodies, contact.body_a, contact.body_b)
+        } else {
+            IDLE
+        };
+        let bucket = &mut self.buckets[colour][contact.class as usize];
+        let slot = bucket.push(index, contact, colour != IDLE);
+        contact.place = Place::Graph { colour: colour as u8, slot };
+        if colour != IDLE {
+            self.fresh.push((colour as u8, contact.class as u8, slot / BLOCK as u32));
+        }
+    }
+
+    /// Forgets which blocks are fresh: the narrow phase is about to visit all.
+    pub(crate) fn clear_fresh(&mut self) {
+        self.fresh.clear();
+    }
+
+    /// The blocks whose constraints are not written yet: colour, class, block. Each once, in order.
+    pub(crate) fn take_fresh(&mut self) -> Vec<(u8, u8, u32)> {
+        let mut fresh = core::mem::take(&mut self.fresh);
+        fresh.sort_unstable();
+        fresh.dedup();
+        fresh.retain(|&(colour, class, block)| {
+            (block as usize) < self.buckets[colour as usize][class as usize].manifolds.len()
+        });
+        fresh
+    }
+
+    /// Takes a contact out of the graph, if it is there, and saves its impulses in the record.
+    pub(crate) fn remove(&mut self, bodies: &mut Bodies, contacts: &mut Contacts, index: u32) {
+        let contact = &mut contacts.records[index as usize];
+        let Place::Graph { colour, slot } = contact.place else { return };
+        let colour = usize::from(colour);
+        let bucket = &mut self.buckets[colour][contact.class as usize];
+        contact.saved = bucket.saved(slot);
+        contact.place = Place::Asleep;
+        let (body_a, body_b) = (contact.body_a, contact.body_b);
+        if let Some(moved) = bucket.swap_remove(slot) {
+            contacts.records[moved as usize].place = Place::Graph { colour: colour as u8, slot };
+        }
+        if colour != IDLE {
+            self.touching -= 1;
+            give_colour_back(bodies, body_a, body_b, colour);
+        }
+    }
+}
+
+/// Finds a colour that neither moving body uses and marks it used.
+fn take_colour(bodies: &mut Bodies, a: u32, b: u32) -> usize {
+    const ALL: u32 = (1 << COLOURS) - 1;
+    let (dynamic_a, dynamic_b) = (bodies.is_dynamic(a), bodies.is_dynamic(b));
+    let used = |dynamic: bool, i: u32| {
+        if dynamic { bodies.infos[i as usize].contact_colours } else { 0 }
+    };
+    let free = !(used(dynamic_a, a) | used(dynamic_b, b)) & ALL;
+    if free == 0 {
+        return OVERFLOW;
+    }
+    let colour = if dynamic_a && dynamic_b {
+        free.trailing_zeros()
+    } else {
+        u32::BITS - 1 - free.leading_zeros()
+    };
+    for (dynamic, i) in [(dynamic_a, a), (dynamic_b, b)] {
+        if dynamic {
+            bodies.infos[i as usize].contact_colours |= 1 << colour;
+        }
+    }
+    colour as usize
+}
+
+fn give_colour_back(bodies: &mut Bodies, a: u32, b: u32, colour: usize) {
+    if colour == OVERFLOW {
+        return;
+    }
+    for i in [a, b] {
+        if bodies.is_dynamic(i) {
+            bodies.infos[i as usize].contact_colours &= !(1 << colour);
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! The plain data of a world: bodies, shapes, contacts, joints, and the constraint graph over them.
+//!
+//! Nothing here decides anything about physics: stores keep records and the links between them
+//! consistent, the [`stages`](crate::stages) read and write them.
+
+mod blocks;
+mod bodies;
+mod contacts;
+mod graph;
+mod joints;
+mod pair_table;
+mod shapes;
+
+pub(crate) use blocks::{ConstraintBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags};
+pub(crate) use bodies::{Bodies, BodyInfo, Motion, NULL, Slot};
+pub(crate) use contacts::{Contact, Contacts, Place, SavedPoint};
+pub(crate) use graph::{Bucket, COLOURS, Graph, IDLE, OVERFLOW};
+pub(crate) use joints::{JointGraph, Joints};
+pub(crate) use pair_table::PairTable;
+pub(crate) use shapes::{ShapeRecord, Shapes};

@@ -1,0 +1,133 @@
+//! Which pairs of shapes have a contact record: a hash table of pairs.
+
+/// Maps unordered pairs of shape indices to contact indices. Open addressing with linear probing,
+/// deletion by shifting back, so there are no tombstones and the content alone decides look-ups.
+/// It is never iterated.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub(crate) struct PairTable {
+    /// (key, contact); an empty place has key [`EMPTY`].
+    places: Vec<(u64, u32)>,
+    len: usize,
+}
+
+const EMPTY: u64 = u64::MAX;
+
+impl PairTable {
+    fn key(a: u32, b: u32) -> u64 {
+        let (low, high) = if a < b { (a, b) } else { (b, a) };
+        u64::from(high) << 32 | u64::from(low)
+    }
+
+    /// Where a key would like to be.
+    fn home(&self, key: u64) -> usize {
+        let hash = key.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        (hash ^ hash >> 32) as usize & (self.places.len() - 1)
+    }
+
+    /// The place of the key, or the empty place where it would go. The table is not empty.
+    fn find(&self, key: u64) -> usize {
+        let mask = self.places.len() - 1;
+        let mut at = self.home(key);
+        while self.places[at].0 != EMPTY && self.places[at].0 != key {
+            at = (at + 1) & mask;
+        }
+        at
+    }
+
+    /// The contact of a pair, if it has one.
+    pub(crate) fn get(&self, a: u32, b: u32) -> Option<u32> {
+        if self.len == 0 {
+            return None;
+        }
+        let (key, contact) = self.places[self.find(Self::key(a, b))];
+        (key != EMPTY).then_some(contact)
+    }
+
+    /// Notes the contact of a pair that had none.
+    pub(crate) fn insert(&mut self, a: u32, b: u32, contact: u32) {
+        if (self.len + 1) * 2 > self.places.len() {
+            self.grow();
+        }
+        let key = Self::key(a, b);
+        let at = self.find(key);
+        debug_assert_eq!(self.places[at].0, EMPTY, "the pair has a contact already");
+        self.places[at] = (key, contact);
+        self.len += 1;
+    }
+
+    /// Forgets a pair, if it is there.
+    pub(crate) fn remove(&mut self, a: u32, b: u32) {
+        if self.len == 0 {
+            return;
+        }
+        let mask = self.places.len() - 1;
+        let mut hole = self.find(Self::key(a, b));
+        if self.places[hole].0 == EMPTY {
+            return;
+        }
+        self.len -= 1;
+        let mut at = hole;
+        loop {
+            at = (at + 1) & mask;
+            let key = self.places[at].0;
+            if key == EMPTY {
+                break;
+            }
+            // Move the entry into the hole unless its home lies after the hole.
+            let from_home = at.wrapping_sub(self.home(key)) & mask;
+            let from_hole = at.wrapping_sub(hole) & mask;
+            if from_home >= from_hole {
+                self.places[hole] = self.places[at];
+                hole = at;
+            }
+        }
+        self.places[hole] = (EMPTY, 0);
+    }
+
+    /// Pairs noted.
+    pub(crate) fn len(&self) -> usize {
+        self.len
+    }
+
+    fn grow(&mut self) {
+        let size = (self.places.len() * 2).max(64);
+        let old = core::mem::replace(&mut self.places, vec![(EMPTY, 0); size]);
+        for (key, contact) in old.into_iter().filter(|&(key, _)| key != EMPTY) {
+            let at = self.find(key);
+            self.places[at] = (key, contact);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashMap;
+
+    #[test]
+    fn agrees_with_the_standard_map() {
+        let mut table = PairTable::default();
+        let mut model: HashMap<(u32, u32), u32> = HashMap::new();
+        let mut state = 1_u32;
+        for step in 0..20_000 {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            let (a, b) = (state >> 24 & 63, 64 + (state >> 16 & 63));
+            match model.get(&(a, b)) {
+                Some(&contact) => {
+                    assert_eq!(table.get(b, a), Some(contact));
+                    table.remove(b, a);
+                    model.remove(&(a, b));
+                }
+                None => {
+                    assert_eq!(table.get(a, b), None);
+                    table.insert(a, b, step);
+                    model.insert((a, b), step);
+                }
+            }
+            assert_eq!(table.len(), model.len());
+        }
+        for (&(a, b), &contact) in &model {
+            assert_eq!(table.get(a, b), Some(contact));
+        }
+    }
+}

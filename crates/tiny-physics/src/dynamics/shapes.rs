@@ -1,0 +1,101 @@
+//! Shapes: what hangs on bodies.
+
+use super::bodies::NULL;
+use crate::broad_phase::ProxyId;
+use crate::describe::{Filter, Material};
+use crate::geometry::Shape;
+use crate::geometry::manifold::ShapeClass;
+use crate::math::{Transform, Vec2};
+use crate::simd::Row;
+
+/// One shape of a body.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct ShapeRecord {
+    pub(crate) alive: bool,
+    pub(crate) generation: u32,
+    pub(crate) body: u32,
+    pub(crate) class: ShapeClass,
+    /// Geometry in the shape's frame.
+    pub(crate) shape: Shape,
+    /// Shape's frame in the body's frame.
+    pub(crate) local: Transform,
+    /// Shape's frame in the frame of the body's centre of mass.
+    pub(crate) central: Transform,
+    /// Frame of the shape as a rounded box (see [`Shapes::rows`]) in the shape's frame.
+    pub(crate) box_frame: Transform,
+    pub(crate) material: Material,
+    pub(crate) filter: Filter,
+    pub(crate) sensor: bool,
+    pub(crate) one_way: Option<Vec2>,
+    pub(crate) contact_events: bool,
+    pub(crate) hit_events: bool,
+    pub(crate) user_data: u64,
+    /// Leaf in the broad phase; NULL while the body is disabled.
+    pub(crate) proxy: u32,
+    /// Next shape of the body.
+    pub(crate) next: u32,
+}
+
+/// All shapes of a world, by stable index.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub(crate) struct Shapes {
+    pub(crate) records: Vec<ShapeRecord>,
+    /// The shape as a rounded box in the frame of the body's centre of mass, for the lane kernels:
+    /// place x, y, rotation c, s, half extents x, y, radius, and 1 where this is all there is to the
+    /// shape (0 for general polygons, whose row is their own frame and a bounding circle).
+    pub(crate) rows: Vec<Row>,
+    free: Vec<u32>,
+    count: usize,
+}
+
+impl Shapes {
+    /// Shapes alive.
+    pub(crate) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Indices of the shapes alive, ascending.
+    pub(crate) fn indices(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..self.records.len() as u32).filter(|&i| self.records[i as usize].alive)
+    }
+
+    pub(crate) fn insert(&mut self, mut record: ShapeRecord) -> u32 {
+        self.count += 1;
+        record.alive = true;
+        if let Some(index) = self.free.pop() {
+            record.generation = self.records[index as usize].generation;
+            self.records[index as usize] = record;
+            self.rows[index as usize] = [0.0; 8];
+            index
+        } else {
+            self.records.push(record);
+            self.rows.push([0.0; 8]);
+            self.records.len() as u32 - 1
+        }
+    }
+
+    pub(crate) fn remove(&mut self, index: u32) {
+        self.count -= 1;
+        let record = &mut self.records[index as usize];
+        record.alive = false;
+        record.generation = record.generation.wrapping_add(1);
+        record.body = NULL;
+        record.proxy = NULL;
+        record.next = NULL;
+        self.free.push(index);
+    }
+
+    /// The leaf of a shape in the broad phase.
+    #[inline]
+    pub(crate) fn proxy(&self, index: u32) -> ProxyId {
+        ProxyId(self.records[index as usize].proxy)
+    }
+
+    /// Indices of a body's shapes, from the head of its list.
+    pub(crate) fn of_body(&self, first: u32) -> impl Iterator<Item = u32> + '_ {
+        core::iter::successors((first != NULL).then_some(first), |&i| {
+            let next = self.records[i as usize].next;
+            (next != NULL).then_some(next)
+        })
+    }
+}

@@ -1,0 +1,13 @@
+//! The stages of a step, in the order in which `World::step` runs them.
+//!
+//! Each stage is a function (or a few) over the two to four stores that it touches; none sees the
+//! world.
+
+pub(crate) mod contact_solver;
+pub(crate) mod continuous;
+pub(crate) mod finalize;
+pub(crate) mod integrate;
+pub(crate) mod narrow_phase;
+pub(crate) mod pairs;
+pub(crate) mod sleep;
+pub(crate) mod touching;

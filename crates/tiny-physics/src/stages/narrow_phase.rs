@@ -1,0 +1,418 @@
+//! Narrow phase: from pairs of shapes to contact constraints, in lanes.
+//!
+//! For each block of contacts of one class: gather poses and shapes, compute the manifolds in the
+//! frame of shape A, carry impulses over by feature id, and write the constraints that the solver
+//! iterates on. Running it twice on one block gives the same block, so blocks that got new contacts
+//! after the pass are simply run again.
+
+use crate::dynamics::{Bucket, ConstraintBlock, ManifoldBlock, ShapeRecord, SurfaceBlock, flags};
+use crate::geometry::manifold::{self, LaneManifold, LanePair, PairClass};
+use crate::math::{Pose, Rot, Transform, Vec2};
+use crate::simd::{BLOCK, LaneKernel, Lanes, Row, SimdLevel, dispatch};
+
+/// What the narrow phase reads.
+#[derive(Clone, Copy)]
+pub(crate) struct Context<'a> {
+    pub(crate) level: SimdLevel,
+    pub(crate) body_rows: &'a [Row],
+    pub(crate) poses: &'a [Pose],
+    pub(crate) shape_rows: &'a [Row],
+    pub(crate) shapes: &'a [ShapeRecord],
+    /// Points up to this far apart are contacts already, metres.
+    pub(crate) speculative_distance: f32,
+}
+
+/// Blocks of one bucket that are updated together.
+pub(crate) struct Blocks<'a> {
+    pub(crate) manifolds: &'a mut [ManifoldBlock],
+    /// Empty for contacts that do not touch.
+    pub(crate) constraints: &'a mut [ConstraintBlock],
+    pub(crate) surfaces: &'a mut [SurfaceBlock],
+    pub(crate) flags: &'a [u8],
+    pub(crate) touching: &'a mut [u16],
+    /// Contacts in these blocks; the last block may be part full.
+    pub(crate) count: usize,
+}
+
+impl<'a> Blocks<'a> {
+    /// All blocks of a bucket.
+    pub(crate) fn of(bucket: &'a mut Bucket) -> Self {
+        Self {
+            count: bucket.contacts.len(),
+            manifolds: &mut bucket.manifolds,
+            constraints: &mut bucket.constraints,
+            surfaces: &mut bucket.surfaces,
+            flags: &bucket.flags,
+            touching: &mut bucket.touching,
+        }
+    }
+
+    /// One block of a bucket of touching contacts.
+    pub(crate) fn of_block(bucket: &'a mut Bucket, block: usize) -> Self {
+        let range = block..block + 1;
+        Self {
+            count: (bucket.contacts.len() - block * BLOCK).min(BLOCK),
+            manifolds: &mut bucket.manifolds[range.clone()],
+            constraints: &mut bucket.constraints[range.clone()],
+            surfaces: &mut bucket.surfaces[range.clone()],
+            flags: &bucket.flags[range.clone()],
+            touching: &mut bucket.touching[range],
+        }
+    }
+}
+
+/// Updates blocks of a class.
+pub(crate) fn update(context: Context<'_>, class: PairClass, blocks: Blocks<'_>) {
+    match class {
+        PairClass::BoxBox => run::<BoxBox>(context, blocks),
+        PairClass::BoxCapsule => run::<BoxCapsule>(context, blocks),
+        PairClass::BoxCircle => run::<BoxCircle>(context, blocks),
+        PairClass::CapsuleCapsule => run::<CapsuleCapsule>(context, blocks),
+        PairClass::CapsuleCircle => run::<CapsuleCircle>(context, blocks),
+        PairClass::CircleCircle => run::<CircleCircle>(context, blocks),
+        PairClass::General => run::<General>(context, blocks),
+    }
+}
+
+fn run<K: PairKernel>(context: Context<'_>, blocks: Blocks<'_>) {
+    dispatch(context.level, Update::<K> { context, blocks, kernel: core::marker::PhantomData });
+}
+
+/// A manifold kernel for a class of pairs.
+trait PairKernel {
+    /// Greatest number of points.
+    const POINTS: usize;
+    /// Manifolds of the contacts from lane `at` of the block on, in the frames of their shapes A.
+    fn collide<L: Lanes>(
+        token: L::Token,
+        context: &Context<'_>,
+        block: &ManifoldBlock,
+        at: usize,
+        pair: &LanePair<L>,
+    ) -> LaneManifold<L>;
+}
+
+macro_rules! lane_pair_kernel {
+    ($($class:ident = $function:ident),*) => {$(
+        struct $class;
+
+        impl PairKernel for $class {
+            const POINTS: usize = PairClass::$class.max_points();
+            #[inline(always)]
+            fn collide<L: Lanes>(
+                token: L::Token,
+                context: &Context<'_>,
+                _: &ManifoldBlock,
+                _: usize,
+                pair: &LanePair<L>,
+            ) -> LaneManifold<L> {
+                manifold::$function(token, pair, L::splat(token, context.speculative_distance))
+            }
+        }
+    )*};
+}
+
+lane_pair_kernel!(
+    BoxBox = box_box,
+    BoxCapsule = box_capsule,
+    BoxCircle = box_circle,
+    CapsuleCapsule = capsule_capsule,
+    CapsuleCircle = capsule_circle,
+    CircleCircle = circle_circle
+);
+
+/// Pairs with a general polygon: one after the other.
+struct General;
+
+impl PairKernel for General {
+    const POINTS: usize = 2;
+
+    #[inline(always)]
+    fn collide<L: Lanes>(
+        token: L::Token,
+        context: &Context<'_>,
+        block: &ManifoldBlock,
+        at: usize,
+        pair: &LanePair<L>,
+    ) -> LaneManifold<L> {
+        let mut frames = [[0.0; BLOCK]; 4];
+        for (frame, lanes) in frames.iter_mut().zip([pair.p[0], pair.p[1], pair.q[0], pair.q[1]]) {
+            lanes.store(frame);
+        }
+        let mut out = [[0.0; BLOCK]; 10];
+        for i in 0..L::WIDTH {
+            let b_in_a = Transform::new(
+                Vec2::new(frames[0][i], frames[1][i]),
+                Rot { c: frames[2][i], s: frames[3][i] },
+            );
+            let values =
+                general_lane(context, block.shape_a[at + i], block.shape_b[at + i], b_in_a);
+            for (lane, value) in out.iter_mut().zip(values) {
+                lane[i] = value;
+            }
+        }
+        let load = |k: usize| L::load(token, &out[k]);
+        LaneManifold {
+            normal: [load(0), load(1)],
+            points: [[load(2), load(3)], [load(4), load(5)]],
+            separation: [load(6), load(7)],
+            id: [load(8), load(9)],
+        }
+    }
+}
+
+/// One manifold as ten floats: normal, two points, separations, ids.
+fn general_lane(context: &Context<'_>, a: u32, b: u32, b_in_a: Transform) -> [f32; 10] {
+    let (Some(a), Some(b)) = (context.shapes.get(a as usize), context.shapes.get(b as usize))
+    else {
+        return NO_POINTS;
+    };
+    // The kernels' frame of B is that of its rounded box; A, a general polygon, has no other frame.
+    let b_in_a = b_in_a.compose(b.box_frame.inverse());
+    let m = manifold::collide(&a.shape, &b.shape, b_in_a, context.speculative_distance);
+    let mut out = NO_POINTS;
+    out[0] = m.normal.x;
+    out[1] = m.normal.y;
+    for (k, point) in m.points().iter().enumerate() {
+        out[2 + 2 * k] = point.point.x;
+        out[3 + 2 * k] = point.point.y;
+        out[6 + k] = point.separation;
+        out[8 + k] = f32::from(point.id);
+    }
+    out
+}
+
+const NO_POINTS: [f32; 10] = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, f32::MAX, f32::MAX, 0.0, 0.0];
+
+struct Update<'a, K> {
+    context: Context<'a>,
+    blocks: Blocks<'a>,
+    kernel: core::marker::PhantomData<K>,
+}
+
+impl<K: PairKernel> LaneKernel for Update<'_, K> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, token: L::Token) {
+        let Self { context, mut blocks, .. } = self;
+        let constrained = !blocks.constraints.is_empty();
+        for index in 0..blocks.manifolds.len() {
+            let lanes = (blocks.count - index * BLOCK).min(BLOCK);
+            let mut touching = 0;
+            let mut at = 0;
+            while at < lanes {
+                let bits = if constrained {
+                    let geometry =
+                        Geometry::<L>::compute::<K>(token, &context, &blocks.manifolds[index], at);
+                    write_constraint::<L, K>(token, &context, &geometry, &mut blocks, index, at);
+                    geometry.touching
+                } else {
+                    Geometry::<L>::compute::<K>(token, &context, &blocks.manifolds[index], at)
+                        .touching
+                };
+                touching |= bits << at;
+                at += L::WIDTH;
+            }
+            let valid = if lanes == BLOCK { u16::MAX } else { (1 << lanes) - 1 };
+            blocks.touching[index] = touching as u16 & valid;
+        }
+    }
+}
+
+/// Manifolds of a stride, turned into the world's axes.
+struct Geometry<L: Lanes> {
+    normal: [L; 2],
+    /// Points relative to the centre of mass of A.
+    points: [[L; 2]; 2],
+    separation: [L; 2],
+    id: [L; 2],
+    valid: [L::Mask; 2],
+    /// From the centre of mass of A to that of B.
+    between: [L; 2],
+    /// Lanes with a point, as bits.
+    touching: u32,
+}
+
+impl<L: Lanes> Geometry<L> {
+    #[inline(always)]
+    fn compute<K: PairKernel>(
+        token: L::Token,
+        context: &Context<'_>,
+        block: &ManifoldBlock,
+        at: usize,
+    ) -> Self {
+        let (between, turn_a, turn_b) = gather_poses::<L>(token, context.poses, block, at);
+        let shape_a = L::gather(token, context.shape_rows, &block.shape_a[at..]);
+        let shape_b = L::gather(token, context.shape_rows, &block.shape_b[at..]);
+        // Frames of the shapes in the world's axes: rotation, and place relative to the body.
+        let frame_a = compose(turn_a, [shape_a[2], shape_a[3]]);
+        let frame_b = compose(turn_b, [shape_b[2], shape_b[3]]);
+        let place_a = rotate(turn_a, [shape_a[0], shape_a[1]]);
+        let place_b = rotate(turn_b, [shape_b[0], shape_b[1]]);
+        let offset = [between[0] + place_b[0] - place_a[0], between[1] + place_b[1] - place_a[1]];
+        let pair = LanePair {
+            p: unrotate(frame_a, offset),
+            q: unrotate(frame_a, frame_b),
+            a: [shape_a[4], shape_a[5], shape_a[6]],
+            b: [shape_b[4], shape_b[5], shape_b[6]],
+        };
+        let m = K::collide::<L>(token, context, block, at, &pair);
+        let limit = L::splat(token, context.speculative_distance);
+        let valid = [m.separation[0].le(limit), m.separation[1].le(limit)];
+        let to_world = |point: [L; 2]| {
+            let turned = rotate(frame_a, point);
+            [turned[0] + place_a[0], turned[1] + place_a[1]]
+        };
+        let touching =
+            if K::POINTS == 2 { L::bits(L::or(valid[0], valid[1])) } else { L::bits(valid[0]) };
+        Self {
+            normal: rotate(frame_a, m.normal),
+            points: [to_world(m.points[0]), to_world(m.points[1])],
+            separation: m.separation,
+            id: m.id,
+            valid,
+            between,
+            touching,
+        }
+    }
+}
+
+/// Vector between the centres of mass, and rotations of A and B.
+#[inline(always)]
+fn gather_poses<L: Lanes>(
+    token: L::Token,
+    poses: &[Pose],
+    block: &ManifoldBlock,
+    at: usize,
+) -> ([L; 2], [L; 2], [L; 2]) {
+    let mut lanes = [[0.0; BLOCK]; 6];
+    for i in 0..L::WIDTH {
+        let a = poses[block.body_a[at + i] as usize];
+        let b = poses[block.body_b[at + i] as usize];
+        let between = b.p.relative_to(a.p);
+        lanes[0][i] = between.x;
+        lanes[1][i] = between.y;
+        lanes[2][i] = a.q.c;
+        lanes[3][i] = a.q.s;
+        lanes[4][i] = b.q.c;
+        lanes[5][i] = b.q.s;
+    }
+    let load = |k: usize| L::load(token, &lanes[k]);
+    ([load(0), load(1)], [load(2), load(3)], [load(4), load(5)])
+}
+
+/// Rotation `outer` after `inner`.
+#[inline(always)]
+fn compose<L: Lanes>(outer: [L; 2], inner: [L; 2]) -> [L; 2] {
+    rotate(outer, inner)
+}
+
+#[inline(always)]
+fn rotate<L: Lanes>(q: [L; 2], v: [L; 2]) -> [L; 2] {
+    [q[0] * v[0] - q[1] * v[1], q[1] * v[0] + q[0] * v[1]]
+}
+
+#[inline(always)]
+fn unrotate<L: Lanes>(q: [L; 2], v: [L; 2]) -> [L; 2] {
+    [q[0] * v[0] + q[1] * v[1], q[0] * v[1] - q[1] * v[0]]
+}
+
+/// Writes the constraints of a stride.
+#[inline(always)]
+fn write_constraint<L: Lanes, K: PairKernel>(
+    token: L::Token,
+    context: &Context<'_>,
+    geometry: &Geometry<L>,
+    blocks: &mut Blocks<'_>,
+    index: usize,
+    at: usize,
+) {
+    let manifold = &mut blocks.manifolds[index];
+    let constraint = &mut blocks.constraints[index];
+    let body_a = L::gather(token, context.body_rows, &manifold.body_a[at..]);
+    let body_b = L::gather(token, context.body_rows, &manifold.body_b[at..]);
+    geometry.normal[0].store(&mut constraint.normal_x[at..]);
+    geometry.normal[1].store(&mut constraint.normal_y[at..]);
+    L::load(token, &manifold.friction[at..]).store(&mut constraint.friction[at..]);
+
+    let old_id = [L::load(token, &manifold.id_1[at..]), L::load(token, &manifold.id_2[at..])];
+    let old = [0, 1].map(|k| {
+        let point = &constraint.points[k];
+        [L::load(token, &point.normal_impulse[at..]), L::load(token, &point.tangent_impulse[at..])]
+    });
+    let zero = L::splat(token, 0.0);
+    let mut approach = [zero; 2];
+    for k in 0..K::POINTS {
+        let valid = geometry.valid[k];
+        let same = [geometry.id[k].eq(old_id[0]), geometry.id[k].eq(old_id[1])];
+        let carry = |kind: usize| {
+            let carried = L::select(same[0], old[0][kind], L::select(same[1], old[1][kind], zero));
+            L::select(valid, carried, zero)
+        };
+        let (normal_impulse, tangent_impulse) = (carry(0), carry(1));
+        let arms = Arms::compute(geometry, k);
+        let (normal_mass, tangent_mass) = arms.masses(token, &body_a, &body_b);
+        approach[k] = geometry.normal[0] * (body_b[0] - body_a[0])
+            + geometry.normal[1] * (body_b[1] - body_a[1])
+            + arms.normal[1] * body_b[2]
+            - arms.normal[0] * body_a[2];
+
+        let point = &mut constraint.points[k];
+        geometry.separation[k].store(&mut point.separation[at..]);
+        arms.normal[0].store(&mut point.normal_arm_a[at..]);
+        arms.normal[1].store(&mut point.normal_arm_b[at..]);
+        arms.tangent[0].store(&mut point.tangent_arm_a[at..]);
+        arms.tangent[1].store(&mut point.tangent_arm_b[at..]);
+        L::select(valid, normal_mass, zero).store(&mut point.normal_mass[at..]);
+        L::select(valid, tangent_mass, zero).store(&mut point.tangent_mass[at..]);
+        normal_impulse.store(&mut point.normal_impulse[at..]);
+        tangent_impulse.store(&mut point.tangent_impulse[at..]);
+    }
+    let none = L::splat(token, -1.0);
+    L::select(geometry.valid[0], geometry.id[0], none).store(&mut manifold.id_1[at..]);
+    if K::POINTS == 2 {
+        L::select(geometry.valid[1], geometry.id[1], none).store(&mut manifold.id_2[at..]);
+    }
+    if blocks.flags[index] & (flags::RESTITUTION | flags::HIT) != 0 {
+        let surface = &mut blocks.surfaces[index];
+        approach[0].store(&mut surface.approach_1[at..]);
+        approach[1].store(&mut surface.approach_2[at..]);
+        zero.store(&mut surface.peak_1[at..]);
+        zero.store(&mut surface.peak_2[at..]);
+    }
+}
+
+/// Lever arms of a point: cross products of its anchors with normal and tangent, for A and B.
+///
+/// The tangent is the normal turned clockwise, so r x t = -(r . n).
+struct Arms<L> {
+    normal: [L; 2],
+    tangent: [L; 2],
+}
+
+impl<L: Lanes> Arms<L> {
+    #[inline(always)]
+    fn compute(geometry: &Geometry<L>, k: usize) -> Self {
+        let [nx, ny] = geometry.normal;
+        let a = geometry.points[k];
+        let b = [a[0] - geometry.between[0], a[1] - geometry.between[1]];
+        Self {
+            normal: [a[0] * ny - a[1] * nx, b[0] * ny - b[1] * nx],
+            tangent: [-(a[0] * nx + a[1] * ny), -(b[0] * nx + b[1] * ny)],
+        }
+    }
+
+    /// Effective masses along normal and tangent: 1 / (sum of inverse masses + arms squared times
+    /// inverse inertias), zero where nothing can move.
+    #[inline(always)]
+    fn masses(&self, token: L::Token, body_a: &[L; 8], body_b: &[L; 8]) -> (L, L) {
+        let inverse_mass = body_a[3] + body_b[3];
+        let effective = |arm: [L; 2]| {
+            let k = inverse_mass + body_a[7] * arm[0] * arm[0] + body_b[7] * arm[1] * arm[1];
+            let zero = L::splat(token, 0.0);
+            L::select(k.gt(zero), L::splat(token, 1.0) / k, zero)
+        };
+        (effective(self.normal), effective(self.tangent))
+    }
+}

@@ -1,0 +1,388 @@
+//! The world: the one facade over everything below.
+
+mod bodies;
+mod build;
+mod contacts;
+mod events;
+mod hash;
+mod ids;
+mod shapes;
+mod stats;
+mod validate;
+
+pub use bodies::{Body, BodyMut};
+pub use contacts::{ContactPoint, ContactView};
+pub use events::{ContactBegin, ContactEnd, Events, Hit};
+pub use ids::{BodyId, JointId, ShapeId};
+pub use shapes::ShapeRef;
+pub use stats::{Stage, Stats};
+
+use crate::broad_phase::BroadPhase;
+use crate::describe::Settings;
+use crate::dynamics::{Bodies, COLOURS, Contacts, Graph, JointGraph, Joints, OVERFLOW, Shapes};
+use crate::error::Error;
+use crate::geometry::manifold::PairClass;
+use crate::math::Vec2;
+use crate::simd::SimdLevel;
+use crate::stages::contact_solver::{self, Parameters, Pass, Softness};
+use crate::stages::finalize::FastBody;
+use crate::stages::touching::Changes;
+use crate::stages::{continuous, finalize, integrate, narrow_phase, pairs, sleep, touching};
+use crate::threads::SharedRows;
+use stats::Stopwatch;
+
+/// Metres; multiplied by [`Settings::length_unit`]. Points this far apart are contacts already.
+const SPECULATIVE_DISTANCE: f32 = 0.02;
+/// Metres; multiplied by [`Settings::length_unit`]. Room around a shape in its fat box.
+const FAT_MARGIN: f32 = 0.1;
+/// Contacts against static bodies are this much stiffer.
+const STATIC_STIFFNESS: f32 = 2.0;
+/// Contact stiffness is at most this fraction of the substep rate: beyond, the soft constraint rings.
+const CONTACT_RATE_FRACTION: f32 = 0.125;
+
+/// A world of bodies.
+///
+/// ```
+/// use tiny_physics::{RigidBody, Shape, Vec2, World};
+/// # fn main() -> Result<(), tiny_physics::Error> {
+/// let mut world = World::new(Vec2::new(0.0, -9.8));
+/// let ground = Shape::Aabb { half_extents: Vec2::new(20.0, 1.0) };
+/// world.add_body(RigidBody::new(ground, Vec2::new(0.0, -1.0), 0.0))?;
+/// let ball = world.add_body(RigidBody::new(Shape::Circle { radius: 0.5 }, Vec2::new(0.0, 4.0), 1.0))?;
+/// for _ in 0..300 {
+///     world.step(1.0 / 60.0);
+/// }
+/// assert!((world.body(ball).unwrap().position().y - 0.5).abs() < 0.01);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug)]
+pub struct World {
+    /// Acceleration of every dynamic body, metres a second squared.
+    pub gravity: Vec2,
+    /// Substeps, iterations, thresholds.
+    pub settings: Settings,
+    bodies: Bodies,
+    shapes: Shapes,
+    contacts: Contacts,
+    graph: Graph,
+    joints: Joints,
+    joint_graph: JointGraph,
+    broad_phase: BroadPhase,
+    events: Events,
+    step_count: u64,
+    level: SimdLevel,
+    stats: Stats,
+    scratch: Scratch,
+}
+
+/// Lists that a step fills anew; kept only for their memory.
+#[derive(Clone, Debug, Default)]
+struct Scratch {
+    pairs: Vec<(u32, u32)>,
+    parted: Vec<u32>,
+    changes: Changes,
+    fast: Vec<FastBody>,
+    broken: Vec<u32>,
+    islands: Vec<u32>,
+}
+
+/// Numbers of one step.
+#[derive(Clone, Copy, Debug)]
+struct StepLengths {
+    dt: f32,
+    h: f32,
+    substeps: u32,
+    iterations: u32,
+}
+
+impl World {
+    /// An empty world with default settings.
+    pub fn new(gravity: Vec2) -> Self {
+        Self::with_settings(gravity, Settings::default())
+    }
+
+    /// An empty world with settings of your own.
+    pub fn with_settings(gravity: Vec2, settings: Settings) -> Self {
+        Self {
+            gravity,
+            settings,
+            bodies: Bodies::new(),
+            shapes: Shapes::default(),
+            contacts: Contacts::default(),
+            graph: Graph::new(),
+            joints: Joints::default(),
+            joint_graph: JointGraph::default(),
+            broad_phase: BroadPhase::new(),
+            events: Events::default(),
+            step_count: 0,
+            level: SimdLevel::detect(),
+            stats: Stats::default(),
+            scratch: Scratch::default(),
+        }
+    }
+
+    /// Moves the world on by `dt` seconds. Does nothing where `dt` is not a positive finite number;
+    /// [`World::try_step`] says so.
+    pub fn step(&mut self, dt: f32) {
+        if self.try_step(dt).is_err() {
+            self.stats.refused_steps += 1;
+        }
+    }
+
+    /// Moves the world on by `dt` seconds.
+    ///
+    /// # Errors
+    /// `dt` or gravity is not finite, or `dt` not above 0. The world has not changed then.
+    pub fn try_step(&mut self, dt: f32) -> Result<(), Error> {
+        let lengths = self.step_lengths(dt)?;
+        let mut watch = Stopwatch::start();
+        self.events.clear();
+        self.bodies.sort_awake();
+
+        self.update_pairs();
+        watch.lap(&mut self.stats, Stage::Pairs);
+        self.update_manifolds();
+        watch.lap(&mut self.stats, Stage::NarrowPhase);
+        self.update_touching();
+        watch.lap(&mut self.stats, Stage::Touching);
+        self.solve(lengths);
+        watch.lap(&mut self.stats, Stage::Solve);
+        self.finalize(lengths);
+        watch.lap(&mut self.stats, Stage::Finalize);
+        self.sweep_fast_bodies();
+        watch.lap(&mut self.stats, Stage::Continuous);
+        self.put_resting_islands_to_sleep();
+        watch.lap(&mut self.stats, Stage::Sleep);
+
+        self.step_count += 1;
+        Ok(())
+    }
+
+    /// Checks the step's numbers and divides them up.
+    fn step_lengths(&self, dt: f32) -> Result<StepLengths, Error> {
+        Error::check_positive("dt", dt)?;
+        Error::check_finite_vec("gravity", self.gravity)?;
+        let substeps = self.settings.substeps.clamp(1, 1000);
+        let iterations = self.settings.iterations.clamp(1, 1000);
+        Ok(StepLengths { dt, h: dt / substeps as f32, substeps, iterations })
+    }
+
+    /// Finds new pairs around shapes that left their fat boxes; drops contacts whose boxes parted.
+    fn update_pairs(&mut self) {
+        self.broad_phase.maintain();
+        let Scratch { pairs, parted, .. } = &mut self.scratch;
+        self.stats.moved_shapes = self.broad_phase.moved().len();
+        pairs::find_parted(&self.broad_phase, &self.bodies, &self.shapes, &self.contacts, parted);
+        let parted = core::mem::take(parted);
+        for &index in &parted {
+            self.destroy_contact(index);
+        }
+        self.scratch.parted = parted;
+        self.events.flush_pending();
+        self.broad_phase.update_pairs(&mut self.scratch.pairs);
+        self.stats.candidate_pairs = self.scratch.pairs.len();
+        pairs::create_contacts(
+            &self.scratch.pairs,
+            &self.settings,
+            &self.shapes,
+            &mut self.bodies,
+            &mut self.contacts,
+            &mut self.graph,
+            &self.joints,
+        );
+    }
+
+    /// What the narrow phase reads, and the graph that it writes.
+    fn narrow_phase(&mut self) -> (narrow_phase::Context<'_>, &mut Graph) {
+        let context = narrow_phase::Context {
+            level: self.level,
+            body_rows: &self.bodies.rows,
+            poses: &self.bodies.poses,
+            shape_rows: &self.shapes.rows,
+            shapes: &self.shapes.records,
+            speculative_distance: SPECULATIVE_DISTANCE * self.settings.length_unit,
+        };
+        (context, &mut self.graph)
+    }
+
+    /// Computes the manifolds and constraints of all contacts in the graph.
+    fn update_manifolds(&mut self) {
+        let (context, graph) = self.narrow_phase();
+        graph.clear_fresh();
+        for buckets in &mut graph.buckets {
+            for (bucket, class) in buckets.iter_mut().zip(PairClass::ALL) {
+                if !bucket.contacts.is_empty() {
+                    narrow_phase::update(context, class, narrow_phase::Blocks::of(bucket));
+                }
+            }
+        }
+    }
+
+    /// Moves contacts that began or ended to where they belong; wakes what was touched.
+    fn update_touching(&mut self) {
+        let mut changes = core::mem::take(&mut self.scratch.changes);
+        touching::find_changes(&self.graph, &mut changes);
+        for &index in &changes.ended {
+            self.end_contact(index);
+        }
+        for &index in &changes.began {
+            self.begin_contact(index);
+        }
+        self.stats.contacts_begun = changes.began.len();
+        self.stats.contacts_ended = changes.ended.len();
+        let (context, graph) = self.narrow_phase();
+        for (colour, class, block) in graph.take_fresh() {
+            let bucket = &mut graph.buckets[usize::from(colour)][usize::from(class)];
+            let blocks = narrow_phase::Blocks::of_block(bucket, block as usize);
+            narrow_phase::update(context, PairClass::ALL[usize::from(class)], blocks);
+        }
+        self.scratch.changes = changes;
+    }
+
+    /// Integrates velocities and positions, and solves contacts and joints, substep by substep.
+    fn solve(&mut self, lengths: StepLengths) {
+        let parameters = self.contact_parameters(lengths);
+        integrate::prepare(&mut self.bodies, self.gravity, lengths.h);
+        let max_speed = self.settings.max_speed * self.settings.length_unit;
+        for _ in 0..lengths.substeps {
+            integrate::velocities(&mut self.bodies);
+            self.solve_contacts(Pass::WarmStart, &parameters);
+            for _ in 0..lengths.iterations {
+                self.solve_contacts(Pass::Solve, &parameters);
+            }
+            integrate::positions(&mut self.bodies, lengths.h, max_speed);
+            self.solve_contacts(Pass::Relax, &parameters);
+        }
+        self.solve_contacts(Pass::Restitution, &parameters);
+    }
+
+    fn contact_parameters(&self, lengths: StepLengths) -> Parameters {
+        let settings = &self.settings;
+        let inv_h = 1.0 / lengths.h;
+        let hertz = settings.contact_hertz.min(CONTACT_RATE_FRACTION * inv_h);
+        let damping = settings.contact_damping_ratio;
+        Parameters {
+            inv_h,
+            soft: Softness::new(hertz, damping, lengths.h),
+            static_soft: Softness::new(STATIC_STIFFNESS * hertz, damping, lengths.h),
+            push_speed: settings.push_speed * settings.length_unit,
+            restitution_threshold: settings.restitution_threshold * settings.length_unit,
+        }
+    }
+
+    /// Runs one pass over all contacts: the overflow one by one, then colour by colour.
+    fn solve_contacts(&mut self, pass: Pass, parameters: &Parameters) {
+        let rows = SharedRows::new(&mut self.bodies.rows);
+        for colour in core::iter::once(OVERFLOW).chain(0..COLOURS) {
+            for (bucket, class) in self.graph.buckets[colour].iter_mut().zip(PairClass::ALL) {
+                if bucket.contacts.is_empty() {
+                    continue;
+                }
+                let blocks = contact_solver::Blocks {
+                    constraints: &mut bucket.constraints,
+                    surfaces: &mut bucket.surfaces,
+                    flags: &bucket.flags,
+                    points: class.max_points(),
+                };
+                if colour == OVERFLOW {
+                    contact_solver::run_in_order(pass, parameters, rows, blocks);
+                } else {
+                    contact_solver::run(self.level, pass, parameters, rows, blocks);
+                }
+            }
+        }
+    }
+
+    /// Takes the motion over into poses and boxes.
+    fn finalize(&mut self, lengths: StepLengths) {
+        let Scratch { fast, broken, .. } = &mut self.scratch;
+        fast.clear();
+        broken.clear();
+        let options = finalize::Options { dt: lengths.dt, continuous: self.settings.continuous };
+        finalize::run(&mut self.bodies, &self.shapes, &mut self.broad_phase, options, fast, broken);
+        self.stats.fast_bodies = fast.len();
+        self.stats.frozen_bodies = broken.len();
+        let broken = core::mem::take(broken);
+        for &index in &broken {
+            self.freeze(index);
+        }
+        self.scratch.broken = broken;
+    }
+
+    /// Stops fast bodies where they would have gone through something.
+    fn sweep_fast_bodies(&mut self) {
+        let speculative = SPECULATIVE_DISTANCE * self.settings.length_unit;
+        continuous::run(
+            &self.scratch.fast,
+            &mut self.bodies,
+            &self.shapes,
+            &mut self.broad_phase,
+            speculative,
+        );
+    }
+
+    /// Looks for islands at rest now and then, and lets them sleep.
+    fn put_resting_islands_to_sleep(&mut self) {
+        if !self.settings.sleep || self.step_count % sleep::INTERVAL != 0 {
+            return;
+        }
+        let mut islands = core::mem::take(&mut self.scratch.islands);
+        sleep::find_resting(
+            &self.bodies,
+            &self.graph,
+            &self.joints,
+            self.settings.time_to_sleep,
+            &mut islands,
+        );
+        self.put_to_sleep(&islands);
+        self.scratch.islands = islands;
+    }
+
+    /// Steps made so far.
+    pub fn step_count(&self) -> u64 {
+        self.step_count
+    }
+
+    /// The instruction set that the world runs on.
+    pub fn simd(&self) -> SimdLevel {
+        self.level
+    }
+
+    /// Chooses an instruction set. Results do not depend on it.
+    ///
+    /// # Errors
+    /// This machine cannot run the level.
+    pub fn set_simd(&mut self, level: SimdLevel) -> Result<(), Error> {
+        if !level.is_available() {
+            return Err(Error::Unsupported { reason: "this machine lacks that SIMD level" });
+        }
+        self.level = level;
+        Ok(())
+    }
+
+    /// Times and counts of the last step.
+    pub fn stats(&self) -> &Stats {
+        &self.stats
+    }
+
+    /// What happened in the last step.
+    pub fn events(&self) -> &Events {
+        &self.events
+    }
+
+    /// Bodies in the world.
+    pub fn body_count(&self) -> usize {
+        self.bodies.count()
+    }
+
+    /// Dynamic and kinematic bodies that are awake.
+    pub fn awake_body_count(&self) -> usize {
+        self.bodies.awake.len()
+    }
+
+    /// Shapes in the world.
+    pub fn shape_count(&self) -> usize {
+        self.shapes.count()
+    }
+}
