@@ -3,11 +3,13 @@
 mod bodies;
 mod build;
 mod contacts;
+mod debug_draw;
 mod events;
 mod hash;
 mod ids;
 mod shapes;
 mod stats;
+mod temporary;
 mod validate;
 
 pub use bodies::{Body, BodyMut};
@@ -16,6 +18,7 @@ pub use events::{ContactBegin, ContactEnd, Events, Hit};
 pub use ids::{BodyId, JointId, ShapeId};
 pub use shapes::ShapeRef;
 pub use stats::{Stage, Stats};
+pub use temporary::JointRef;
 
 use crate::broad_phase::BroadPhase;
 use crate::describe::Settings;
