@@ -67,7 +67,7 @@ Contact points are coloured by penetration depth; bodies that overlap too deeply
 Examples:
   tiny-physics render seed_demo --steps 300 -o heap.png
   tiny-physics render domino --every 2 -o domino.gif
-  tiny-physics render washer --area=-10,0,10,20 --size 800x800 -o washer.png
+  tiny-physics render tumbler --area=-11,-1,11,21 --size 800x800 -o drum.png
   tiny-physics render my_scene.json --show bounds,mass --hide normals -o scene.png"
     )]
     Render(RenderArgs),

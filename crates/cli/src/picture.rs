@@ -52,6 +52,9 @@ impl Overlays {
     }
 }
 
+/// Size of points in the world, metres, as far as pixels allow: far away they must not hide bodies.
+const POINT_METRES: f32 = 0.14;
+
 /// Draws a frame. `note` follows the scene's name in the status.
 pub fn draw(
     canvas: &mut Canvas,
@@ -62,7 +65,12 @@ pub fn draw(
 ) {
     canvas.begin(camera);
     let view = camera.view();
-    let options = DebugDrawOptions { origin: camera.center, clip: Some(view), ..overlays.world };
+    let options = DebugDrawOptions {
+        origin: camera.center,
+        clip: Some(view),
+        point_size: (camera.scale * POINT_METRES).clamp(1.5, 6.5),
+        ..overlays.world
+    };
     simulation.world().debug_draw(canvas, &options);
     if let Some((from, to)) = simulation.pull_line() {
         let relative = |p: tiny_physics::DVec2| p.relative_to(camera.center);

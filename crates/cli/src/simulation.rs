@@ -113,7 +113,8 @@ impl Simulation {
         Status {
             frame: world.step_count(),
             contacts: world.contact_count(),
-            deepest: world.max_penetration(),
+            // Adding nothing turns -0 into 0.
+            deepest: world.max_penetration() + 0.0,
             awake: world.awake_body_count(),
             moving: bodies.filter(|body| body.kind() != BodyKind::Static).count(),
         }
@@ -201,18 +202,45 @@ impl Simulation {
     }
 }
 
-/// Both boxes, but no more than half of the moving one's size beyond it to each side.
+/// Both boxes; where the fixed one is far larger, only its part near the moving one.
 fn part_of_interest(moving: Aabb, fixed: Aabb) -> Aabb {
+    /// Sizes of the moving box: how much larger all may be, and how far to look where it is larger.
+    const LARGER: f32 = 4.0;
+    const NEAR: f32 = 0.4;
     match (moving.is_valid(), fixed.is_valid()) {
         (true, true) => {
-            let size = moving.max - moving.min;
-            let reach = Vec2::splat(1.0 + if size.x > size.y { size.x } else { size.y });
-            let near = Aabb::new(moving.min - reach, moving.max + reach);
+            let size = 1.0 + largest_side(&moving);
+            let all = moving.union(&fixed);
+            if largest_side(&all) <= LARGER * size {
+                return all;
+            }
+            let near = moving.grown(NEAR * size);
             let cut = Aabb::new(fixed.min.max(near.min), fixed.max.min(near.max));
             if cut.is_valid() { moving.union(&cut) } else { moving }
         }
         (true, false) => moving,
         (false, true) => fixed,
         (false, false) => Aabb::new(Vec2::splat(-5.0), Vec2::splat(5.0)),
+    }
+}
+
+fn largest_side(bounds: &Aabb) -> f32 {
+    let size = bounds.max - bounds.min;
+    size.x.max(size.y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ground_without_end_does_not_hide_what_moves() {
+        let moving = Aabb::new(Vec2::new(-5.0, 0.0), Vec2::new(5.0, 8.0));
+        let near = Aabb::new(Vec2::new(-20.0, -2.0), Vec2::new(20.0, 0.0));
+        assert_eq!(part_of_interest(moving, near), moving.union(&near));
+        let endless = Aabb::new(Vec2::new(-1000.0, -2.0), Vec2::new(1000.0, 0.0));
+        let shown = part_of_interest(moving, endless);
+        assert!(shown.contains(&moving) && shown.min.y == -2.0 && largest_side(&shown) < 20.0);
+        assert!(part_of_interest(Aabb::EMPTY, Aabb::EMPTY).is_valid());
     }
 }

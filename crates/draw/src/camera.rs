@@ -32,6 +32,14 @@ impl Camera {
         Self { center: (min + max) * 0.5, scale, width, height }
     }
 
+    /// Like [`Camera::fit`], but leaves `pixels` free along the lower edge for a legend.
+    pub fn fit_above(min: DVec2, max: DVec2, width: u32, height: u32, pixels: u32) -> Self {
+        let room = height.saturating_sub(pixels).max(height / 2);
+        let mut camera = Self { height, ..Self::fit(min, max, width, room) };
+        camera.pan(Vec2::new(0.0, -0.5 * (height - room) as f32));
+        camera
+    }
+
     /// A point relative to the centre, in pixels.
     pub fn to_pixels(&self, p: Vec2) -> Vec2 {
         self.middle() + Vec2::new(p.x, -p.y) * self.scale
@@ -95,6 +103,14 @@ mod tests {
         assert!(point.scale.is_finite());
         let nan = Camera::fit(DVec2::new(f64::NAN, 0.0), DVec2::ZERO, 640, 480);
         assert!(nan.scale > 100.0 && nan.center == DVec2::ZERO);
+    }
+
+    #[test]
+    fn room_for_a_legend_stays_free() {
+        let camera = Camera::fit_above(DVec2::ZERO, DVec2::new(10.0, 10.0), 400, 400, 100);
+        let lower = camera.to_pixels(DVec2::new(5.0, 0.0).relative_to(camera.center));
+        let upper = camera.to_pixels(DVec2::new(5.0, 10.0).relative_to(camera.center));
+        assert!(lower.y < 300.0 && upper.y > 0.0, "{lower} {upper}");
     }
 
     #[test]

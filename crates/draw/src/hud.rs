@@ -13,6 +13,9 @@ const MARGIN: i32 = 10;
 const BAR_WIDTH: i32 = 260;
 
 impl Canvas {
+    /// Height that the legend takes along the lower edge, pixels.
+    pub const LEGEND_HEIGHT: u32 = 78;
+
     /// Lines of text in the upper left corner; the first stands out.
     pub fn status<S: AsRef<str>>(&mut self, lines: &[S]) {
         self.text_panel(MARGIN, MARGIN, lines);

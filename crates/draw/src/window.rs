@@ -2,6 +2,8 @@
 
 use crate::canvas::Canvas;
 use crate::error::DrawError;
+use std::cell::RefCell;
+use std::rc::Rc;
 use tiny_physics::Vec2;
 
 /// A key of the keyboard.
@@ -46,6 +48,33 @@ pub struct Input {
 pub struct Window {
     window: minifb::Window,
     buffer: Vec<u32>,
+    typed: Rc<RefCell<Typed>>,
+    /// Keys that went down in the frame before: their held state arrives a frame late.
+    before: Vec<Key>,
+}
+
+/// Key events as they come. A tap can be over before the next frame, so states are not enough.
+#[derive(Default)]
+struct Typed {
+    down: Vec<minifb::Key>,
+    pressed: Vec<Key>,
+}
+
+struct Listener(Rc<RefCell<Typed>>);
+
+impl minifb::InputCallback for Listener {
+    fn add_char(&mut self, _: u32) {}
+
+    fn set_key_state(&mut self, code: minifb::Key, is_down: bool) {
+        let Ok(mut typed) = self.0.try_borrow_mut() else { return };
+        let was_down = typed.down.contains(&code);
+        if is_down && !was_down {
+            typed.down.push(code);
+            typed.pressed.extend(key(code));
+        } else if !is_down {
+            typed.down.retain(|other| *other != code);
+        }
+    }
 }
 
 impl Window {
@@ -62,7 +91,9 @@ impl Window {
         let mut window = minifb::Window::new(title, width as usize, height as usize, options)
             .map_err(|error| DrawError::Window(explain(&error)))?;
         window.set_target_fps(60);
-        Ok(Self { window, buffer: Vec::new() })
+        let typed = Rc::new(RefCell::new(Typed::default()));
+        window.set_input_callback(Box::new(Listener(Rc::clone(&typed))));
+        Ok(Self { window, buffer: Vec::new(), typed, before: Vec::new() })
     }
 
     /// False after the user has closed it.
@@ -93,15 +124,17 @@ impl Window {
             .map_err(|error| DrawError::Window(error.to_string()))
     }
 
-    /// What the user did.
-    pub fn input(&self) -> Input {
+    /// What the user did since the last call.
+    pub fn input(&mut self) -> Input {
         use minifb::{KeyRepeat, MouseButton, MouseMode};
-        let keys = |repeat| -> Vec<Key> {
-            self.window.get_keys_pressed(repeat).into_iter().filter_map(key).collect()
-        };
+        let pressed = core::mem::take(&mut self.typed.borrow_mut().pressed);
+        let held = self.window.get_keys_pressed(KeyRepeat::Yes).into_iter().filter_map(key);
+        let again = held.filter(|key| !pressed.contains(key) && !self.before.contains(key));
+        let repeated = pressed.iter().copied().chain(again).collect();
+        self.before.clone_from(&pressed);
         Input {
-            pressed: keys(KeyRepeat::No),
-            repeated: keys(KeyRepeat::Yes),
+            pressed,
+            repeated,
             mouse: self.window.get_mouse_pos(MouseMode::Discard).map(|(x, y)| Vec2::new(x, y)),
             left_down: self.window.get_mouse_down(MouseButton::Left),
             right_down: self.window.get_mouse_down(MouseButton::Right),
@@ -145,6 +178,18 @@ fn key(key: minifb::Key) -> Option<Key> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_tap_within_a_frame_is_not_lost() {
+        use minifb::InputCallback as _;
+        let typed = Rc::new(RefCell::new(Typed::default()));
+        let mut listener = Listener(Rc::clone(&typed));
+        for is_down in [true, true, false] {
+            listener.set_key_state(minifb::Key::N, is_down);
+        }
+        assert_eq!(typed.borrow().pressed, [Key::Char('n')]);
+        assert!(typed.borrow().down.is_empty());
+    }
 
     #[test]
     fn keys_have_their_letters() {

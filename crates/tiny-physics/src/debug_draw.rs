@@ -214,6 +214,8 @@ pub struct DebugDrawOptions {
     /// Bodies blend into the colour of their deepest contact where that is deeper than they should
     /// rest: trouble glows.
     pub depth_tint: bool,
+    /// Diameter of points, pixels.
+    pub point_size: f32,
     /// The world point that is (0, 0) in what is drawn, usually the camera's centre.
     pub origin: DVec2,
     /// Leave out what is outside this box (relative to the origin).
@@ -233,6 +235,7 @@ impl Default for DebugDrawOptions {
             normals: true,
             velocities: false,
             depth_tint: true,
+            point_size: 6.0,
             origin: DVec2::ZERO,
             clip: None,
             palette: Palette::default(),

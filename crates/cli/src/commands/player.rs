@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use tiny_physics::{DVec2, FixedStep, Layer};
 use tiny_physics_draw::TextView;
 
-const HELP: &str = "space step  p play/pause  s slow  r restart  n next seed  q quit";
+const HELP: &str = "space step  p play  s slow  r restart  n next seed  q quit";
 /// Time between looks at the keyboard while playing.
 const TICK: Duration = Duration::from_millis(15);
 

@@ -39,7 +39,7 @@ pub fn run(args: &RenderArgs) -> Outcome {
     };
     let mut film = Film {
         simulation,
-        camera: Camera::fit(min, max, width, height),
+        camera: Camera::fit_above(min, max, width, height, Canvas::LEGEND_HEIGHT),
         canvas: Canvas::new(width, height)?,
         overlays: Overlays::new(&args.show, &args.hide),
     };

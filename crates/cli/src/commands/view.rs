@@ -10,19 +10,22 @@ use tiny_physics::{FixedStep, Vec2};
 use tiny_physics_draw::{Camera, Canvas, Input, Key, Window};
 use tiny_physics_scenes::all;
 
-const HELP: [&str; 12] = [
+const HELP: [&str; 15] = [
+    "keys and mouse",
     "space      play, pause",
     "right, s   one step",
     "up, down   faster, slower",
     "r          restart",
     "n, b       next, previous scene",
-    "mouse      drag a body",
+    "left btn   drag a body",
     "right btn  move the view",
-    "wheel +-   zoom,  f fit",
-    "c v        contacts, normals",
-    "j x m      joints, boxes, mass",
-    "d t l      depth tint, text, legend",
-    "h help     q quit",
+    "wheel      zoom (f: fit)",
+    "c, v       contacts, normals",
+    "j, x       joints, boxes",
+    "m, a       masses, velocities",
+    "d          tint by depth",
+    "t, l       text, legend",
+    "h, q       this help, quit",
 ];
 
 /// Parts of real time at which the scene can play.
@@ -83,10 +86,9 @@ impl Viewer {
     fn new(args: &ViewArgs) -> Outcome<Self> {
         let scene = source::open(&args.scene, args.world.seed)?;
         let simulation = Simulation::new(scene, &args.world)?;
-        let (min, max) = simulation.bounds();
         Ok(Self {
             how: args.world.clone(),
-            camera: Camera::fit(min, max, args.size.0, args.size.1),
+            camera: fit(&simulation, args.size),
             clock: FixedStep::new(simulation.dt()),
             simulation,
             overlays: Overlays::default(),
@@ -163,8 +165,7 @@ impl Viewer {
     }
 
     fn fit(&mut self) {
-        let (min, max) = self.simulation.bounds();
-        self.camera = Camera::fit(min, max, self.camera.width, self.camera.height);
+        self.camera = fit(&self.simulation, (self.camera.width, self.camera.height));
     }
 
     /// The built-in scene so many places further on; around at the ends.
@@ -205,6 +206,11 @@ impl Viewer {
     }
 }
 
+fn fit(simulation: &Simulation, (width, height): (u32, u32)) -> Camera {
+    let (min, max) = simulation.bounds();
+    Camera::fit_above(min, max, width, height, Canvas::LEGEND_HEIGHT)
+}
+
 fn overlay_of(letter: char) -> Option<Overlay> {
     Some(match letter {
         'c' => Overlay::Contacts,
@@ -212,6 +218,7 @@ fn overlay_of(letter: char) -> Option<Overlay> {
         'j' => Overlay::Joints,
         'x' => Overlay::Bounds,
         'm' => Overlay::Mass,
+        'a' => Overlay::Velocities,
         'd' => Overlay::Tint,
         't' => Overlay::Text,
         'l' => Overlay::Legend,

@@ -13,8 +13,6 @@ const NORMAL_LENGTH: f32 = 0.25;
 const AXIS_LENGTH: f32 = 0.2;
 /// The way that a drawn velocity covers in this many seconds.
 const VELOCITY_SECONDS: f32 = 0.1;
-/// Diameter of points, pixels.
-const POINT_SIZE: f32 = 6.0;
 /// Depth in metres (at length unit 1) up to which bodies keep their colour, and from which they have
 /// that of their depth.
 const TINT_FROM: f32 = 0.0075;
@@ -94,7 +92,7 @@ impl World {
             }
             pen.line(anchor_a, anchor_b, color);
             let anchor = pen.local(anchor_a);
-            pen.draw.point(anchor, 0.5 * POINT_SIZE, color);
+            pen.draw.point(anchor, 0.6 * pen.options.point_size, color);
         }
     }
 
@@ -176,7 +174,7 @@ impl Pen<'_> {
             let rotation: Rot = body.rotation();
             self.draw.segment(center, center + rotation.x_axis() * reach, Color::rgb(240, 90, 90));
             self.draw.segment(center, center + rotation.y_axis() * reach, Color::rgb(90, 220, 90));
-            self.draw.point(center, 0.5 * POINT_SIZE, palette.mass);
+            self.draw.point(center, 0.6 * self.options.point_size, palette.mass);
         }
         if self.options.velocities && body.is_awake() {
             self.draw.layer(Layer::Velocity);
@@ -198,7 +196,11 @@ impl Pen<'_> {
             }
             if self.options.contacts {
                 self.draw.layer(Layer::Contact);
-                self.draw.point(at, POINT_SIZE, depth_color(-point.separation / self.unit));
+                self.draw.point(
+                    at,
+                    self.options.point_size,
+                    depth_color(-point.separation / self.unit),
+                );
             }
         }
     }
