@@ -128,7 +128,7 @@ fn unknown_scenes_and_options_are_explained() {
     assert!(bad(&["run", "seed_demo", "--simd", "mmx"]).contains("avx2"));
     assert!(bad(&["run", "seed_demo", "--steps", "0"]).contains("--steps"));
     assert!(bad(&["run", "seed_demo", "--threads", "many"]).contains("--threads"));
-    assert!(bad(&["rnu", "seed_demo"]).contains("run"));
+    assert!(bad(&["rendr", "seed_demo"]).contains("'render'"));
     assert!(bad(&["render", "seed_demo", "-o", "out.bmp"]).contains(".png"));
     assert!(bad(&["render", "seed_demo", "-o", "x.png", "--size", "9x9"]).contains("1280x720"));
     assert!(bad(&["render", "seed_demo", "--steps", "1", "-o", "no/dir/x.png"]).contains("no/dir"));

@@ -32,10 +32,10 @@ pub fn run(args: &DemoArgs) -> Outcome {
     while player.state != State::Quit {
         screen.draw(&player)?;
         let waiting = if player.state == State::Playing { TICK } else { Duration::from_secs(1) };
-        if event::poll(waiting)? {
-            if let Event::Key(key) = event::read()? {
-                player.key(key)?;
-            }
+        if event::poll(waiting)?
+            && let Event::Key(key) = event::read()?
+        {
+            player.key(key)?;
         }
         player.play(last.elapsed().as_secs_f32());
         last = Instant::now();

@@ -101,7 +101,8 @@ fn report(
         simd: world.simd().name(),
         ms_per_step,
         stage_ms,
-        max_penetration_m: world.max_penetration(),
+        // Adding nothing turns -0 into 0.
+        max_penetration_m: world.max_penetration() + 0.0,
         kinetic_energy_j: world.kinetic_energy(),
         hash: format!("{:016x}", world.state_hash()),
     }
