@@ -3,12 +3,14 @@
 mod bodies;
 mod build;
 mod contacts;
+mod debug_draw;
 mod events;
 mod hash;
 mod ids;
 mod joints;
 mod shapes;
 mod stats;
+mod temporary;
 mod validate;
 
 pub use bodies::{Body, BodyMut};
@@ -18,6 +20,7 @@ pub use ids::{BodyId, JointId, ShapeId};
 pub use joints::JointRef;
 pub use shapes::ShapeRef;
 pub use stats::{Stage, Stats};
+pub use temporary::JointRef;
 
 use crate::broad_phase::BroadPhase;
 use crate::describe::Settings;
