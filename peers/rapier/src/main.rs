@@ -1,0 +1,10 @@
+//! The benchmark scenes in Rapier, through its public interface.
+
+mod filters;
+mod joints;
+mod shapes;
+mod world;
+
+fn main() {
+    peers_worker::serve::<world::Rapier>();
+}

@@ -1,0 +1,62 @@
+//! A timed run.
+//!
+//! The protocol is that of Box2D's own benchmark program: the world and the scene are built outside
+//! the clock, one step is made unclocked, then every further step is timed, what the scene does
+//! before it (spawning, removing) included.
+
+use crate::clock::{Stopwatch, mean, peak_mib, percentile};
+use crate::{Answer, Engine, Job, Report, stand_in};
+use std::time::Instant;
+
+/// Reads one job from standard input, runs it in the engine `E`, and prints the answer.
+pub fn serve<E: Engine>() {
+    let answer = read_job().and_then(|job| run::<E>(&job));
+    let answer = answer.map_or_else(Answer::Failed, Answer::Done);
+    match serde_json::to_string(&answer) {
+        Ok(line) => println!("{line}"),
+        Err(error) => eprintln!("cannot write the answer: {error}"),
+    }
+}
+
+fn read_job() -> Result<Job, String> {
+    let mut line = String::new();
+    std::io::stdin().read_line(&mut line).map_err(|error| format!("cannot read the job: {error}"))?;
+    serde_json::from_str(&line).map_err(|error| format!("cannot understand the job: {error}"))
+}
+
+fn run<E: Engine>(job: &Job) -> Result<Report, String> {
+    let scene = stand_in::scene(&job.scene).ok_or_else(|| format!("no scene {}", job.scene))?;
+    let start = Instant::now();
+    let mut engine = E::create(scene.gravity, &scene.settings, job.threads, &job.setting)?;
+    for body in &scene.bodies {
+        engine.add_body(body);
+    }
+    for (a, b, def) in &scene.joints {
+        engine.add_joint(*a, *b, def);
+    }
+    engine.start();
+    let build_ms = start.elapsed().as_secs_f64() * 1e3;
+
+    engine.step(scene.dt);
+    let steps = job.steps.unwrap_or(scene.steps).saturating_sub(1).max(1);
+    let (mut cpu_ms, mut wall_ms) = (Vec::new(), Vec::new());
+    for _ in 0..steps {
+        let watch = Stopwatch::start();
+        engine.step(scene.dt);
+        let (cpu, wall) = watch.elapsed_ms();
+        cpu_ms.push(cpu);
+        wall_ms.push(wall);
+    }
+    Ok(Report {
+        engine: E::name(),
+        build: engine.build(),
+        steps,
+        cpu_ms: mean(&cpu_ms),
+        wall_ms: mean(&wall_ms),
+        cpu_p99_ms: percentile(&cpu_ms, 0.99),
+        wall_p99_ms: percentile(&wall_ms, 0.99),
+        build_ms,
+        peak_mib: peak_mib(),
+        end: engine.summary(),
+    })
+}
