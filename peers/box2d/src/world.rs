@@ -3,6 +3,7 @@
 //! Everything is set to what the description says; what it does not say (contact recycling, joint
 //! stiffness) stays at Box2D's defaults.
 
+use crate::queries;
 use crate::shapes::{Geometry, geometry, rot, shape_def, vec2};
 use boxdd_sys::ffi::*;
 use peers_worker::{BodyState, Engine, Host, Summary};
@@ -34,11 +35,6 @@ impl Engine for Box2d {
         let world = unsafe { b2CreateWorld(&def) };
         let substeps = settings.substeps as i32;
         Ok(Self { world, bodies: Vec::new(), joints: Vec::new(), substeps })
-    }
-
-    fn step(&mut self, dt: f32) {
-        // SAFETY: the world lives until drop.
-        unsafe { b2World_Step(self.world, dt, self.substeps) }
     }
 
     fn summary(&self) -> Summary {
@@ -132,6 +128,36 @@ impl Host for Box2d {
     fn is_awake(&self, body: usize) -> bool {
         // SAFETY: as above.
         self.bodies[body].is_some_and(|id| unsafe { b2Body_IsAwake(id) })
+    }
+
+    fn wake(&mut self, body: usize) {
+        if let Some(id) = self.bodies[body] {
+            // SAFETY: as above.
+            unsafe { b2Body_SetAwake(id, true) }
+        }
+    }
+
+    fn step(&mut self, dt: f32) {
+        // SAFETY: the world lives until drop.
+        unsafe { b2World_Step(self.world, dt, self.substeps) }
+    }
+
+    fn ray_cast(&mut self, origin: Vec2, translation: Vec2, mask: u64) -> Option<f32> {
+        queries::ray_cast(self.world, origin, translation, mask)
+    }
+
+    fn circle_cast(
+        &mut self,
+        center: Vec2,
+        radius: f32,
+        translation: Vec2,
+        mask: u64,
+    ) -> Option<f32> {
+        queries::circle_cast(self.world, center, radius, translation, mask)
+    }
+
+    fn count_overlaps(&mut self, lower: Vec2, upper: Vec2, mask: u64) -> usize {
+        queries::count_overlaps(self.world, lower, upper, mask)
     }
 }
 

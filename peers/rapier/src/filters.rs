@@ -33,6 +33,15 @@ impl Filters {
         let (membership, mask) = (Group::from(membership), Group::from(mask));
         Some(InteractionGroups::new(membership, mask, InteractionTestMode::And))
     }
+
+    /// Rapier's groups for a query of all shapes with a category in `mask`.
+    pub fn query(&self, mask: u64) -> InteractionGroups {
+        let mut bits = 0_u32;
+        for (bit, class) in self.classes.iter().enumerate().take(32) {
+            bits |= u32::from(class.category & mask != 0) << bit;
+        }
+        InteractionGroups::new(Group::ALL, Group::from(bits), InteractionTestMode::And)
+    }
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 mod filters;
 mod joints;
+mod queries;
 mod shapes;
 mod world;
 

@@ -6,6 +6,7 @@
 
 use crate::filters::Filters;
 use crate::joints::joint;
+use crate::queries;
 use crate::shapes::{collider, vector};
 use peers_worker::{BodyState, Engine, Host, Summary};
 use rapier2d::prelude::*;
@@ -41,11 +42,6 @@ impl Engine for Rapier {
             bodies: Vec::new(),
             joints: Vec::new(),
         })
-    }
-
-    fn step(&mut self, dt: f32) {
-        self.world.integration_parameters.dt = dt;
-        self.world.step();
     }
 
     fn summary(&self) -> Summary {
@@ -127,6 +123,33 @@ impl Host for Rapier {
     fn is_awake(&self, body: usize) -> bool {
         let body = self.world.bodies.get(self.bodies[body]);
         body.is_some_and(|body| !body.is_sleeping())
+    }
+
+    fn wake(&mut self, body: usize) {
+        self.world.wake_up(self.bodies[body], true);
+    }
+
+    fn step(&mut self, dt: f32) {
+        self.world.integration_parameters.dt = dt;
+        self.world.step();
+    }
+
+    fn ray_cast(&mut self, origin: Vec2, translation: Vec2, mask: u64) -> Option<f32> {
+        queries::ray_cast(&self.world, origin, translation, self.filters.query(mask))
+    }
+
+    fn circle_cast(
+        &mut self,
+        center: Vec2,
+        radius: f32,
+        translation: Vec2,
+        mask: u64,
+    ) -> Option<f32> {
+        queries::circle_cast(&self.world, center, radius, translation, self.filters.query(mask))
+    }
+
+    fn count_overlaps(&mut self, lower: Vec2, upper: Vec2, mask: u64) -> usize {
+        queries::count_overlaps(&self.world, lower, upper, self.filters.query(mask))
     }
 }
 

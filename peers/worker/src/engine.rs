@@ -18,12 +18,6 @@ pub trait Engine: Host + Sized {
         setting: &str,
     ) -> Result<Self, String>;
 
-    /// Is called once, after the scene's bodies and joints were added and before the first step.
-    fn start(&mut self) {}
-
-    /// One step of `dt` seconds.
-    fn step(&mut self, dt: f32);
-
     /// The world now.
     fn summary(&self) -> Summary;
 

@@ -34,7 +34,6 @@ fn run<E: Engine>(job: &Job) -> Result<Report, String> {
     for (a, b, def) in &scene.joints {
         engine.add_joint(*a, *b, def);
     }
-    engine.start();
     let build_ms = start.elapsed().as_secs_f64() * 1e3;
 
     engine.step(scene.dt);

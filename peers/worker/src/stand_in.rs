@@ -8,6 +8,11 @@ pub trait Host {
     fn set_velocity(&mut self, body: usize, velocity: Vec2);
     fn position(&self, body: usize) -> DVec2;
     fn is_awake(&self, body: usize) -> bool;
+    fn wake(&mut self, body: usize);
+    fn step(&mut self, dt: f32);
+    fn ray_cast(&mut self, origin: Vec2, translation: Vec2, mask: u64) -> Option<f32>;
+    fn circle_cast(&mut self, center: Vec2, radius: f32, translation: Vec2, mask: u64) -> Option<f32>;
+    fn count_overlaps(&mut self, lower: Vec2, upper: Vec2, mask: u64) -> usize;
 }
 #[derive(Default)]
 pub struct Scene {
