@@ -15,4 +15,4 @@ pub use clock::{mean, percentile};
 pub use engine::{BodyState, Engine, Summary};
 pub use protocol::{Answer, Job, Report};
 pub use run::serve;
-pub use stand_in::Host;
+pub use stand_in::{Host, scene_names};

@@ -84,3 +84,6 @@ pub fn scene(name: &str) -> Option<Scene> {
     }
     Some(s)
 }
+pub fn scene_names() -> Vec<String> {
+    ["large_pyramid", "joint_grid", "tumbler", "smash"].map(str::to_owned).to_vec()
+}
