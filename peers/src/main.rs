@@ -22,7 +22,7 @@ use table::Row;
 #[derive(Parser)]
 #[command(version)]
 struct Args {
-    /// Scenes to run; all benchmark scenes if none is given.
+    /// Scenes to run, by name or by tag (benchmark, box2d, huge, show); `benchmark` if none is given.
     #[arg(value_name = "SCENE")]
     scenes: Vec<String>,
     /// Engines to run, comma-separated, of: ours, ours-scalar, ours-sse2, ours-avx2, ours-avx512,
@@ -77,15 +77,16 @@ fn compare(args: &Args) -> Result<(), String> {
     Ok(())
 }
 
-fn scenes(wanted: &[String]) -> Result<Vec<String>, String> {
-    let known = peers_worker::scene_names();
-    if wanted.is_empty() {
-        return Ok(known);
+/// The scenes that the words of the command line stand for.
+fn scenes(words: &[String]) -> Result<Vec<&'static str>, String> {
+    if words.is_empty() {
+        return peers_worker::resolve("benchmark");
     }
-    match wanted.iter().find(|name| !known.contains(name)) {
-        Some(name) => Err(format!("no scene {name}; there are: {}", known.join(", "))),
-        None => Ok(wanted.to_vec()),
+    let mut names = Vec::new();
+    for word in words {
+        names.extend(peers_worker::resolve(word)?);
     }
+    Ok(names)
 }
 
 /// All engines on one scene, interleaved; engines that cannot run it are left out, with a word.

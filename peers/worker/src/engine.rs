@@ -1,8 +1,8 @@
 //! What an engine must offer to run a scene.
 
-use crate::stand_in::Host;
 use serde::{Deserialize, Serialize};
 use tiny_physics::{Settings, Vec2};
+use tiny_physics_scenes::Host;
 
 /// An engine that scenes can be built in and stepped.
 pub trait Engine: Host + Sized {

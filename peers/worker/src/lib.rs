@@ -9,10 +9,9 @@ mod clock;
 mod engine;
 mod protocol;
 mod run;
-pub mod stand_in;
 
 pub use clock::{mean, percentile};
 pub use engine::{BodyState, Engine, Summary};
 pub use protocol::{Answer, Job, Report};
-pub use run::serve;
-pub use stand_in::{Host, scene_names};
+pub use run::{resolve, serve};
+pub use tiny_physics_scenes::Host;

@@ -5,8 +5,9 @@
 //! before it (spawning, removing) included.
 
 use crate::clock::{Stopwatch, mean, peak_mib, percentile};
-use crate::{Answer, Engine, Job, Report, stand_in};
+use crate::{Answer, Engine, Job, Report};
 use std::time::Instant;
+use tiny_physics_scenes::{Options, Player, all, find, tags};
 
 /// Reads one job from standard input, runs it in the engine `E`, and prints the answer.
 pub fn serve<E: Engine>() {
@@ -24,28 +25,39 @@ fn read_job() -> Result<Job, String> {
     serde_json::from_str(&line).map_err(|error| format!("cannot understand the job: {error}"))
 }
 
+/// The names of the scenes that a word stands for: a scene's own name, or a tag such as `box2d`,
+/// `benchmark` or `show` for all scenes with it but the huge ones.
+///
+/// # Errors
+/// It is neither.
+pub fn resolve(word: &str) -> Result<Vec<&'static str>, String> {
+    let tagged = all().iter().filter(|e| e.has_tag(word) && (word == tags::HUGE || !e.has_tag(tags::HUGE)));
+    let names: Vec<_> = tagged.map(|entry| entry.name).collect();
+    if !names.is_empty() {
+        return Ok(names);
+    }
+    find(word).map(|entry| vec![entry.name]).map_err(|error| error.to_string())
+}
+
 fn run<E: Engine>(job: &Job) -> Result<Report, String> {
-    let scene = stand_in::scene(&job.scene).ok_or_else(|| format!("no scene {}", job.scene))?;
+    let entry = find(&job.scene).map_err(|error| error.to_string())?;
+    let scene = entry.build(Options::default());
     let start = Instant::now();
-    let mut engine = E::create(scene.gravity, &scene.settings, job.threads, &job.setting)?;
-    for body in &scene.bodies {
-        engine.add_body(body);
-    }
-    for (a, b, def) in &scene.joints {
-        engine.add_joint(*a, *b, def);
-    }
+    let engine = E::create(scene.gravity, &scene.settings, job.threads, &job.setting)?;
+    let mut player = Player::new(&scene, engine);
     let build_ms = start.elapsed().as_secs_f64() * 1e3;
 
-    engine.step(scene.dt);
+    player.step();
     let steps = job.steps.unwrap_or(scene.steps).saturating_sub(1).max(1);
     let (mut cpu_ms, mut wall_ms) = (Vec::new(), Vec::new());
     for _ in 0..steps {
         let watch = Stopwatch::start();
-        engine.step(scene.dt);
+        player.step();
         let (cpu, wall) = watch.elapsed_ms();
         cpu_ms.push(cpu);
         wall_ms.push(wall);
     }
+    let engine = player.host();
     Ok(Report {
         engine: E::name(),
         build: engine.build(),
