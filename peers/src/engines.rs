@@ -55,13 +55,7 @@ const ALL: [Config; 10] = [
     Config { name: "ours-avx2", config: "AVX2", setting: "avx2", by_default: false, ..OURS },
     Config { name: "ours-avx512", config: "AVX-512", setting: "avx512", by_default: false, ..OURS },
     BOX2D,
-    Config {
-        name: "box2d-avx2",
-        config: "AVX2",
-        features: &["avx2"],
-        needs_avx2: true,
-        ..BOX2D
-    },
+    Config { name: "box2d-avx2", config: "AVX2", features: &["avx2"], needs_avx2: true, ..BOX2D },
     RAPIER,
     Config {
         name: "rapier-v3",
@@ -87,7 +81,10 @@ const ALL: [Config; 10] = [
 /// A name that is not known.
 pub fn select(names: &[String]) -> Result<Vec<Config>, String> {
     if names.is_empty() {
-        return Ok(ALL.into_iter().filter(|c| c.by_default && (has_avx2() || !c.needs_avx2)).collect());
+        return Ok(ALL
+            .into_iter()
+            .filter(|c| c.by_default && (has_avx2() || !c.needs_avx2))
+            .collect());
     }
     let find = |name: &String| {
         let found = ALL.iter().find(|config| config.name == name).copied();

@@ -128,8 +128,18 @@ pub fn print_scene(rows: &[Row], threads: u16) {
     );
     println!(
         "{:14}{:>9}{:>9}{:>9}{:>8}  |{:>8}{:>8}{:>9}{:>8}{:>10}{:>12}{:>8}",
-        "engine", "cpu ms", "wall ms", "p99 ms", "ratio", "bodies", "joints", "contacts", "awake",
-        "height m", "energy J", "MiB",
+        "engine",
+        "cpu ms",
+        "wall ms",
+        "p99 ms",
+        "ratio",
+        "bodies",
+        "joints",
+        "contacts",
+        "awake",
+        "height m",
+        "energy J",
+        "MiB",
     );
     for row in rows {
         let end = &row.end;

@@ -14,7 +14,8 @@ fn filter(mask: u64) -> b2QueryFilter {
 /// Fraction of `translation` at which a ray meets the first shape.
 pub fn ray_cast(world: b2WorldId, origin: Vec2, translation: Vec2, mask: u64) -> Option<f32> {
     // SAFETY: the world is live, all else are plain values.
-    let hit = unsafe { b2World_CastRayClosest(world, vec2(origin), vec2(translation), filter(mask)) };
+    let hit =
+        unsafe { b2World_CastRayClosest(world, vec2(origin), vec2(translation), filter(mask)) };
     hit.hit.then_some(hit.fraction)
 }
 

@@ -28,11 +28,15 @@ pub fn geometry(def: &ShapeDef) -> Geometry {
     let frame = Transform::from_angle(def.offset, def.angle);
     let at = |v: Vec2| vec2(frame.apply(v));
     match &def.shape {
-        Shape::Circle { radius } => Geometry::Circle(b2Circle { center: at(Vec2::ZERO), radius: *radius }),
+        Shape::Circle { radius } => {
+            Geometry::Circle(b2Circle { center: at(Vec2::ZERO), radius: *radius })
+        }
         Shape::Aabb { half_extents } => {
             let (center, rotation) = (vec2(def.offset), rot(def.angle));
             // SAFETY: plain values in, a plain value out.
-            Geometry::Polygon(unsafe { b2MakeOffsetBox(half_extents.x, half_extents.y, center, rotation) })
+            Geometry::Polygon(unsafe {
+                b2MakeOffsetBox(half_extents.x, half_extents.y, center, rotation)
+            })
         }
         Shape::Capsule { a, b, radius } => {
             Geometry::Capsule(b2Capsule { center1: at(*a), center2: at(*b), radius: *radius })

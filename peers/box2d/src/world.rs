@@ -281,10 +281,12 @@ fn add_joint(world: b2WorldId, a: b2BodyId, b: b2BodyId, joint: &JointDef) -> Op
                 def.dampingRatio = spring.damping_ratio;
             }
             if let Some(limits) = limits {
-                (def.enableLimit, def.lowerAngle, def.upperAngle) = (true, limits.lower, limits.upper);
+                (def.enableLimit, def.lowerAngle, def.upperAngle) =
+                    (true, limits.lower, limits.upper);
             }
             if let Some(motor) = motor {
-                (def.enableMotor, def.motorSpeed, def.maxMotorTorque) = (true, motor.speed, motor.max);
+                (def.enableMotor, def.motorSpeed, def.maxMotorTorque) =
+                    (true, motor.speed, motor.max);
             }
             // SAFETY: `def` began as the default; world and bodies are live.
             Some(unsafe { b2CreateRevoluteJoint(world, &def) })
@@ -299,12 +301,14 @@ fn add_joint(world: b2WorldId, a: b2BodyId, b: b2BodyId, joint: &JointDef) -> Op
                 def.dampingRatio = spring.damping_ratio;
             }
             if let Some(limits) = limits {
-                (def.enableLimit, def.minLength, def.maxLength) = (true, limits.lower, limits.upper);
+                (def.enableLimit, def.minLength, def.maxLength) =
+                    (true, limits.lower, limits.upper);
                 // Without a spring Box2D's joint is rigid: a spring of no stiffness is free between limits.
                 def.enableSpring = true;
             }
             if let Some(motor) = motor {
-                (def.enableMotor, def.motorSpeed, def.maxMotorForce) = (true, motor.speed, motor.max);
+                (def.enableMotor, def.motorSpeed, def.maxMotorForce) =
+                    (true, motor.speed, motor.max);
             }
             // SAFETY: `def` began as the default; world and bodies are live.
             Some(unsafe { b2CreateDistanceJoint(world, &def) })

@@ -21,7 +21,9 @@ pub fn serve<E: Engine>() {
 
 fn read_job() -> Result<Job, String> {
     let mut line = String::new();
-    std::io::stdin().read_line(&mut line).map_err(|error| format!("cannot read the job: {error}"))?;
+    std::io::stdin()
+        .read_line(&mut line)
+        .map_err(|error| format!("cannot read the job: {error}"))?;
     serde_json::from_str(&line).map_err(|error| format!("cannot understand the job: {error}"))
 }
 
@@ -31,7 +33,8 @@ fn read_job() -> Result<Job, String> {
 /// # Errors
 /// It is neither.
 pub fn resolve(word: &str) -> Result<Vec<&'static str>, String> {
-    let tagged = all().iter().filter(|e| e.has_tag(word) && (word == tags::HUGE || !e.has_tag(tags::HUGE)));
+    let tagged =
+        all().iter().filter(|e| e.has_tag(word) && (word == tags::HUGE || !e.has_tag(tags::HUGE)));
     let names: Vec<_> = tagged.map(|entry| entry.name).collect();
     if !names.is_empty() {
         return Ok(names);
