@@ -119,12 +119,10 @@ pub fn print_json(rows: &[Row]) {
 /// Prints a scene's rows as a table, with notes on what differs.
 pub fn print_scene(rows: &[Row], threads: u16) {
     let Some(first) = rows.first() else { return };
+    let plural = if threads == 1 { "" } else { "s" };
     println!(
-        "\n{}: {} timed steps, {} runs, {threads} thread{}",
-        first.scene,
-        first.steps,
-        first.repeat,
-        if threads == 1 { "" } else { "s" },
+        "\n{}: {} timed steps, median of {}, {threads} thread{plural}, ratio to {}",
+        first.scene, first.steps, first.repeat, first.reference,
     );
     println!(
         "{:14}{:>9}{:>9}{:>9}{:>8}  |{:>8}{:>8}{:>9}{:>8}{:>10}{:>12}{:>8}",
