@@ -59,8 +59,15 @@ pub fn differences(this: &Summary, reference: &Summary) -> Vec<String> {
 mod tests {
     use super::*;
 
-    const REFERENCE: Summary =
-        Summary { bodies: 100, joints: 3, contacts: 200, awake: 99, height: 10.0, energy: 50.0 };
+    const REFERENCE: Summary = Summary {
+        bodies: 100,
+        joints: 3,
+        contacts: 200,
+        overlap: 0.0,
+        awake: 99,
+        height: 10.0,
+        energy: 50.0,
+    };
 
     #[test]
     fn small_differences_pass() {
@@ -70,8 +77,15 @@ mod tests {
 
     #[test]
     fn every_large_difference_is_named() {
-        let this =
-            Summary { bodies: 99, joints: 0, contacts: 100, awake: 9, height: -5.0, energy: 1.0 };
+        let this = Summary {
+            bodies: 99,
+            joints: 0,
+            contacts: 100,
+            overlap: 1.0,
+            awake: 9,
+            height: -5.0,
+            energy: 1.0,
+        };
         assert_eq!(differences(&this, &REFERENCE).len(), 5);
         let resting = Summary { energy: 0.5, ..REFERENCE };
         assert!(differences(&Summary { energy: 0.001, ..REFERENCE }, &resting).is_empty());

@@ -125,7 +125,7 @@ pub fn print_scene(rows: &[Row], threads: u16) {
         first.scene, first.steps, first.repeat, first.reference,
     );
     println!(
-        "{:14}{:>9}{:>9}{:>9}{:>8}  |{:>8}{:>8}{:>9}{:>8}{:>10}{:>12}{:>8}",
+        "{:14}{:>9}{:>9}{:>9}{:>8}  |{:>8}{:>8}{:>9}{:>8}{:>10}{:>12}{:>9}{:>8}",
         "engine",
         "cpu ms",
         "wall ms",
@@ -137,12 +137,13 @@ pub fn print_scene(rows: &[Row], threads: u16) {
         "awake",
         "height m",
         "energy J",
+        "deepest",
         "MiB",
     );
     for row in rows {
         let end = &row.end;
         println!(
-            "{:14}{:9.3}{:9.3}{:9.3}{:8.2}  |{:8}{:8}{:9}{:8}{:10.3}{:>12.3e}{:8.0}{}",
+            "{:14}{:9.3}{:9.3}{:9.3}{:8.2}  |{:8}{:8}{:9}{:8}{:10.3}{:>12.3e}{:9.4}{:8.0}{}",
             row.name,
             row.cpu_ms,
             row.wall_ms,
@@ -154,6 +155,7 @@ pub fn print_scene(rows: &[Row], threads: u16) {
             end.awake,
             end.height,
             end.energy,
+            end.overlap,
             row.peak_mib,
             if row.differs.is_empty() { "" } else { "  *" },
         );

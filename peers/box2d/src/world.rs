@@ -41,9 +41,16 @@ impl Engine for Box2d {
         let live = || self.bodies.iter().flatten();
         // SAFETY: the world lives until drop.
         let joints = unsafe { b2World_GetCounters(self.world) }.jointCount as usize;
+        let (mut contacts, mut overlap) = (0, 0.0_f32);
+        for &body in live() {
+            let (count, depth) = contacts_of(body);
+            contacts += count;
+            overlap = overlap.max(depth);
+        }
         // Each contact is on the lists of both of its bodies.
-        let contacts = live().map(|&body| touching_contacts(body)).sum::<usize>() / 2;
-        Summary { joints, contacts, ..Summary::of_bodies(live().map(|&body| body_state(body))) }
+        let (contacts, overlap) = (contacts / 2, overlap.into());
+        let bodies = Summary::of_bodies(live().map(|&body| body_state(body)));
+        Summary { joints, contacts, overlap, ..bodies }
     }
 
     fn name() -> String {
@@ -328,7 +335,8 @@ fn set_base(base: &mut b2JointDef, a: b2BodyId, b: b2BodyId, joint: &JointDef) {
     }
 }
 
-fn touching_contacts(body: b2BodyId) -> usize {
+/// Touching contacts of a body, and the depth of the deepest of their points.
+fn contacts_of(body: b2BodyId) -> (usize, f32) {
     // SAFETY: the body is live.
     let capacity = unsafe { b2Body_GetContactCapacity(body) };
     let mut data: Vec<b2ContactData> = Vec::with_capacity(capacity as usize);
@@ -337,7 +345,13 @@ fn touching_contacts(body: b2BodyId) -> usize {
         let count = b2Body_GetContactData(body, data.as_mut_ptr(), capacity);
         data.set_len(count as usize);
     }
-    data.iter().filter(|contact| contact.manifold.pointCount > 0).count()
+    let (mut touching, mut deepest) = (0, 0.0_f32);
+    for contact in &data {
+        let points = &contact.manifold.points[..contact.manifold.pointCount as usize];
+        touching += usize::from(!points.is_empty());
+        deepest = points.iter().fold(deepest, |depth, point| depth.max(-point.separation));
+    }
+    (touching, deepest)
 }
 
 fn body_state(body: b2BodyId) -> BodyState {

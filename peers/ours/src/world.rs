@@ -45,6 +45,7 @@ impl Engine for Ours {
         Summary {
             joints: self.world.joint_count(),
             contacts: self.world.contact_count(),
+            overlap: self.world.max_penetration().into(),
             ..Summary::of_bodies(states)
         }
     }

@@ -45,11 +45,15 @@ impl Engine for Rapier {
     }
 
     fn summary(&self) -> Summary {
-        let pairs = self.world.narrow_phase.contact_pairs();
-        let contacts = pairs.filter(|pair| pair.has_any_active_contact()).count();
+        let (mut contacts, mut overlap) = (0, 0.0_f32);
+        for pair in self.world.narrow_phase.contact_pairs() {
+            contacts += usize::from(pair.has_any_active_contact());
+            overlap = pair.find_deepest_contact().map_or(overlap, |(_, c)| overlap.max(-c.dist));
+        }
+        let overlap = overlap.into();
         let joints = self.world.impulse_joints.len();
         let bodies = self.world.bodies.iter().map(|(_, body)| body_state(body));
-        Summary { contacts, joints, ..Summary::of_bodies(bodies) }
+        Summary { contacts, joints, overlap, ..Summary::of_bodies(bodies) }
     }
 
     fn name() -> String {
