@@ -6,6 +6,8 @@
 
 mod bounds;
 mod cast;
+#[cfg(feature = "serde")]
+mod data;
 mod distance;
 mod hull;
 mod mass;

@@ -12,6 +12,11 @@ pub const MAX_VERTICES: usize = 8;
 /// A convex polygon of 3 to 8 vertices, anticlockwise, with an optional corner radius that rounds
 /// it outwards.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "super::data::PolygonData", into = "super::data::PolygonData")
+)]
 pub struct Polygon {
     vertices: [Vec2; MAX_VERTICES],
     normals: [Vec2; MAX_VERTICES],

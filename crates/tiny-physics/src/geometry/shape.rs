@@ -24,6 +24,11 @@ pub const MAX_EXTENT: f32 = 1.0e6;
 /// # Ok::<(), tiny_physics::Error>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "super::data::ShapeData", into = "super::data::ShapeData")
+)]
 pub enum Shape {
     /// A disk around the origin.
     Circle {
