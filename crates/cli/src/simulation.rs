@@ -1,17 +1,17 @@
 //! A scene that runs on the engine, as the commands need it.
 
 use crate::args::WorldArgs;
-use crate::engine::Engine;
 use crate::failure::Outcome;
 use core::fmt;
+use std::time::{Duration, Instant};
 use tiny_physics::{Aabb, BodyId, BodyKind, DVec2, Pose, Rot, Vec2, World};
-use tiny_physics_scenes::{Player, Scene};
+use tiny_physics_scenes::{Run, Scene};
 
 /// A scene, its world, and a body that the mouse may hold.
 pub struct Simulation {
     scene: Scene,
     how: WorldArgs,
-    player: Player<Engine>,
+    run: Run,
     held: Option<Held>,
 }
 
@@ -50,6 +50,8 @@ impl fmt::Display for Status {
     }
 }
 
+/// Time for steps between two pictures.
+const PICTURE_TIME: Duration = Duration::from_millis(25);
 /// The mouse lets a held body reach the pointer at this rate, 1/s.
 const PULL_RATE: f32 = 12.0;
 /// The mouse changes a body's speed by no more than this in a second, metres a second squared.
@@ -62,14 +64,13 @@ impl Simulation {
     /// The scene holds something that the engine refuses, or the machine lacks the SIMD level.
     pub fn new(scene: Scene, how: &WorldArgs) -> Outcome<Self> {
         scene.check()?;
-        let mut world = World::with_settings(scene.gravity, scene.settings);
+        let mut run = Run::start(&scene)?;
+        let world = run.world_mut();
         world.set_threads(usize::from(how.threads));
         if let Some(level) = how.simd {
             world.set_simd(level)?;
         }
-        let player = Player::new(&scene, Engine::new(world));
-        player.host().check()?;
-        Ok(Self { scene, how: how.clone(), player, held: None })
+        Ok(Self { scene, how: how.clone(), run, held: None })
     }
 
     /// Back to the start.
@@ -84,7 +85,19 @@ impl Simulation {
     /// One step of the scene.
     pub fn step(&mut self) {
         self.pull();
-        self.player.step();
+        self.run.step();
+    }
+
+    /// So many steps, fewer where they take longer than the time until the next picture: the scene
+    /// then plays slowly instead of standing still.
+    pub fn play(&mut self, steps: u32) {
+        let start = Instant::now();
+        for _ in 0..steps {
+            self.step();
+            if start.elapsed() > PICTURE_TIME {
+                break;
+            }
+        }
     }
 
     /// The scene.
@@ -94,16 +107,16 @@ impl Simulation {
 
     /// The world.
     pub fn world(&self) -> &World {
-        &self.player.host().world
+        self.run.world()
     }
 
     fn world_mut(&mut self) -> &mut World {
-        &mut self.player.host_mut().world
+        self.run.world_mut()
     }
 
     /// Length of a step, seconds.
     pub fn dt(&self) -> f32 {
-        self.player.dt()
+        self.run.dt()
     }
 
     /// Numbers for a status line.
@@ -182,7 +195,7 @@ impl Simulation {
     /// An impulse that brings the held point towards the pointer.
     fn pull(&mut self) {
         let Some(held) = self.held else { return };
-        let (dt, gravity) = (self.player.dt(), self.world().gravity);
+        let (dt, gravity) = (self.run.dt(), self.world().gravity);
         let Some(mut body) = self.world_mut().body_mut(held.body) else {
             self.held = None;
             return;

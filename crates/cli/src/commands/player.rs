@@ -108,9 +108,8 @@ impl Player {
             return;
         }
         let elapsed = if self.slow { 0.2 * elapsed } else { elapsed };
-        for _ in 0..self.clock.advance(elapsed) {
-            self.simulation.step();
-        }
+        let steps = self.clock.advance(elapsed);
+        self.simulation.play(steps);
     }
 
     fn title(&self) -> String {

@@ -187,9 +187,8 @@ impl Viewer {
     /// Lets the time pass that has passed.
     fn advance(&mut self, elapsed: f32) {
         if self.playing {
-            for _ in 0..self.clock.advance(elapsed * SPEEDS[self.speed]) {
-                self.simulation.step();
-            }
+            let steps = self.clock.advance(elapsed * SPEEDS[self.speed]);
+            self.simulation.play(steps);
         }
     }
 
