@@ -10,7 +10,6 @@ mod ids;
 mod joints;
 mod shapes;
 mod stats;
-mod temporary;
 mod validate;
 
 pub use bodies::{Body, BodyMut};
@@ -20,7 +19,6 @@ pub use ids::{BodyId, JointId, ShapeId};
 pub use joints::JointRef;
 pub use shapes::ShapeRef;
 pub use stats::{Stage, Stats};
-pub use temporary::JointRef;
 
 use crate::broad_phase::BroadPhase;
 use crate::describe::Settings;
