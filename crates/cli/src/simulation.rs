@@ -39,6 +39,17 @@ pub struct Status {
     pub moving: usize,
 }
 
+/// The part of the world that a picture should show.
+#[derive(Clone, Copy, Debug)]
+pub struct Framing {
+    /// Lower left corner.
+    pub min: DVec2,
+    /// Upper right corner.
+    pub max: DVec2,
+    /// Is there more ground outside, on which bodies may leave the picture?
+    pub goes_on: bool,
+}
+
 impl fmt::Display for Status {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { frame, contacts, deepest, awake, moving } = self;
@@ -133,21 +144,44 @@ impl Simulation {
         }
     }
 
-    /// The box around everything that matters: all bodies, but of static ones much wider than the
-    /// moving ones only the part near them.
-    pub fn bounds(&self) -> (DVec2, DVec2) {
+    /// What a picture should show at the start: all bodies with room for large ones to turn, but of
+    /// ground much larger than what moves only the part near it.
+    pub fn framing(&self) -> Framing {
         let world = self.world();
         let origin = self.some_position();
-        let (mut moving, mut fixed) = (Aabb::EMPTY, Aabb::EMPTY);
+        let reference = Pose::new(origin, Rot::IDENTITY);
+        let (mut moving, mut fixed, mut turning) = (Aabb::EMPTY, Aabb::EMPTY, Vec::new());
         for shape in world.shape_ids().filter_map(|id| world.shape(id)) {
             let Some(body) = world.body(shape.body()) else { continue };
-            let frame = body.pose().relative_to(Pose::new(origin, Rot::IDENTITY));
+            let frame = body.pose().relative_to(reference);
             let bounds = shape.shape().aabb(frame.compose(shape.local()));
-            let of_kind = if body.kind() == BodyKind::Static { &mut fixed } else { &mut moving };
-            *of_kind = of_kind.union(&bounds);
+            if body.kind() == BodyKind::Static {
+                fixed = fixed.union(&bounds);
+            } else {
+                moving = moving.union(&bounds);
+                let reach = (bounds.min - frame.p).abs().max((bounds.max - frame.p).abs()).length();
+                turning.push((frame.p, reach));
+            }
+        }
+        let large = 0.3 * largest_side(&moving);
+        for (center, reach) in turning.into_iter().filter(|(_, reach)| *reach > large) {
+            moving = moving.union(&Aabb::from_center(center, Vec2::splat(reach)));
         }
         let bounds = part_of_interest(moving, fixed);
-        (origin + bounds.min, origin + bounds.max)
+        let goes_on = !bounds.contains(&moving.union(&fixed)) && moving.is_valid();
+        Framing { min: origin + bounds.min, max: origin + bounds.max, goes_on }
+    }
+
+    /// The point with as many moving bodies left as right of it, and above as below.
+    pub fn middle_of_motion(&self) -> Option<DVec2> {
+        let world = self.world();
+        let bodies = world.body_ids().filter_map(|id| world.body(id));
+        let moving = bodies.filter(|body| body.kind() != BodyKind::Static);
+        let (mut xs, mut ys): (Vec<_>, Vec<_>) =
+            moving.map(|body| (body.center().x, body.center().y)).unzip();
+        xs.sort_by(f64::total_cmp);
+        ys.sort_by(f64::total_cmp);
+        Some(DVec2::new(*xs.get(xs.len() / 2)?, *ys.get(ys.len() / 2)?))
     }
 
     fn some_position(&self) -> DVec2 {
