@@ -8,6 +8,7 @@ mod events;
 mod hash;
 mod ids;
 mod joints;
+mod queries;
 mod shapes;
 mod stats;
 mod validate;
@@ -17,6 +18,7 @@ pub use contacts::{ContactPoint, ContactView};
 pub use events::{ContactBegin, ContactEnd, Events, Hit, JointBreak};
 pub use ids::{BodyId, JointId, ShapeId};
 pub use joints::JointRef;
+pub use queries::{ClosestPoint, QueryFilter, RayCast, RayCastHit, ShapeCastHit};
 pub use shapes::ShapeRef;
 pub use stats::{Stage, Stats};
 
