@@ -79,7 +79,7 @@ impl<'a> QueryFilter<'a> {
 
     /// Category bits that the broad phase may skip the rest of.
     pub(crate) fn tree_mask(&self) -> u64 {
-        if self.filter.group > 0 { u64::MAX } else { self.filter.mask }
+        self.filter.reach().1
     }
 }
 
