@@ -6,6 +6,8 @@
 //! next step, when there is a contact. The time that is lost is at most a step.
 
 use super::finalize::{FastBody, update_boxes};
+use super::one_way;
+use super::pairs::PairRule;
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes};
 use crate::geometry::{Sweep, ToiState, time_of_impact};
@@ -19,11 +21,12 @@ pub(crate) fn run(
     shapes: &Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
+    custom: Option<&dyn PairRule>,
 ) {
     for bullets in [false, true] {
         for body in fast.iter_mut() {
             if bodies.infos[body.body as usize].bullet == bullets {
-                sweep(body, bodies, shapes, joints, broad_phase);
+                sweep(body, bodies, shapes, joints, broad_phase, custom);
             }
         }
     }
@@ -36,8 +39,9 @@ fn sweep(
     shapes: &Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
+    custom: Option<&dyn PairRule>,
 ) {
-    let fraction = Impact { fast, bodies, shapes, joints, broad_phase }.first_fraction();
+    let fraction = Impact { fast, bodies, shapes, joints, broad_phase, custom }.first_fraction();
     fast.fraction = fraction;
     if fraction < 1.0 {
         let position = fast.start.p + fast.motion * fraction;
@@ -54,6 +58,8 @@ struct Impact<'a> {
     shapes: &'a Shapes,
     joints: &'a Joints,
     broad_phase: &'a BroadPhase,
+    /// The user's word on a pair of shapes, if there is any.
+    custom: Option<&'a dyn PairRule>,
 }
 
 impl Impact<'_> {
@@ -78,7 +84,7 @@ impl Impact<'_> {
                 }
                 self.broad_phase.tree(kind).query(&path, record.filter.reach().1, |proxy| {
                     if let Some(other) = self.broad_phase.user(crate::broad_phase::ProxyId(proxy)) {
-                        first = self.impact(record, &moving, other, first);
+                        first = self.impact((shape, record), &moving, other, first);
                     }
                     ControlFlow::Continue(())
                 });
@@ -95,9 +101,16 @@ impl Impact<'_> {
     }
 
     /// The first impact so far, taking one more shape into account.
-    fn impact(&self, record: &ShapeRecord, moving: &Sweep, other: u32, first: f32) -> f32 {
-        let other = &self.shapes.records[other as usize];
-        if !self.may_collide(record, other) {
+    fn impact(
+        &self,
+        (shape, record): (u32, &ShapeRecord),
+        moving: &Sweep,
+        index: u32,
+        first: f32,
+    ) -> f32 {
+        let other = &self.shapes.records[index as usize];
+        let forbids = |rule: &dyn PairRule| !rule.allows(self.bodies, self.shapes, shape, index);
+        if !self.may_collide(record, other) || self.custom.is_some_and(forbids) {
             return first;
         }
         let pose = self.bodies.poses[other.body as usize];
@@ -105,7 +118,13 @@ impl Impact<'_> {
         let fixed = Sweep::fixed(place.compose(other.central));
         let toi = time_of_impact(&record.shape, moving, &other.shape, &fixed, first);
         match toi.state {
-            ToiState::Hit | ToiState::Limit => toi.fraction,
+            ToiState::Hit | ToiState::Limit
+                if one_way::is_solid_side(other, -toi.normal, pose.q)
+                    && one_way::is_solid_side(record, toi.normal, self.fast.start.q) =>
+            {
+                toi.fraction
+            }
+            ToiState::Hit | ToiState::Limit => first,
             ToiState::Separated | ToiState::Touching => first,
         }
     }

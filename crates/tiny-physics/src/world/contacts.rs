@@ -6,7 +6,7 @@ use super::ids::{BodyId, ShapeId};
 use crate::dynamics::{Bucket, NULL, OVERFLOW, Place, flags};
 use crate::math::{DVec2, Vec2};
 use crate::simd::BLOCK;
-use crate::stages::sleep;
+use crate::stages::{one_way, pairs, sleep};
 
 /// One point of a contact.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -59,7 +59,7 @@ impl World {
         })
     }
 
-    fn view(&self, bucket: &Bucket, slot: usize) -> ContactView {
+    pub(super) fn view(&self, bucket: &Bucket, slot: usize) -> ContactView {
         let (block, lane) = (slot / BLOCK, slot % BLOCK);
         let contact = &self.contacts.records[bucket.contacts[slot] as usize];
         let (manifold, constraint) = (&bucket.manifolds[block], &bucket.constraints[block]);
@@ -118,7 +118,9 @@ impl World {
                     continue;
                 }
                 let end = (block * BLOCK + BLOCK).min(bucket.contacts.len());
-                hits.extend((block * BLOCK..end).filter_map(|slot| self.hit(bucket, slot, threshold)));
+                hits.extend(
+                    (block * BLOCK..end).filter_map(|slot| self.hit(bucket, slot, threshold)),
+                );
             }
         }
         hits.sort_unstable_by_key(|hit| (hit.shape_a, hit.shape_b));
@@ -165,7 +167,22 @@ impl World {
             let end = self.end_event(index);
             self.events.contact_end.push(end);
         }
+        // Changes of the shapes' events take effect between an end and the next begin.
+        let contact = &mut self.contacts.records[index as usize];
+        pairs::mix_materials(contact, &self.settings, &self.shapes);
         self.graph.insert(&mut self.bodies, &mut self.contacts, index);
+    }
+
+    /// May a contact that touches now begin? One-way platforms turn some down.
+    pub(super) fn may_begin(&self, index: u32, dt: f32) -> bool {
+        let length_unit = self.settings.length_unit;
+        let limits = one_way::Limits {
+            dt,
+            speculative_distance: super::SPECULATIVE_DISTANCE * length_unit,
+            length_unit,
+        };
+        let contact = &self.contacts.records[index as usize];
+        one_way::may_begin(contact, &self.bodies, &self.shapes, limits)
     }
 
     /// A contact of the graph has begun to touch.
