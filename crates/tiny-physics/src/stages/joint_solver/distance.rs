@@ -8,7 +8,7 @@
 
 use super::JointKernel;
 use super::axis::{AxisDef, Coordinate};
-use super::parts::{Pair, Row, Soft, Start, Stride, cross, dot, scale};
+use super::parts::{Pair, Row, Soft, Start, Stride, add, cross, dot, scale};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
 use crate::dynamics::{DistanceBlock, FrameLanes};
@@ -77,7 +77,14 @@ impl JointKernel for DistanceBlock {
         let soft = Soft::load::<BIAS>(stride, &self.soft);
         let rigid = stride.load(&self.soft.rigid);
         let inv_mass = pair.inv_mass_along(&row);
-        let mut velocity = pair.velocity_along(&row);
+        let mut velocity = if BIAS {
+            let ahead = scale(pair.anchor_velocity_ahead(stride), stride.h);
+            let (after, _) =
+                length_and_direction(stride, add(pair.gap(stride, &self.frame), ahead));
+            (after - value) * stride.inv_h
+        } else {
+            pair.velocity_along(&row)
+        };
         let mut change = stride.zero;
         if extras {
             change =

@@ -11,14 +11,22 @@ pub(super) struct Stride<L: Lanes> {
     pub(super) at: usize,
     pub(super) zero: L,
     pub(super) one: L,
+    /// Substep length, seconds, and its inverse.
+    pub(super) h: L,
     pub(super) inv_h: L,
 }
 
 impl<L: Lanes> Stride<L> {
     #[inline(always)]
-    pub(super) fn new(token: L::Token, at: usize, inv_h: f32) -> Self {
-        let (zero, one) = (L::splat(token, 0.0), L::splat(token, 1.0));
-        Self { token, at, zero, one, inv_h: L::splat(token, inv_h) }
+    pub(super) fn new(token: L::Token, at: usize, h: f32, inv_h: f32) -> Self {
+        Self {
+            token,
+            at,
+            zero: L::splat(token, 0.0),
+            one: L::splat(token, 1.0),
+            h: L::splat(token, h),
+            inv_h: L::splat(token, inv_h),
+        }
     }
 
     #[inline(always)]
@@ -95,11 +103,28 @@ pub(super) fn perp<L: Lanes>(v: [L; 2]) -> [L; 2] {
 #[inline(always)]
 fn turn<L: Lanes>(stride: &Stride<L>, angle: L) -> [L; 2] {
     let half = stride.splat(0.5) * angle;
-    let t = half + half * half * half * stride.splat(1.0 / 3.0);
+    let half_sq = half * half;
+    let cubic = stride.splat(1.0 / 3.0) + half_sq * stride.splat(2.0 / 15.0);
+    let t = half + half * half_sq * cubic;
     let t_sq = t * t;
     let inv = stride.one / (stride.one + t_sq);
     [(stride.one - t_sq) * inv, (t + t) * inv]
 }
+
+/// Velocity towards the centre of mass that an anchor's circle adds on the mean of a substep, to second
+/// order: `-h w^2 r / 2`. Fades out towards [`FASTEST_SWING`]: chains under a load a thousand times
+/// their weight, which shake anyway, exploded without.
+#[inline(always)]
+fn inward<L: Lanes>(stride: &Stride<L>, w: L, anchor: [L; 2]) -> [L; 2] {
+    let turn = stride.h * w;
+    let turn_sq = turn * turn;
+    let fade = stride.one - turn_sq * stride.splat(1.0 / (FASTEST_SWING * FASTEST_SWING));
+    let rate = stride.splat(-0.5) * turn * w * fade.max(stride.zero);
+    scale(anchor, rate)
+}
+
+/// Turn in a substep up to which the circles of anchors are followed, radians.
+const FASTEST_SWING: f32 = 0.2;
 
 /// Rotations of a joint's bodies at the start of the step.
 pub(super) struct Start<L> {
@@ -299,6 +324,25 @@ impl<L: Lanes> Pair<L> {
             (b[Slot::VY] + b[Slot::W] * self.anchor_b[0])
                 - (a[Slot::VY] + a[Slot::W] * self.anchor_a[0]),
         ]
+    }
+
+    /// Mean velocity of anchor B against anchor A over the coming substep if the bodies go on as they
+    /// do: unlike [`Self::anchor_velocity`] it knows that anchors move on circles.
+    #[inline(always)]
+    pub(super) fn anchor_velocity_ahead(&self, stride: &Stride<L>) -> [L; 2] {
+        let inward_a = inward(stride, self.a[Slot::W], self.anchor_a);
+        let inward_b = inward(stride, self.b[Slot::W], self.anchor_b);
+        add(self.anchor_velocity(), sub(inward_b, inward_a))
+    }
+
+    /// The one of the two that a pass solves for.
+    ///
+    /// Solving for where the anchors will be, then for their velocity there, is the scheme RATTLE
+    /// (Andersen 1983), which neither gains nor loses energy. With the velocity at the start of the
+    /// substep in both passes a pendulum of 1 m lost 10 mm of height in a minute at 4 substeps.
+    #[inline(always)]
+    pub(super) fn anchor_velocity_in<const BIAS: bool>(&self, stride: &Stride<L>) -> [L; 2] {
+        if BIAS { self.anchor_velocity_ahead(stride) } else { self.anchor_velocity() }
     }
 
     /// Velocity along a direction with lever arms on A and B.

@@ -15,6 +15,8 @@ const RIGID_DAMPING_RATIO: f32 = 2.0;
 const MAX_RATE_FRACTION: f32 = 0.25;
 /// The same for a softness that the user asks for.
 const MAX_SOFTNESS_FRACTION: f32 = 10.0;
+/// Damping ratios beyond act as this one: the rest is rounding.
+const MAX_DAMPING_RATIO: f32 = 1.0e4;
 
 /// What descriptions have to know of the step.
 pub(super) struct Rates {
@@ -68,7 +70,7 @@ fn least(a: f32, b: f32) -> f32 {
 
 /// By implicit Euler: it damps more than asked, which suits a constraint that should not swing.
 fn softness(spring: Spring, h: f32) -> Coefficients {
-    let soft = Softness::new(spring.hertz, spring.damping_ratio, h);
+    let soft = Softness::new(spring.hertz, least(spring.damping_ratio, MAX_DAMPING_RATIO), h);
     [soft.bias_rate * soft.mass_scale, soft.mass_scale, soft.impulse_scale]
 }
 
@@ -86,7 +88,7 @@ fn softness(spring: Spring, h: f32) -> Coefficients {
 /// cannot meet three numbers.
 pub(super) fn coefficients(spring: Spring, h: f32) -> Coefficients {
     let hertz = least(spring.hertz, MAX_RATE_FRACTION / h);
-    let zeta = f64::from(spring.damping_ratio);
+    let zeta = f64::from(least(spring.damping_ratio, MAX_DAMPING_RATIO));
     let w = core::f64::consts::TAU * f64::from(hertz) * f64::from(h);
     let product = exp_minus(2.0 * zeta * w);
     let sum = if zeta < 1.0 {
@@ -96,7 +98,8 @@ pub(super) fn coefficients(spring: Spring, h: f32) -> Coefficients {
         // zeta - root without cancellation.
         exp_minus(w / (zeta + root)) + exp_minus(w * (zeta + root))
     };
-    let push = (1.0 - sum + product) / f64::from(h);
+    let change = 1.0 - sum + product;
+    let push = if change > 0.0 { change / f64::from(h) } else { 0.0 };
     [push as f32, (1.0 - product) as f32, product as f32]
 }
 
