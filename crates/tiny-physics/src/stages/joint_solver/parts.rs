@@ -111,16 +111,20 @@ fn turn<L: Lanes>(stride: &Stride<L>, angle: L) -> [L; 2] {
     [(stride.one - t_sq) * inv, (t + t) * inv]
 }
 
+/// Turn in a substep, for what goes with its square. It fades out towards [`FASTEST_SWING`]: chains under
+/// a load a thousand times their weight, which shake anyway, exploded without.
+#[inline(always)]
+pub(super) fn slow_turn<L: Lanes>(stride: &Stride<L>, turn_rate: L) -> L {
+    let turn = stride.h * turn_rate;
+    let fade = stride.one - turn * turn * stride.splat(1.0 / (FASTEST_SWING * FASTEST_SWING));
+    L::select(fade.gt(stride.zero), turn * fade, stride.zero)
+}
+
 /// Velocity towards the centre of mass that an anchor's circle adds on the mean of a substep, to second
-/// order: `-h w^2 r / 2`. Fades out towards [`FASTEST_SWING`]: chains under a load a thousand times
-/// their weight, which shake anyway, exploded without.
+/// order: `-h w^2 r / 2`.
 #[inline(always)]
 fn inward<L: Lanes>(stride: &Stride<L>, w: L, anchor: [L; 2]) -> [L; 2] {
-    let turn = stride.h * w;
-    let turn_sq = turn * turn;
-    let fade = stride.one - turn_sq * stride.splat(1.0 / (FASTEST_SWING * FASTEST_SWING));
-    let rate = stride.splat(-0.5) * turn * w * fade.max(stride.zero);
-    scale(anchor, rate)
+    scale(anchor, stride.splat(-0.5) * w * slow_turn(stride, w))
 }
 
 /// Turn in a substep up to which the circles of anchors are followed, radians.
@@ -326,23 +330,25 @@ impl<L: Lanes> Pair<L> {
         ]
     }
 
-    /// Mean velocity of anchor B against anchor A over the coming substep if the bodies go on as they
-    /// do: unlike [`Self::anchor_velocity`] it knows that anchors move on circles.
+    /// What the circles of the anchors add to the mean of [`Self::anchor_velocity`] over the coming
+    /// substep.
     #[inline(always)]
-    pub(super) fn anchor_velocity_ahead(&self, stride: &Stride<L>) -> [L; 2] {
+    pub(super) fn inward(&self, stride: &Stride<L>) -> [L; 2] {
         let inward_a = inward(stride, self.a[Slot::W], self.anchor_a);
         let inward_b = inward(stride, self.b[Slot::W], self.anchor_b);
-        add(self.anchor_velocity(), sub(inward_b, inward_a))
+        sub(inward_b, inward_a)
     }
 
-    /// The one of the two that a pass solves for.
+    /// Velocity of anchor B against anchor A that a pass solves for: its mean over the coming substep
+    /// in the solve pass, that of now in the relax pass.
     ///
     /// Solving for where the anchors will be, then for their velocity there, is the scheme RATTLE
-    /// (Andersen 1983), which neither gains nor loses energy. With the velocity at the start of the
-    /// substep in both passes a pendulum of 1 m lost 10 mm of height in a minute at 4 substeps.
+    /// (Andersen 1983), which neither gains nor loses energy. With the velocity of now in both passes a
+    /// pendulum of 1 m lost 10 mm of height in a minute at 4 substeps.
     #[inline(always)]
     pub(super) fn anchor_velocity_in<const BIAS: bool>(&self, stride: &Stride<L>) -> [L; 2] {
-        if BIAS { self.anchor_velocity_ahead(stride) } else { self.anchor_velocity() }
+        let now = self.anchor_velocity();
+        if BIAS { add(now, self.inward(stride)) } else { now }
     }
 
     /// Velocity along a direction with lever arms on A and B.
