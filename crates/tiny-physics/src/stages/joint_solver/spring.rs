@@ -11,6 +11,10 @@ pub(super) type Coefficients = [f32; 3];
 const RIGID_HERTZ: f32 = 60.0;
 /// Its damping ratio.
 const RIGID_DAMPING_RATIO: f32 = 2.0;
+/// Factor on the decay of their impulses, by which chains stretch. Measured on 30 links with a ball of
+/// 1, 10, 100, 1000 times the weight at the end, 4 substeps: 1 gives 0.4, 1.5, 7, 80 % stretch, 0.7 gives
+/// 0.1, 1.1, 7, 73 %, 0.5 gives 0, 0.8, 4.5, 64 %; at 0.25 a slack bridge of 100 links whips itself apart.
+const RIGID_DECAY: f32 = 0.5;
 /// Springs and rigid parts act as if at most this fraction of the substep rate.
 const MAX_RATE_FRACTION: f32 = 0.25;
 /// The same for a softness that the user asks for.
@@ -31,7 +35,8 @@ impl Rates {
             hertz: least(RIGID_HERTZ, MAX_RATE_FRACTION / h),
             damping_ratio: RIGID_DAMPING_RATIO,
         };
-        Self { h, rigid: softness(spring, h) }
+        let [push, mass_scale, impulse_scale] = softness(spring, h);
+        Self { h, rigid: [push, mass_scale, RIGID_DECAY * impulse_scale] }
     }
 
     /// Of what a joint holds rigid.
