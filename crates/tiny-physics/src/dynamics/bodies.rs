@@ -222,6 +222,13 @@ impl Bodies {
         self.rows[index as usize][Slot::W]
     }
 
+    /// Inverse mass and inverse inertia as the solver uses them.
+    #[inline]
+    pub(crate) fn inverse_masses(&self, index: u32) -> (f32, f32) {
+        let row = &self.rows[index as usize];
+        (row[Slot::INV_MASS], row[Slot::INV_INERTIA])
+    }
+
     pub(crate) fn set_velocity(&mut self, index: u32, velocity: Vec2) {
         let row = &mut self.rows[index as usize];
         row[Slot::VX] = velocity.x;

@@ -10,7 +10,7 @@
 //!
 //! Inside a colour, contacts lie in buckets by pair class, so a block is of one kind.
 
-use super::blocks::{ConstraintBlock, ManifoldBlock, SurfaceBlock, flags};
+use super::blocks::{BlockHead, ConstraintBlock, ManifoldBlock, SurfaceBlock, flags};
 use super::bodies::Bodies;
 use super::contacts::{Contact, Contacts, Place, SavedPoint};
 use crate::geometry::manifold::PairClass;
@@ -32,13 +32,17 @@ pub(crate) struct Bucket {
     /// As long as `manifolds`, but empty in the idle colour.
     pub(crate) constraints: Vec<ConstraintBlock>,
     pub(crate) surfaces: Vec<SurfaceBlock>,
-    /// [`flags`] of each block.
-    pub(crate) flags: Vec<u8>,
-    /// Which lanes touched in the last narrow phase, as bits.
-    pub(crate) touching: Vec<u16>,
+    pub(crate) heads: Vec<BlockHead>,
 }
 
 impl Bucket {
+    /// The two bodies of a slot.
+    #[inline]
+    pub(crate) fn bodies(&self, slot: usize) -> (u32, u32) {
+        let block = &self.manifolds[slot / BLOCK];
+        (block.body_a[slot % BLOCK], block.body_b[slot % BLOCK])
+    }
+
     /// Appends a contact and gives its slot.
     fn push(&mut self, index: u32, contact: &Contact, constrained: bool) -> u32 {
         let slot = self.contacts.len();
@@ -46,8 +50,7 @@ impl Bucket {
         self.contacts.push(index);
         if lane == 0 {
             self.manifolds.push(ManifoldBlock::NULL);
-            self.touching.push(0);
-            self.flags.push(0);
+            self.heads.push(BlockHead::default());
             if constrained {
                 self.constraints.push(ConstraintBlock::NULL);
                 self.surfaces.push(SurfaceBlock::NULL);
@@ -61,7 +64,7 @@ impl Bucket {
         manifold.friction[lane] = contact.friction;
         manifold.id_1[lane] = contact.saved[0].id;
         manifold.id_2[lane] = contact.saved[1].id;
-        self.touching[block] |= u16::from(contact.touching) << lane;
+        self.heads[block].touching |= u16::from(contact.touching) << lane;
         if constrained {
             self.fill_constraint(block, lane, contact);
         }
@@ -81,7 +84,7 @@ impl Bucket {
         surface.rolling_resistance[lane] = contact.rolling_resistance;
         surface.tangent_speed[lane] = contact.tangent_speed;
         surface.rolling_impulse[lane] = 0.0;
-        self.flags[block] |= contact_flags(contact);
+        self.heads[block].flags |= contact_flags(contact);
     }
 
     /// Takes a slot out; the last one moves into it. Gives the contact that moved, if one did.
@@ -90,23 +93,48 @@ impl Bucket {
         let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
         let (last_block, last_lane) = (last / BLOCK, last % BLOCK);
         self.contacts.swap_remove(slot as usize);
-        move_lane(&mut self.manifolds, (block, lane), (last_block, last_lane), &ManifoldBlock::NULL, ManifoldBlock::copy_lane);
+        move_lane(
+            &mut self.manifolds,
+            (block, lane),
+            (last_block, last_lane),
+            &ManifoldBlock::NULL,
+            ManifoldBlock::copy_lane,
+        );
         if !self.constraints.is_empty() {
-            move_lane(&mut self.constraints, (block, lane), (last_block, last_lane), &ConstraintBlock::NULL, ConstraintBlock::copy_lane);
-            move_lane(&mut self.surfaces, (block, lane), (last_block, last_lane), &SurfaceBlock::NULL, SurfaceBlock::copy_lane);
+            move_lane(
+                &mut self.constraints,
+                (block, lane),
+                (last_block, last_lane),
+                &ConstraintBlock::NULL,
+                ConstraintBlock::copy_lane,
+            );
+            move_lane(
+                &mut self.surfaces,
+                (block, lane),
+                (last_block, last_lane),
+                &SurfaceBlock::NULL,
+                SurfaceBlock::copy_lane,
+            );
         }
-        let touching = self.touching[last_block] >> last_lane & 1;
-        self.touching[block] = self.touching[block] & !(1 << lane) | touching << lane;
-        self.touching[last_block] &= !(1 << last_lane);
-        self.flags[block] |= self.flags[last_block];
+        let last_head = self.heads[last_block];
+        let touching = last_head.touching >> last_lane & 1;
+        let head = &mut self.heads[block];
+        head.touching = head.touching & !(1 << lane) | touching << lane;
+        head.flags |= last_head.flags;
+        self.heads[last_block].touching &= !(1 << last_lane);
         if last_lane == 0 {
             self.manifolds.pop();
             self.constraints.pop();
             self.surfaces.pop();
-            self.flags.pop();
-            self.touching.pop();
+            self.heads.pop();
         }
         self.contacts.get(slot as usize).copied()
+    }
+
+    /// The impulses of all slots, in order; nothing for contacts that do not touch.
+    pub(crate) fn saved_points(&self) -> impl Iterator<Item = [SavedPoint; 2]> + '_ {
+        let count = if self.constraints.is_empty() { 0 } else { self.contacts.len() };
+        (0..count as u32).map(|slot| self.saved(slot))
     }
 
     /// The impulses of a slot, to be kept while the contact is elsewhere.
@@ -152,11 +180,17 @@ pub(crate) struct Graph {
     /// `buckets[colour][class]`.
     pub(crate) buckets: Vec<[Bucket; PairClass::COUNT]>,
     touching: usize,
+    /// Blocks (colour, class, block) that got a touching contact since the last narrow phase.
+    fresh: Vec<(u8, u8, u32)>,
 }
 
 impl Graph {
     pub(crate) fn new() -> Self {
-        Self { buckets: (0..=IDLE).map(|_| Default::default()).collect(), touching: 0 }
+        Self {
+            buckets: (0..=IDLE).map(|_| Default::default()).collect(),
+            touching: 0,
+            fresh: Vec::new(),
+        }
     }
 
     /// Contacts that touch and are awake.
@@ -177,6 +211,25 @@ impl Graph {
         let bucket = &mut self.buckets[colour][contact.class as usize];
         let slot = bucket.push(index, contact, colour != IDLE);
         contact.place = Place::Graph { colour: colour as u8, slot };
+        if colour != IDLE {
+            self.fresh.push((colour as u8, contact.class as u8, slot / BLOCK as u32));
+        }
+    }
+
+    /// Forgets which blocks are fresh: the narrow phase is about to visit all.
+    pub(crate) fn clear_fresh(&mut self) {
+        self.fresh.clear();
+    }
+
+    /// The blocks whose constraints are not written yet: colour, class, block. Each once, in order.
+    pub(crate) fn take_fresh(&mut self) -> Vec<(u8, u8, u32)> {
+        let mut fresh = core::mem::take(&mut self.fresh);
+        fresh.sort_unstable();
+        fresh.dedup();
+        fresh.retain(|&(colour, class, block)| {
+            (block as usize) < self.buckets[colour as usize][class as usize].manifolds.len()
+        });
+        fresh
     }
 
     /// Takes a contact out of the graph, if it is there, and saves its impulses in the record.

@@ -9,8 +9,9 @@ use super::joint_blocks::{
     DistanceBlock, DriveBlock, GearBlock, Impulses, JointClass, JointLanes, PrismaticBlock,
     PulleyBlock, RevoluteBlock, WeldBlock, WheelBlock,
 };
-use super::joints::{JointPlace, Joints};
+use super::joints::{JointPlace, JointRecord, Joints};
 use crate::simd::BLOCK;
+use crate::threads::Team;
 
 /// Number of colours of joints.
 pub(crate) const JOINT_COLOURS: usize = 24;
@@ -95,38 +96,38 @@ pub(crate) struct JointColour {
 
 /// Does something with the bucket of a class.
 macro_rules! with_bucket {
-    ($colour:expr, $class:expr, $bucket:ident => $body:expr) => {
+    ([$($borrow:tt)+] $colour:expr, $class:expr, $bucket:ident => $body:expr) => {
         match $class {
             JointClass::Distance => {
-                let $bucket = &mut $colour.distance;
+                let $bucket = $($borrow)+ $colour.distance;
                 $body
             }
             JointClass::Revolute => {
-                let $bucket = &mut $colour.revolute;
+                let $bucket = $($borrow)+ $colour.revolute;
                 $body
             }
             JointClass::Prismatic => {
-                let $bucket = &mut $colour.prismatic;
+                let $bucket = $($borrow)+ $colour.prismatic;
                 $body
             }
             JointClass::Weld => {
-                let $bucket = &mut $colour.weld;
+                let $bucket = $($borrow)+ $colour.weld;
                 $body
             }
             JointClass::Wheel => {
-                let $bucket = &mut $colour.wheel;
+                let $bucket = $($borrow)+ $colour.wheel;
                 $body
             }
             JointClass::Drive => {
-                let $bucket = &mut $colour.drive;
+                let $bucket = $($borrow)+ $colour.drive;
                 $body
             }
             JointClass::Pulley => {
-                let $bucket = &mut $colour.pulley;
+                let $bucket = $($borrow)+ $colour.pulley;
                 $body
             }
             JointClass::Gear => {
-                let $bucket = &mut $colour.gear;
+                let $bucket = $($borrow)+ $colour.gear;
                 $body
             }
         }
@@ -156,6 +157,20 @@ impl JointColour {
             + self.drive.joints.len()
             + self.pulley.joints.len()
             + self.gear.joints.len()
+    }
+
+    /// Works on all blocks in runs, spread over the team.
+    pub(crate) fn for_each_run(&mut self, team: &Team, work: impl Fn(JointBlocks<'_>) + Sync) {
+        /// Blocks that one member of the team works on at a time.
+        const RUN: usize = 4;
+        if team.member_count() == 1 || self.count() <= RUN * BLOCK {
+            self.runs(usize::MAX).for_each(work);
+        } else {
+            let mut runs: Vec<_> = self.runs(RUN).map(Some).collect();
+            team.for_each_chunk_mut(&mut runs, 1, |_, runs| {
+                runs.iter_mut().filter_map(Option::take).for_each(&work);
+            });
+        }
     }
 
     /// Its blocks in runs of at most `length` blocks, always in the same order. Runs may be worked on
@@ -217,7 +232,7 @@ impl JointGraph {
         }
         let colour = take_colour(bodies, record.body_a, record.body_b);
         let ends = [record.body_a, record.body_b];
-        let slot = with_bucket!(self.colours[colour], class, bucket => {
+        let slot = with_bucket!([&mut] self.colours[colour], class, bucket => {
             bucket.push(index, ends, &record.saved)
         });
         record.place = JointPlace::Graph { colour: colour as u8, slot };
@@ -233,7 +248,7 @@ impl JointGraph {
         let Some(class) = record.class() else { return };
         record.place = JointPlace::Asleep;
         let ends = [record.body_a, record.body_b];
-        let moved = with_bucket!(self.colours[usize::from(colour)], class, bucket => {
+        let moved = with_bucket!([&mut] self.colours[usize::from(colour)], class, bucket => {
             record.saved = bucket.saved(slot);
             bucket.swap_remove(slot)
         });
@@ -242,6 +257,16 @@ impl JointGraph {
         }
         give_colour_back(bodies, ends, usize::from(colour));
         self.count -= 1;
+    }
+
+    /// The impulses of a joint, wherever they are kept.
+    pub(crate) fn impulses(&self, record: &JointRecord) -> Impulses {
+        match (record.place, record.class()) {
+            (JointPlace::Graph { colour, slot }, Some(class)) => {
+                with_bucket!([&] self.colours[usize::from(colour)], class, bucket => bucket.saved(slot))
+            }
+            _ => record.saved,
+        }
     }
 
     /// Gives a joint another description, also while it is in the graph. Impulses live on unless the
@@ -280,7 +305,7 @@ impl JointGraph {
         else {
             return;
         };
-        with_bucket!(self.colours[usize::from(colour)], class, bucket => bucket.mark_stale(slot));
+        with_bucket!([&mut] self.colours[usize::from(colour)], class, bucket => bucket.mark_stale(slot));
         self.any_stale = true;
     }
 }
@@ -389,7 +414,7 @@ mod tests {
             placed += 1;
             let ends = [record.body_a, record.body_b];
             let class = record.class().expect("a joint in the graph has a class");
-            with_bucket!(graph.colours[usize::from(colour)], class, bucket => {
+            with_bucket!([&mut] graph.colours[usize::from(colour)], class, bucket => {
                 assert_eq!(bucket.joints[slot as usize], index);
                 let frame = bucket.blocks[slot as usize / BLOCK].frame();
                 assert_eq!(frame.body_a[slot as usize % BLOCK], ends[0]);

@@ -126,6 +126,29 @@ impl Joints {
         .map(|edge| (edge / 2, edge % 2))
     }
 
+    /// Does no joint between the two bodies forbid them to collide?
+    pub(crate) fn may_collide(&self, bodies: &Bodies, a: u32, b: u32) -> bool {
+        let first = |body: u32| bodies.infos[body as usize].first_joint;
+        if first(a) == NULL || first(b) == NULL {
+            return true;
+        }
+        // Every joint of a static body may be a long list; that of a dynamic one is short.
+        let (body, other) = if bodies.is_dynamic(a) { (a, b) } else { (b, a) };
+        self.of_body(first(body)).all(|(index, side)| {
+            let record = &self.records[index as usize];
+            let partner = if side == 0 { record.body_b } else { record.body_a };
+            partner != other || record.def.collide_connected
+        })
+    }
+
+    /// The bodies of joints that tie islands together: those in the graph or of class none.
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
+        self.records
+            .iter()
+            .filter(|record| record.alive && record.place != JointPlace::Asleep)
+            .map(|record| (record.body_a, record.body_b))
+    }
+
     /// Keeps the list of breakable joints in line with a joint's description.
     pub(crate) fn note_breakable(&mut self, index: u32) {
         let breakable = self.records[index as usize].def.break_at.is_some();

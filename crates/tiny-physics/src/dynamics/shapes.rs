@@ -1,9 +1,11 @@
 //! Shapes: what hangs on bodies.
 
 use super::bodies::NULL;
+use crate::broad_phase::ProxyId;
 use crate::describe::{Filter, Material};
 use crate::geometry::Shape;
-use crate::math::{Aabb, Transform, Vec2};
+use crate::geometry::manifold::ShapeClass;
+use crate::math::{Transform, Vec2};
 use crate::simd::Row;
 
 /// One shape of a body.
@@ -12,12 +14,15 @@ pub(crate) struct ShapeRecord {
     pub(crate) alive: bool,
     pub(crate) generation: u32,
     pub(crate) body: u32,
+    pub(crate) class: ShapeClass,
     /// Geometry in the shape's frame.
     pub(crate) shape: Shape,
     /// Shape's frame in the body's frame.
     pub(crate) local: Transform,
     /// Shape's frame in the frame of the body's centre of mass.
     pub(crate) central: Transform,
+    /// Frame of the shape as a rounded box (see [`Shapes::rows`]) in the shape's frame.
+    pub(crate) box_frame: Transform,
     pub(crate) material: Material,
     pub(crate) filter: Filter,
     pub(crate) sensor: bool,
@@ -37,10 +42,8 @@ pub(crate) struct Shapes {
     pub(crate) records: Vec<ShapeRecord>,
     /// The shape as a rounded box in the frame of the body's centre of mass, for the lane kernels:
     /// place x, y, rotation c, s, half extents x, y, radius, and 1 where this is all there is to the
-    /// shape (0 for general polygons, whose row is a bounding circle).
+    /// shape (0 for general polygons, whose row is their own frame and a bounding circle).
     pub(crate) rows: Vec<Row>,
-    /// Box plus margin that the broad phase knows.
-    pub(crate) fat: Vec<Aabb>,
     free: Vec<u32>,
     count: usize,
 }
@@ -63,12 +66,10 @@ impl Shapes {
             record.generation = self.records[index as usize].generation;
             self.records[index as usize] = record;
             self.rows[index as usize] = [0.0; 8];
-            self.fat[index as usize] = Aabb::default();
             index
         } else {
             self.records.push(record);
             self.rows.push([0.0; 8]);
-            self.fat.push(Aabb::default());
             self.records.len() as u32 - 1
         }
     }
@@ -82,6 +83,12 @@ impl Shapes {
         record.proxy = NULL;
         record.next = NULL;
         self.free.push(index);
+    }
+
+    /// The leaf of a shape in the broad phase.
+    #[inline]
+    pub(crate) fn proxy(&self, index: u32) -> ProxyId {
+        ProxyId(self.records[index as usize].proxy)
     }
 
     /// Indices of a body's shapes, from the head of its list.

@@ -5,13 +5,13 @@
 //! iterates on. Running it twice on one block gives the same block, so blocks that got new contacts
 //! after the pass are simply run again.
 
-use crate::dynamics::{Bucket, ConstraintBlock, ManifoldBlock, ShapeRecord, SurfaceBlock, flags};
-use crate::geometry::manifold::{
-    self, BoxBox, BoxCapsule, BoxCircle, CapsuleCapsule, CapsuleCircle, CircleCircle, LaneManifold,
-    LanePair, PairClass,
+use crate::dynamics::{
+    BlockHead, Bucket, ConstraintBlock, ManifoldBlock, ShapeRecord, SurfaceBlock, flags,
 };
+use crate::geometry::manifold::{self, LaneManifold, LanePair, PairClass};
 use crate::math::{Pose, Rot, Transform, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, Row, SimdLevel, dispatch};
+use crate::threads::{SharedSlice, Team};
 
 /// What the narrow phase reads.
 #[derive(Clone, Copy)]
@@ -26,33 +26,63 @@ pub(crate) struct Context<'a> {
 }
 
 /// Blocks of one bucket that are updated together.
-pub(crate) struct Blocks<'a> {
-    pub(crate) manifolds: &'a mut [ManifoldBlock],
+struct Blocks<'a> {
+    manifolds: &'a mut [ManifoldBlock],
+    heads: &'a mut [BlockHead],
     /// Empty for contacts that do not touch.
-    pub(crate) constraints: &'a mut [ConstraintBlock],
-    pub(crate) surfaces: &'a mut [SurfaceBlock],
-    pub(crate) flags: &'a [u8],
-    pub(crate) touching: &'a mut [u16],
+    constraints: &'a mut [ConstraintBlock],
+    surfaces: &'a mut [SurfaceBlock],
     /// Contacts in these blocks; the last block may be part full.
-    pub(crate) count: usize,
+    count: usize,
 }
 
-impl<'a> Blocks<'a> {
-    /// All blocks of a bucket.
-    pub(crate) fn of(bucket: &'a mut Bucket) -> Self {
-        Self {
-            count: bucket.contacts.len(),
-            manifolds: &mut bucket.manifolds,
-            constraints: &mut bucket.constraints,
-            surfaces: &mut bucket.surfaces,
-            flags: &bucket.flags,
-            touching: &mut bucket.touching,
-        }
-    }
+/// Blocks that one member of the team updates at a time.
+const CHUNK: usize = 4;
+
+/// Updates all blocks of a bucket.
+pub(crate) fn update_bucket(
+    team: &Team,
+    context: Context<'_>,
+    class: PairClass,
+    bucket: &mut Bucket,
+) {
+    let count = bucket.contacts.len();
+    let block_count = bucket.manifolds.len();
+    let manifolds = SharedSlice::new(&mut bucket.manifolds);
+    let heads = SharedSlice::new(&mut bucket.heads);
+    let constraints = SharedSlice::new(&mut bucket.constraints);
+    let surfaces = SharedSlice::new(&mut bucket.surfaces);
+    team.for_each_chunk(block_count, CHUNK, |range| {
+        let blocks = Blocks {
+            count: count.min(range.end * BLOCK) - range.start * BLOCK,
+            manifolds: manifolds.range(range.clone()),
+            heads: heads.range(range.clone()),
+            constraints: constraints.range(range.clone()),
+            surfaces: surfaces.range(range),
+        };
+        update(context, class, blocks);
+    });
 }
 
-/// Updates blocks of a class.
-pub(crate) fn update(context: Context<'_>, class: PairClass, blocks: Blocks<'_>) {
+/// Updates one block of a bucket of touching contacts.
+pub(crate) fn update_block(
+    context: Context<'_>,
+    class: PairClass,
+    bucket: &mut Bucket,
+    block: usize,
+) {
+    let range = block..block + 1;
+    let blocks = Blocks {
+        count: (bucket.contacts.len() - block * BLOCK).min(BLOCK),
+        manifolds: &mut bucket.manifolds[range.clone()],
+        heads: &mut bucket.heads[range.clone()],
+        constraints: &mut bucket.constraints[range.clone()],
+        surfaces: &mut bucket.surfaces[range],
+    };
+    update(context, class, blocks);
+}
+
+fn update(context: Context<'_>, class: PairClass, blocks: Blocks<'_>) {
     match class {
         PairClass::BoxBox => run::<BoxBox>(context, blocks),
         PairClass::BoxCapsule => run::<BoxCapsule>(context, blocks),
@@ -83,9 +113,11 @@ trait PairKernel {
 }
 
 macro_rules! lane_pair_kernel {
-    ($($class:ident $points:literal),*) => {$(
+    ($($class:ident = $function:ident),*) => {$(
+        struct $class;
+
         impl PairKernel for $class {
-            const POINTS: usize = $points;
+            const POINTS: usize = PairClass::$class.max_points();
             #[inline(always)]
             fn collide<L: Lanes>(
                 token: L::Token,
@@ -94,13 +126,20 @@ macro_rules! lane_pair_kernel {
                 _: usize,
                 pair: &LanePair<L>,
             ) -> LaneManifold<L> {
-                <$class as manifold::LaneCollide>::collide(token, pair, L::splat(token, context.speculative_distance))
+                manifold::$function(token, pair, L::splat(token, context.speculative_distance))
             }
         }
     )*};
 }
 
-lane_pair_kernel!(BoxBox 2, BoxCapsule 2, BoxCircle 1, CapsuleCapsule 2, CapsuleCircle 1, CircleCircle 1);
+lane_pair_kernel!(
+    BoxBox = box_box,
+    BoxCapsule = box_capsule,
+    BoxCircle = box_circle,
+    CapsuleCapsule = capsule_capsule,
+    CapsuleCircle = capsule_circle,
+    CircleCircle = circle_circle
+);
 
 /// Pairs with a general polygon: one after the other.
 struct General;
@@ -126,7 +165,8 @@ impl PairKernel for General {
                 Vec2::new(frames[0][i], frames[1][i]),
                 Rot { c: frames[2][i], s: frames[3][i] },
             );
-            let values = general_lane(context, block.shape_a[at + i], block.shape_b[at + i], b_in_a);
+            let values =
+                general_lane(context, block.shape_a[at + i], block.shape_b[at + i], b_in_a);
             for (lane, value) in out.iter_mut().zip(values) {
                 lane[i] = value;
             }
@@ -143,9 +183,12 @@ impl PairKernel for General {
 
 /// One manifold as ten floats: normal, two points, separations, ids.
 fn general_lane(context: &Context<'_>, a: u32, b: u32, b_in_a: Transform) -> [f32; 10] {
-    let (Some(a), Some(b)) = (context.shapes.get(a as usize), context.shapes.get(b as usize)) else {
+    let (Some(a), Some(b)) = (context.shapes.get(a as usize), context.shapes.get(b as usize))
+    else {
         return NO_POINTS;
     };
+    // The kernels' frame of B is that of its rounded box; A, a general polygon, has no other frame.
+    let b_in_a = b_in_a.compose(b.box_frame.inverse());
     let m = manifold::collide(&a.shape, &b.shape, b_in_a, context.speculative_distance);
     let mut out = NO_POINTS;
     out[0] = m.normal.x;
@@ -180,17 +223,19 @@ impl<K: PairKernel> LaneKernel for Update<'_, K> {
             let mut at = 0;
             while at < lanes {
                 let bits = if constrained {
-                    let geometry = Geometry::<L>::compute::<K>(token, &context, &blocks.manifolds[index], at);
+                    let geometry =
+                        Geometry::<L>::compute::<K>(token, &context, &blocks.manifolds[index], at);
                     write_constraint::<L, K>(token, &context, &geometry, &mut blocks, index, at);
                     geometry.touching
                 } else {
-                    Geometry::<L>::compute::<K>(token, &context, &blocks.manifolds[index], at).touching
+                    Geometry::<L>::compute::<K>(token, &context, &blocks.manifolds[index], at)
+                        .touching
                 };
                 touching |= bits << at;
                 at += L::WIDTH;
             }
             let valid = if lanes == BLOCK { u16::MAX } else { (1 << lanes) - 1 };
-            blocks.touching[index] = touching as u16 & valid;
+            blocks.heads[index].touching = touching as u16 & valid;
         }
     }
 }
@@ -225,10 +270,7 @@ impl<L: Lanes> Geometry<L> {
         let frame_b = compose(turn_b, [shape_b[2], shape_b[3]]);
         let place_a = rotate(turn_a, [shape_a[0], shape_a[1]]);
         let place_b = rotate(turn_b, [shape_b[0], shape_b[1]]);
-        let offset = [
-            between[0] + place_b[0] - place_a[0],
-            between[1] + place_b[1] - place_a[1],
-        ];
+        let offset = [between[0] + place_b[0] - place_a[0], between[1] + place_b[1] - place_a[1]];
         let pair = LanePair {
             p: unrotate(frame_a, offset),
             q: unrotate(frame_a, frame_b),
@@ -352,7 +394,7 @@ fn write_constraint<L: Lanes, K: PairKernel>(
     if K::POINTS == 2 {
         L::select(geometry.valid[1], geometry.id[1], none).store(&mut manifold.id_2[at..]);
     }
-    if blocks.flags[index] & (flags::RESTITUTION | flags::HIT) != 0 {
+    if blocks.heads[index].flags & (flags::RESTITUTION | flags::HIT) != 0 {
         let surface = &mut blocks.surfaces[index];
         approach[0].store(&mut surface.approach_1[at..]);
         approach[1].store(&mut surface.approach_2[at..]);

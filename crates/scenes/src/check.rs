@@ -1,0 +1,227 @@
+//! Checks a scene: every number makes sense, every index points at something.
+
+use crate::error::{Problem, SceneError};
+use crate::scene::{Scene, SceneJoint, VERSION};
+use tiny_physics::{
+    DVec2, Error, JointDef, JointKind, Limits, Material, Motor, RigidBody, Settings, Shape,
+    ShapeDef, Spring, Vec2,
+};
+
+/// Result of a check; the error's field is relative to what was checked.
+pub(crate) type Check = Result<(), SceneError>;
+
+impl Scene {
+    /// Can a world be made of it?
+    ///
+    /// # Errors
+    /// The first field that makes no sense, by its path.
+    pub fn check(&self) -> Check {
+        if self.version != VERSION {
+            return Err(SceneError::new("version", Problem::Version(self.version.into())));
+        }
+        finite_vec("gravity", self.gravity)?;
+        check_settings(&self.settings).map_err(|e| e.under("settings"))?;
+        positive("dt", self.dt)?;
+        each("bodies", &self.bodies, check_body)?;
+        each("joints", &self.joints, |joint| check_scene_joint(joint, self.bodies.len()))?;
+        match &self.script {
+            Some(script) => script.check(self).map_err(|e| e.under("script")),
+            None => Ok(()),
+        }
+    }
+}
+
+fn each<T>(name: &str, items: &[T], check: impl Fn(&T) -> Check) -> Check {
+    let checked = |(i, item)| check(item).map_err(|e| e.under(format_args!("{name}[{i}]")));
+    items.iter().enumerate().try_for_each(checked)
+}
+
+fn check_settings(settings: &Settings) -> Check {
+    at_least_one("substeps", settings.substeps)?;
+    at_least_one("iterations", settings.iterations)?;
+    positive("length_unit", settings.length_unit)?;
+    positive("contact_hertz", settings.contact_hertz)?;
+    not_negative("contact_damping_ratio", settings.contact_damping_ratio)?;
+    not_negative("push_speed", settings.push_speed)?;
+    not_negative("restitution_threshold", settings.restitution_threshold)?;
+    not_negative("hit_event_threshold", settings.hit_event_threshold)?;
+    positive("max_speed", settings.max_speed)?;
+    not_negative("time_to_sleep", settings.time_to_sleep)
+}
+
+pub(crate) fn check_body(body: &RigidBody) -> Check {
+    finite_dvec("position", body.position)?;
+    finite("angle", body.angle)?;
+    finite_vec("velocity", body.velocity)?;
+    finite("angular_velocity", body.angular_velocity)?;
+    not_negative("linear_damping", body.linear_damping)?;
+    not_negative("angular_damping", body.angular_damping)?;
+    finite("gravity_scale", body.gravity_scale)?;
+    body.mass.map_or(Ok(()), |mass| positive("mass", mass))?;
+    not_negative("sleep_speed", body.sleep_speed)?;
+    each("shapes", &body.shapes, check_shape_def)
+}
+
+fn check_shape_def(def: &ShapeDef) -> Check {
+    check_shape(&def.shape).map_err(|e| e.under("shape"))?;
+    finite_vec("offset", def.offset)?;
+    finite("angle", def.angle)?;
+    check_material(&def.material).map_err(|e| e.under("material"))?;
+    def.one_way.map_or(Ok(()), |direction| finite_vec("one_way", direction))
+}
+
+fn check_material(material: &Material) -> Check {
+    not_negative("density", material.density)?;
+    not_negative("friction", material.friction)?;
+    not_negative("restitution", material.restitution)?;
+    not_negative("rolling_resistance", material.rolling_resistance)?;
+    finite("tangent_speed", material.tangent_speed)
+}
+
+/// The engine says what is wrong with a shape; here the error finds its field.
+fn check_shape(shape: &Shape) -> Check {
+    let Err(error) = shape.validate() else { return Ok(()) };
+    let (variant, fields): (_, &[&str]) = match shape {
+        Shape::Circle { .. } => ("circle", &["radius"]),
+        Shape::Aabb { .. } => ("aabb", &["half_extents"]),
+        Shape::Capsule { .. } => ("capsule", &["radius", "a", "b"]),
+        Shape::Segment { .. } => ("segment", &["a", "b"]),
+        Shape::Polygon(_) => ("polygon", &["radius", "vertices"]),
+    };
+    let name = match &error {
+        Error::NotFinite { name, .. } | Error::OutOfRange { name, .. } => *name,
+        _ => "",
+    };
+    let field = match fields {
+        [only] => only,
+        _ => fields.iter().find(|f| name.split([' ', '.']).any(|word| word == **f)).unwrap_or(&""),
+    };
+    Err(SceneError::new(*field, Problem::Value(error)).under(variant))
+}
+
+fn check_scene_joint(joint: &SceneJoint, bodies: usize) -> Check {
+    index("a", joint.a, bodies, "bodies")?;
+    index("b", joint.b, bodies, "bodies")?;
+    if joint.a == joint.b {
+        let reason = "a joint needs two different bodies";
+        return Err(SceneError::new("b", Problem::Value(Error::Unsupported { reason })));
+    }
+    check_joint(&joint.def)
+}
+
+pub(crate) fn check_joint(def: &JointDef) -> Check {
+    check_kind(&def.kind).map_err(|e| e.under("kind"))?;
+    finite_vec("anchor_a", def.anchor_a)?;
+    finite_vec("anchor_b", def.anchor_b)?;
+    finite("angle_a", def.angle_a)?;
+    finite("angle_b", def.angle_b)?;
+    def.softness.as_ref().map_or(Ok(()), |s| check_spring("softness", s))?;
+    let Some(limit) = def.break_at else { return Ok(()) };
+    not_negative("force", limit.force)
+        .and_then(|()| not_negative("torque", limit.torque))
+        .map_err(|e| e.under("break_at"))
+}
+
+/// Kinds that this crate does not know are left to the engine.
+fn check_kind(kind: &JointKind) -> Check {
+    match kind {
+        JointKind::Distance { length, spring, limits, motor } => positive("length", *length)
+            .and_then(|()| check_parts(spring.as_ref(), limits.as_ref(), motor.as_ref()))
+            .map_err(|e| e.under("distance")),
+        JointKind::Revolute { spring, target_angle, limits, motor } => {
+            finite("target_angle", *target_angle)
+                .and_then(|()| check_parts(spring.as_ref(), limits.as_ref(), motor.as_ref()))
+                .map_err(|e| e.under("revolute"))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn check_parts(spring: Option<&Spring>, limits: Option<&Limits>, motor: Option<&Motor>) -> Check {
+    spring.map_or(Ok(()), |s| check_spring("spring", s))?;
+    limits.map_or(Ok(()), |l| check_limits(l).map_err(|e| e.under("limits")))?;
+    motor.map_or(Ok(()), |m| check_motor(m).map_err(|e| e.under("motor")))
+}
+
+fn check_spring(name: &str, spring: &Spring) -> Check {
+    positive("hertz", spring.hertz)
+        .and_then(|()| not_negative("damping_ratio", spring.damping_ratio))
+        .map_err(|e| e.under(name))
+}
+
+fn check_limits(limits: &Limits) -> Check {
+    finite("lower", limits.lower)?;
+    finite("upper", limits.upper)?;
+    range("upper", limits.upper, limits.upper >= limits.lower, "the lower limit or above")
+}
+
+fn check_motor(motor: &Motor) -> Check {
+    finite("speed", motor.speed)?;
+    not_negative("max", motor.max)
+}
+
+fn value(name: &str, error: Error) -> SceneError {
+    SceneError::new(name, Problem::Value(error))
+}
+
+pub(crate) fn range(name: &'static str, x: f32, ok: bool, allowed: &'static str) -> Check {
+    if ok { Ok(()) } else { Err(value(name, Error::OutOfRange { name, value: x.into(), allowed })) }
+}
+
+pub(crate) fn finite(name: &'static str, x: f32) -> Check {
+    if x.is_finite() {
+        Ok(())
+    } else {
+        Err(value(name, Error::NotFinite { name, value: x.into() }))
+    }
+}
+
+pub(crate) fn positive(name: &'static str, x: f32) -> Check {
+    finite(name, x)?;
+    range(name, x, x > 0.0, "above 0")
+}
+
+pub(crate) fn not_negative(name: &'static str, x: f32) -> Check {
+    finite(name, x)?;
+    range(name, x, x >= 0.0, "0 or above")
+}
+
+pub(crate) fn at_least_one(name: &'static str, count: u32) -> Check {
+    if count >= 1 {
+        return Ok(());
+    }
+    Err(value(name, Error::OutOfRange { name, value: count.into(), allowed: "1 or above" }))
+}
+
+/// A count of things that a script makes; the upper end keeps a file from asking for more than memory holds.
+pub(crate) fn count(name: &'static str, count: u32) -> Check {
+    if (1..=100_000).contains(&count) {
+        return Ok(());
+    }
+    Err(value(name, Error::OutOfRange { name, value: count.into(), allowed: "1 to 100000" }))
+}
+
+pub(crate) fn finite_vec(name: &'static str, v: Vec2) -> Check {
+    finite_dvec(name, DVec2::new(v.x.into(), v.y.into()))
+}
+
+pub(crate) fn finite_dvec(name: &'static str, v: DVec2) -> Check {
+    for (i, x) in [v.x, v.y].into_iter().enumerate() {
+        if !x.is_finite() {
+            return Err(SceneError::new(
+                format!("[{i}]"),
+                Problem::Value(Error::NotFinite { name, value: x }),
+            )
+            .under(name));
+        }
+    }
+    Ok(())
+}
+
+pub(crate) fn index(name: &str, index: usize, count: usize, of: &'static str) -> Check {
+    if index < count {
+        Ok(())
+    } else {
+        Err(SceneError::new(name, Problem::Index { index, count, of }))
+    }
+}

@@ -1,0 +1,36 @@
+//! Scenes for tiny-physics: the benchmark scenes that engines are compared on, small scenes that show the
+//! engine off, the scene file, and what plays a scene on an engine.
+//!
+//! A [`Scene`] is plain data: bodies, joints, settings, and a [`Script`] for what happens from outside
+//! while it runs. [`find`] builds one by name, [`Scene::load`] reads one from a file, [`Player`] plays it
+//! on any [`Host`].
+//!
+//! ```
+//! use tiny_physics_scenes::{Options, Scene, find};
+//! let scene = find("bridge")?.build(Options::default());
+//! let text = scene.to_json()?;
+//! assert_eq!(Scene::from_json(&text)?, scene);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod build;
+mod catalogue;
+mod check;
+mod error;
+mod file;
+mod host;
+mod human;
+mod json;
+mod random;
+mod scene;
+mod script;
+mod shapes;
+mod world_host;
+
+pub use build::Options;
+pub use catalogue::{Entry, UnknownScene, all, find, tags};
+pub use error::{Problem, SceneError};
+pub use host::{Host, Player};
+pub use scene::{Counts, Scene, SceneJoint, VERSION};
+pub use script::{Queries, Rain, Script, Terrain, WakeSleepers, Walkers};
+pub use world_host::{Run, WorldHost};

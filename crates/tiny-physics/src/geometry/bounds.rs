@@ -1,0 +1,120 @@
+//! Axis-aligned boxes and circles around and inside shapes.
+
+use super::Shape;
+use crate::math::{Aabb, DVec2, Pose, Rot, Transform, Vec2};
+
+impl Shape {
+    /// Box around the shape seen from the parent frame, rounded to nearest.
+    pub fn aabb(&self, frame: Transform) -> Aabb {
+        let (core, radius) = self.turned_core_box(frame.q);
+        let reach = Vec2::splat(radius);
+        Aabb::new(frame.p + core.min - reach, frame.p + core.max + reach)
+    }
+
+    /// Box around the shape in the world, rounded outwards from 64 bits.
+    pub fn world_aabb(&self, pose: Pose) -> Aabb {
+        let (core, radius) = self.turned_core_box(pose.q);
+        let reach = f64::from(radius);
+        let reach = DVec2::new(reach, reach);
+        Aabb::rounded_out(pose.p + core.min - reach, pose.p + core.max + reach)
+    }
+
+    /// Radius of the circle around the frame's origin that holds the shape, metres.
+    pub fn bounding_radius(&self) -> f32 {
+        let core = self.core();
+        core.reach(Vec2::ZERO) + core.radius
+    }
+
+    /// Radius of the disk around the centre of mass that fits inside, metres: half of the shape's thickness,
+    /// more or less. A body that moves less in a step cannot pass a wall by its centre. 0 for a segment.
+    pub fn inner_radius(&self) -> f32 {
+        let core = self.core();
+        if core.count < 3 {
+            return core.radius;
+        }
+        let center = self.mass_properties(1.0).center;
+        let mut least = f32::INFINITY;
+        for i in 0..core.edge_count() {
+            let depth = core.normal(i).dot(core.points[i] - center);
+            if depth < least {
+                least = depth;
+            }
+        }
+        least + core.radius
+    }
+
+    /// Box around the turned core, relative to the frame's origin, and the radius to add.
+    #[inline]
+    fn turned_core_box(&self, q: Rot) -> (Aabb, f32) {
+        match self {
+            Self::Circle { radius } => (Aabb::new(Vec2::ZERO, Vec2::ZERO), *radius),
+            Self::Aabb { half_extents } => {
+                let (c, s) = (q.c.abs(), q.s.abs());
+                let half = Vec2::new(
+                    c * half_extents.x + s * half_extents.y,
+                    s * half_extents.x + c * half_extents.y,
+                );
+                (Aabb::new(-half, half), 0.0)
+            }
+            Self::Capsule { a, b, radius } => (turned_box(&[*a, *b], q), *radius),
+            Self::Segment { a, b } => (turned_box(&[*a, *b], q), 0.0),
+            Self::Polygon(polygon) => (turned_box(polygon.vertices(), q), polygon.radius()),
+        }
+    }
+}
+
+#[inline]
+fn turned_box(points: &[Vec2], q: Rot) -> Aabb {
+    let mut bounds = Aabb::EMPTY;
+    for point in points {
+        let turned = q.rotate(*point);
+        bounds = Aabb::new(bounds.min.min(turned), bounds.max.max(turned));
+    }
+    bounds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn boxes_fit_tightly() {
+        let at = |x, y, angle| Transform::from_angle(Vec2::new(x, y), angle);
+        let circle = Shape::circle(0.5).unwrap().aabb(at(1.0, 2.0, 0.3));
+        assert_eq!(circle, Aabb::from_center(Vec2::new(1.0, 2.0), Vec2::splat(0.5)));
+        let capsule = Shape::capsule(-Vec2::X, Vec2::X, 0.25).unwrap();
+        assert_eq!(capsule.aabb(at(0.0, 0.0, 0.0)).half_extents(), Vec2::new(1.25, 0.25));
+        let quarter = at(0.0, 0.0, core::f32::consts::FRAC_PI_2);
+        for shape in [Shape::rect(1.0, 2.0).unwrap(), Shape::aabb_box(Vec2::new(1.0, 2.0)).unwrap()]
+        {
+            let half = shape.aabb(quarter).half_extents();
+            assert!((half - Vec2::new(2.0, 1.0)).length() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn circles_inside_and_around() {
+        let close = |a: f32, b: f32| (a - b).abs() < 1e-6;
+        let capsule = Shape::capsule(Vec2::ZERO, Vec2::X * 2.0, 0.25).unwrap();
+        assert!(close(capsule.bounding_radius(), 2.25) && close(capsule.inner_radius(), 0.25));
+        let rect = Shape::rect(3.0, 4.0).unwrap();
+        assert!(close(rect.bounding_radius(), 5.0) && close(rect.inner_radius(), 3.0));
+        let circle = Shape::circle(0.5).unwrap();
+        assert!(close(circle.bounding_radius(), 0.5) && close(circle.inner_radius(), 0.5));
+        let segment = Shape::segment(Vec2::ZERO, Vec2::X).unwrap();
+        assert!(close(segment.bounding_radius(), 1.0) && close(segment.inner_radius(), 0.0));
+        let triangle = Shape::regular(3, 1.0).unwrap();
+        assert!(close(triangle.inner_radius(), 0.5));
+    }
+
+    #[test]
+    fn world_boxes_lose_nothing_far_away() {
+        let circle = Shape::circle(0.3).unwrap();
+        for k in 0..100 {
+            let p = DVec2::new(1.0e6 + f64::from(k) * 0.013, -3.0e5 - f64::from(k) * 0.77);
+            let bounds = circle.world_aabb(Pose::new(p, Rot::IDENTITY));
+            assert!(f64::from(bounds.min.x) <= p.x - 0.3 && f64::from(bounds.min.y) <= p.y - 0.3);
+            assert!(f64::from(bounds.max.x) >= p.x + 0.3 && f64::from(bounds.max.y) >= p.y + 0.3);
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! Which kernel a pair belongs to, and shapes as rounded boxes.
+
+use super::{LaneManifold, LanePair};
+use super::{box_box, box_capsule, box_circle, capsule_capsule, capsule_circle, circle_circle};
+use crate::geometry::{Polygon, Shape};
+use crate::math::{Rot, Transform, Vec2};
+use crate::simd::Lanes;
+
+/// A shape as the kernels see it, in rising order of rank: a pair is stored with the higher rank as A.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Hash)]
+#[repr(u8)]
+pub(crate) enum ShapeClass {
+    /// A point and a radius.
+    Circle,
+    /// A segment and a radius, which may be 0.
+    Capsule,
+    /// A box, rounded or not, anywhere in its body's frame.
+    Box,
+    /// Any other convex polygon.
+    General,
+}
+
+impl ShapeClass {
+    /// The class of a shape.
+    pub fn of(shape: &Shape) -> Self {
+        match shape {
+            Shape::Circle { .. } => Self::Circle,
+            Shape::Capsule { .. } | Shape::Segment { .. } => Self::Capsule,
+            Shape::Aabb { .. } => Self::Box,
+            Shape::Polygon(polygon) if polygon.as_rect().is_some() => Self::Box,
+            Shape::Polygon(_) => Self::General,
+        }
+    }
+}
+
+/// The kernel of a pair: pairs of one class are collided together, in lanes.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Hash)]
+#[repr(u8)]
+pub(crate) enum PairClass {
+    /// Box and box.
+    BoxBox,
+    /// Box as A, capsule as B.
+    BoxCapsule,
+    /// Box as A, circle as B.
+    BoxCircle,
+    /// Capsule and capsule.
+    CapsuleCapsule,
+    /// Capsule as A, circle as B.
+    CapsuleCircle,
+    /// Circle and circle.
+    CircleCircle,
+    /// At least one general polygon: not in lanes.
+    General,
+}
+
+impl PairClass {
+    /// Number of classes.
+    pub const COUNT: usize = Self::ALL.len();
+    /// Every class, in the order of their numbers.
+    pub const ALL: [Self; 7] = [
+        Self::BoxBox,
+        Self::BoxCapsule,
+        Self::BoxCircle,
+        Self::CapsuleCapsule,
+        Self::CapsuleCircle,
+        Self::CircleCircle,
+        Self::General,
+    ];
+
+    /// Greatest number of contact points of a pair: 1 where a circle takes part.
+    pub const fn max_points(self) -> usize {
+        match self {
+            Self::BoxCircle | Self::CapsuleCircle | Self::CircleCircle => 1,
+            Self::BoxBox | Self::BoxCapsule | Self::CapsuleCapsule | Self::General => 2,
+        }
+    }
+
+    /// The class of two shapes, in either order. The one with the higher [`ShapeClass`] is A.
+    pub fn of(a: ShapeClass, b: ShapeClass) -> Self {
+        let (high, low) = if a < b { (b, a) } else { (a, b) };
+        match (high, low) {
+            (ShapeClass::General, _) => Self::General,
+            (ShapeClass::Box, ShapeClass::Capsule) => Self::BoxCapsule,
+            (ShapeClass::Box, ShapeClass::Circle) => Self::BoxCircle,
+            (ShapeClass::Box, _) => Self::BoxBox,
+            (ShapeClass::Capsule, ShapeClass::Circle) => Self::CapsuleCircle,
+            (ShapeClass::Capsule, _) => Self::CapsuleCapsule,
+            (ShapeClass::Circle, _) => Self::CircleCircle,
+        }
+    }
+
+    /// Collides pairs of this class that lie in lanes. `General` pairs have no lane form and do not come
+    /// here; [`collide_general`](super::collide_general) is for them.
+    #[inline(always)]
+    pub fn collide<L: Lanes>(
+        self,
+        token: L::Token,
+        pair: &LanePair<L>,
+        max_separation: L,
+    ) -> LaneManifold<L> {
+        match self {
+            Self::BoxBox | Self::General => box_box(token, pair, max_separation),
+            Self::BoxCapsule => box_capsule(token, pair, max_separation),
+            Self::BoxCircle => box_circle(token, pair, max_separation),
+            Self::CapsuleCapsule => capsule_capsule(token, pair, max_separation),
+            Self::CapsuleCircle => capsule_circle(token, pair, max_separation),
+            Self::CircleCircle => circle_circle(token, pair, max_separation),
+        }
+    }
+}
+
+/// All points within `radius` of a box, which may have no width or no height or neither.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub(crate) struct RoundedBox {
+    /// The box's own frame, its centre at the origin, in the shape's frame.
+    pub frame: Transform,
+    /// Half width and half height, metres, 0 or more.
+    pub half_extents: Vec2,
+    /// Metres, 0 or more.
+    pub radius: f32,
+}
+
+impl RoundedBox {
+    /// The shape as a rounded box; `None` for [`ShapeClass::General`].
+    pub fn of(shape: &Shape) -> Option<Self> {
+        match *shape {
+            Shape::Circle { radius } => {
+                Some(Self { frame: Transform::IDENTITY, half_extents: Vec2::ZERO, radius })
+            }
+            Shape::Aabb { half_extents } => {
+                Some(Self { frame: Transform::IDENTITY, half_extents, radius: 0.0 })
+            }
+            Shape::Capsule { a, b, radius } => Some(Self::capsule(a, b, radius)),
+            Shape::Segment { a, b } => Some(Self::capsule(a, b, 0.0)),
+            Shape::Polygon(ref polygon) => Self::rectangle(polygon),
+        }
+    }
+
+    /// The x axis from `a` to `b`; a capsule without length keeps the frame unturned.
+    fn capsule(a: Vec2, b: Vec2, radius: f32) -> Self {
+        let (direction, length) = (b - a).direction_and_length();
+        let turned = direction != Vec2::ZERO;
+        let q = if turned { Rot { c: direction.x, s: direction.y } } else { Rot::IDENTITY };
+        let half = if turned { 0.5 * length } else { 0.0 };
+        Self { frame: Transform::new((a + b) * 0.5, q), half_extents: Vec2::new(half, 0.0), radius }
+    }
+
+    fn rectangle(polygon: &Polygon) -> Option<Self> {
+        let (half_extents, frame) = polygon.as_rect()?;
+        Some(Self { frame, half_extents, radius: polygon.radius() })
+    }
+
+    /// Half extents and radius as the kernels take them.
+    #[inline]
+    pub fn extents(&self) -> [f32; 3] {
+        [self.half_extents.x, self.half_extents.y, self.radius]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_rectangle_is_a_box_in_its_frame() {
+        let center = Vec2::new(0.3, -0.7);
+        for k in 0..12 {
+            let q = Rot::from_angle(k as f32 * 0.5);
+            let polygon = Polygon::turned_rect(2.0, 0.5, center, q).unwrap();
+            let rounded = RoundedBox::of(&polygon.into()).unwrap();
+            assert!((rounded.frame.p - center).length() < 1e-6);
+            assert!(rounded.frame.q.angle_from(q).abs() < 1e-6);
+            assert!((rounded.half_extents - Vec2::new(2.0, 0.5)).length() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn a_capsule_without_length_is_a_circle() {
+        let point = Vec2::new(1.0, 2.0);
+        let rounded = RoundedBox::of(&Shape::Capsule { a: point, b: point, radius: 0.5 }).unwrap();
+        assert_eq!(rounded.frame, Transform::new(point, Rot::IDENTITY));
+        assert_eq!(rounded.half_extents, Vec2::ZERO);
+    }
+
+    #[test]
+    fn the_class_of_a_pair_does_not_depend_on_order() {
+        use ShapeClass::{Box, Capsule, Circle, General};
+        let mut seen = Vec::new();
+        for a in [Circle, Capsule, Box, General] {
+            for b in [Circle, Capsule, Box, General] {
+                assert_eq!(PairClass::of(a, b), PairClass::of(b, a));
+                if !seen.contains(&PairClass::of(a, b)) {
+                    seen.push(PairClass::of(a, b));
+                }
+            }
+        }
+        assert_eq!(seen.len(), PairClass::COUNT);
+    }
+}

@@ -1,0 +1,63 @@
+//! Input and output of the lane kernels.
+
+use crate::simd::Lanes;
+
+/// Separation of a point that is not there.
+pub(crate) const ABSENT: f32 = f32::MAX;
+
+/// Pairs of rounded boxes, one a lane.
+#[derive(Clone, Copy)]
+pub(crate) struct LanePair<L> {
+    /// Centre of B's box in the frame of A's box, metres.
+    pub p: [L; 2],
+    /// Rotation of B's box in the frame of A's box, cosine and sine.
+    pub q: [L; 2],
+    /// Half extents and radius of A, metres.
+    pub a: [L; 3],
+    /// Half extents and radius of B, metres.
+    pub b: [L; 3],
+}
+
+/// Manifolds, one a lane, in the frame of A's box.
+#[derive(Clone, Copy)]
+pub(crate) struct LaneManifold<L> {
+    /// Unit, from A to B. Never NaN, also where no point is there.
+    pub normal: [L; 2],
+    /// Midway between both surfaces. Zero for an absent point.
+    pub points: [[L; 2]; 2],
+    /// Metres, negative is overlap; [`ABSENT`] for a point that is not there. Either of the two can
+    /// be the missing one: a point keeps its place as long as its features face each other.
+    pub separation: [L; 2],
+    /// Feature ids, 0 to 31; that of the second point is that of the first plus one.
+    pub id: [L; 2],
+}
+
+impl<L: Lanes> LaneManifold<L> {
+    /// A manifold of one point in the first place, if it is near enough.
+    #[inline(always)]
+    pub fn single(
+        token: L::Token,
+        normal: [L; 2],
+        point: [L; 2],
+        separation: L,
+        max_separation: L,
+    ) -> Self {
+        let (zero, absent) = (L::splat(token, 0.0), L::splat(token, ABSENT));
+        let near = separation.le(max_separation);
+        Self {
+            normal,
+            points: [
+                [L::select(near, point[0], zero), L::select(near, point[1], zero)],
+                [zero, zero],
+            ],
+            separation: [L::select(near, separation, absent), absent],
+            id: [zero, L::splat(token, 1.0)],
+        }
+    }
+}
+
+/// `-1` where `value` is below 0, else `1`.
+#[inline(always)]
+pub(super) fn sign<L: Lanes>(token: L::Token, value: L) -> L {
+    L::select(value.lt(L::splat(token, 0.0)), L::splat(token, -1.0), L::splat(token, 1.0))
+}

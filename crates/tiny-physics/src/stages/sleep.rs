@@ -1,0 +1,215 @@
+//! Sleep: islands at rest leave the simulation until something disturbs them.
+//!
+//! Islands are not kept up to date from step to step. Every few steps in which some body has rested long enough, a
+//! union-find over the touching contacts and joints of awake bodies finds the islands anew, and those
+//! in which every body has rested fall asleep together. A sleeping island is a ring of bodies; waking
+//! one wakes the ring.
+
+use crate::describe::BodyKind;
+use crate::dynamics::{Bodies, Contacts, Graph, JointGraph, Joints, NULL, OVERFLOW, Place};
+use crate::math::Vec2;
+
+/// Steps between two looks for islands at rest: one look costs about as much as a solver pass.
+pub(crate) const INTERVAL: u64 = 8;
+
+/// Finds islands at rest and appends their bodies to `islands`, each island ended by [`NULL`].
+pub(crate) fn find_resting(
+    bodies: &Bodies,
+    graph: &Graph,
+    joints: &Joints,
+    time_to_sleep: f32,
+    islands: &mut Vec<u32>,
+) {
+    islands.clear();
+    if !bodies.awake.iter().any(|&i| bodies.infos[i as usize].sleep_time >= time_to_sleep) {
+        return;
+    }
+    let mut sets = Sets::new(bodies);
+    sets.join_contacts(bodies, graph);
+    sets.join_joints(bodies, joints);
+    sets.collect_resting(bodies, time_to_sleep, islands);
+}
+
+/// Union-find over awake bodies.
+struct Sets {
+    parent: Vec<u32>,
+    /// Must the set of this root stay awake?
+    restless: Vec<bool>,
+}
+
+impl Sets {
+    fn new(bodies: &Bodies) -> Self {
+        let count = bodies.infos.len();
+        Self { parent: (0..count as u32).collect(), restless: vec![false; count] }
+    }
+
+    fn find(&mut self, mut i: u32) -> u32 {
+        while self.parent[i as usize] != i {
+            let above = self.parent[self.parent[i as usize] as usize];
+            self.parent[i as usize] = above;
+            i = above;
+        }
+        i
+    }
+
+    /// Joins two bodies' islands. Bodies that are not dynamic join nothing, but a moving one keeps
+    /// the other awake.
+    fn join(&mut self, bodies: &Bodies, a: u32, b: u32) {
+        match (bodies.is_dynamic(a), bodies.is_dynamic(b)) {
+            (true, true) => {
+                let (a, b) = (self.find(a), self.find(b));
+                // The smaller index becomes the root: the result depends on the sets alone.
+                let (root, child) = if a < b { (a, b) } else { (b, a) };
+                self.parent[child as usize] = root;
+            }
+            (true, false) if is_moving(bodies, b) => self.restless[a as usize] = true,
+            (false, true) if is_moving(bodies, a) => self.restless[b as usize] = true,
+            _ => {}
+        }
+    }
+
+    fn join_contacts(&mut self, bodies: &Bodies, graph: &Graph) {
+        for buckets in &graph.buckets[..=OVERFLOW] {
+            for bucket in buckets {
+                for slot in 0..bucket.contacts.len() {
+                    let (a, b) = bucket.bodies(slot);
+                    self.join(bodies, a, b);
+                }
+            }
+        }
+    }
+
+    fn join_joints(&mut self, bodies: &Bodies, joints: &Joints) {
+        for (a, b) in joints.pairs() {
+            self.join(bodies, a, b);
+        }
+    }
+
+    fn collect_resting(&mut self, bodies: &Bodies, time_to_sleep: f32, islands: &mut Vec<u32>) {
+        for &body in &bodies.awake {
+            let rested = bodies.infos[body as usize].sleep_time >= time_to_sleep;
+            if !rested || self.restless[body as usize] {
+                let root = self.find(body);
+                self.restless[root as usize] = true;
+            }
+        }
+        let mut resting: Vec<(u32, u32)> =
+            bodies.awake.iter().map(|&body| (self.find(body), body)).collect();
+        resting.retain(|&(root, _)| !self.restless[root as usize]);
+        resting.sort_unstable();
+        for (i, &(root, body)) in resting.iter().enumerate() {
+            islands.push(body);
+            if resting.get(i + 1).is_none_or(|&(next, _)| next != root) {
+                islands.push(NULL);
+            }
+        }
+    }
+}
+
+fn is_moving(bodies: &Bodies, index: u32) -> bool {
+    bodies.infos[index as usize].kind == BodyKind::Kinematic
+        && (bodies.velocity(index) != Vec2::ZERO || bodies.angular_velocity(index) != 0.0)
+}
+
+/// Puts islands (each ended by [`NULL`]) to sleep: takes their bodies and what hangs on them out of the
+/// simulation.
+pub(crate) fn put_to_sleep(
+    islands: &[u32],
+    bodies: &mut Bodies,
+    contacts: &mut Contacts,
+    graph: &mut Graph,
+    joints: &mut Joints,
+    joint_graph: &mut JointGraph,
+) {
+    for island in islands.split(|&body| body == NULL).filter(|island| !island.is_empty()) {
+        put_island_to_sleep(island, bodies, contacts, graph, joints, joint_graph);
+    }
+    let Bodies { awake, infos, .. } = bodies;
+    awake.retain(|&i| infos[i as usize].awake);
+}
+
+fn put_island_to_sleep(
+    island: &[u32],
+    bodies: &mut Bodies,
+    contacts: &mut Contacts,
+    graph: &mut Graph,
+    joints: &mut Joints,
+    joint_graph: &mut JointGraph,
+) {
+    for (i, &body) in island.iter().enumerate() {
+        bodies.set_velocity(body, Vec2::ZERO);
+        bodies.set_angular_velocity(body, 0.0);
+        let info = &mut bodies.infos[body as usize];
+        info.awake = false;
+        info.island_next = island[(i + 1) % island.len()];
+    }
+    for &body in island {
+        let mut edge = bodies.infos[body as usize].first_contact;
+        while edge != NULL {
+            let contact = &contacts.records[edge as usize / 2];
+            let awake = super::pairs::is_awake(bodies, contact);
+            let next = contact.links[edge as usize % 2].1;
+            if !awake {
+                graph.remove(bodies, contacts, edge / 2);
+            }
+            edge = next;
+        }
+        for index in joints_of(bodies, joints, body) {
+            let record = &joints.records[index as usize];
+            if !bodies.infos[record.body_a as usize].awake
+                && !bodies.infos[record.body_b as usize].awake
+            {
+                joint_graph.remove(bodies, joints, index);
+            }
+        }
+    }
+}
+
+/// Wakes a body and its island. Nothing happens if it is awake or cannot move.
+pub(crate) fn wake(
+    index: u32,
+    bodies: &mut Bodies,
+    contacts: &mut Contacts,
+    graph: &mut Graph,
+    joints: &mut Joints,
+    joint_graph: &mut JointGraph,
+) {
+    let info = &bodies.infos[index as usize];
+    if info.awake || !info.alive || !info.enabled || info.kind == BodyKind::Static {
+        return;
+    }
+    let mut island = Vec::new();
+    let mut body = index;
+    loop {
+        island.push(body);
+        let info = &mut bodies.infos[body as usize];
+        info.awake = true;
+        info.sleep_time = 0.0;
+        body = core::mem::replace(&mut info.island_next, NULL);
+        if body == index || body == NULL {
+            break;
+        }
+    }
+    island.sort_unstable();
+    for &body in &island {
+        bodies.push_awake(body);
+        let mut edge = bodies.infos[body as usize].first_contact;
+        while edge != NULL {
+            if contacts.records[edge as usize / 2].place == Place::Asleep {
+                graph.insert(bodies, contacts, edge / 2);
+            }
+            edge = contacts.records[edge as usize / 2].links[edge as usize % 2].1;
+        }
+        for index in joints_of(bodies, joints, body) {
+            joint_graph.insert(bodies, joints, index);
+        }
+    }
+}
+
+/// Joints of a body, ascending.
+fn joints_of(bodies: &Bodies, joints: &Joints, body: u32) -> Vec<u32> {
+    let first = bodies.infos[body as usize].first_joint;
+    let mut indices: Vec<u32> = joints.of_body(first).map(|(index, _)| index).collect();
+    indices.sort_unstable();
+    indices
+}

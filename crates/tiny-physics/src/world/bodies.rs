@@ -1,0 +1,341 @@
+//! Bodies as the user sees them.
+
+use super::World;
+use super::ids::{BodyId, ShapeId};
+use crate::describe::BodyKind;
+use crate::dynamics::{BodyInfo, NULL};
+use crate::math::{DVec2, Pose, Rot, Vec2};
+use crate::stages::finalize;
+
+/// A body of the world, to read.
+#[derive(Clone, Copy)]
+pub struct Body<'a> {
+    world: &'a World,
+    index: u32,
+}
+
+impl<'a> Body<'a> {
+    fn info(&self) -> &'a BodyInfo {
+        &self.world.bodies.infos[self.index as usize]
+    }
+
+    /// Its handle.
+    pub fn id(&self) -> BodyId {
+        self.world.body_id(self.index)
+    }
+
+    /// Origin of its frame: world, metres.
+    pub fn position(&self) -> Vec2 {
+        self.position_f64().to_vec2()
+    }
+
+    /// Origin of its frame in 64 bits: world, metres.
+    pub fn position_f64(&self) -> DVec2 {
+        self.pose().p
+    }
+
+    /// Frame of the body in the world.
+    pub fn pose(&self) -> Pose {
+        self.world.bodies.origin_pose(self.index)
+    }
+
+    /// Rotation of its frame.
+    pub fn rotation(&self) -> Rot {
+        self.pose().q
+    }
+
+    /// Angle of its frame, radians in [-pi, pi].
+    pub fn angle(&self) -> f32 {
+        self.rotation().angle()
+    }
+
+    /// Centre of mass: world, metres.
+    pub fn center(&self) -> DVec2 {
+        self.world.bodies.poses[self.index as usize].p
+    }
+
+    /// Centre of mass in the body's frame, metres.
+    pub fn local_center(&self) -> Vec2 {
+        self.info().local_center
+    }
+
+    /// Velocity of the centre of mass, metres a second.
+    pub fn velocity(&self) -> Vec2 {
+        self.world.bodies.velocity(self.index)
+    }
+
+    /// Velocity of a point of the body, metres a second.
+    pub fn velocity_at(&self, point: impl Into<DVec2>) -> Vec2 {
+        let arm = point.into().relative_to(self.center());
+        self.velocity() + arm.perp() * self.angular_velocity()
+    }
+
+    /// Radians a second, anticlockwise.
+    pub fn angular_velocity(&self) -> f32 {
+        self.world.bodies.angular_velocity(self.index)
+    }
+
+    /// Kilograms; 0 for bodies that are not dynamic.
+    pub fn mass(&self) -> f32 {
+        self.info().mass
+    }
+
+    /// Moment of inertia about the centre of mass, kilogram square metres; 0 for bodies that are not
+    /// dynamic.
+    pub fn inertia(&self) -> f32 {
+        self.info().inertia
+    }
+
+    /// What moves it.
+    pub fn kind(&self) -> BodyKind {
+        self.info().kind
+    }
+
+    /// Is it simulated at the moment? Static bodies never are.
+    pub fn is_awake(&self) -> bool {
+        self.info().awake
+    }
+
+    /// Is it swept against moving bodies too?
+    pub fn is_bullet(&self) -> bool {
+        self.info().bullet
+    }
+
+    /// The user's number.
+    pub fn user_data(&self) -> u64 {
+        self.info().user_data
+    }
+
+    /// Handles of its shapes, in the order in which it was described; later ones first.
+    pub fn shapes(&self) -> impl Iterator<Item = ShapeId> + 'a {
+        let world = self.world;
+        world.shapes.of_body(self.info().first_shape).map(move |i| world.shape_id(i))
+    }
+}
+
+/// A body of the world, to change. Every change wakes it and its island; numbers that are not finite
+/// are refused by doing nothing.
+pub struct BodyMut<'a> {
+    world: &'a mut World,
+    index: u32,
+}
+
+impl BodyMut<'_> {
+    /// The body, to read.
+    pub fn as_ref(&self) -> Body<'_> {
+        Body { world: self.world, index: self.index }
+    }
+
+    fn info(&mut self) -> &mut BodyInfo {
+        &mut self.world.bodies.infos[self.index as usize]
+    }
+
+    /// Wakes it if all numbers are finite, and says whether to go on.
+    fn accept(&mut self, numbers: &[f32]) -> bool {
+        let finite = numbers.iter().all(|n| n.is_finite());
+        if finite {
+            self.world.wake_index(self.index);
+        }
+        finite
+    }
+
+    /// Does the solver move it?
+    fn is_dynamic(&self) -> bool {
+        self.world.bodies.is_dynamic(self.index)
+    }
+
+    /// Puts the origin of its frame somewhere else at once. It touches nothing on the way.
+    pub fn set_position(&mut self, position: impl Into<DVec2>) {
+        let rotation = self.as_ref().rotation();
+        self.set_pose(Pose::new(position.into(), rotation));
+    }
+
+    /// Turns its frame at once, radians.
+    pub fn set_angle(&mut self, radians: f32) {
+        if radians.is_finite() {
+            let position = self.as_ref().position_f64();
+            self.set_pose(Pose::new(position, Rot::from_angle(radians)));
+        }
+    }
+
+    /// Puts its frame somewhere else at once.
+    pub fn set_pose(&mut self, pose: Pose) {
+        if !pose.is_finite() {
+            return;
+        }
+        let (world, index) = (&mut *self.world, self.index);
+        world.wake_index(index);
+        world.wake_neighbours(index);
+        world.bodies.set_origin_pose(index, pose.p, pose.q.normalized());
+        finalize::update_boxes(
+            &world.bodies,
+            &world.shapes,
+            &mut world.broad_phase,
+            index,
+            Vec2::ZERO,
+        );
+    }
+
+    /// Sets the velocity of the centre of mass, metres a second. Nothing happens to a static body.
+    pub fn set_velocity(&mut self, velocity: Vec2) {
+        if self.info().kind != BodyKind::Static && self.accept(&[velocity.x, velocity.y]) {
+            self.world.bodies.set_velocity(self.index, velocity);
+        }
+    }
+
+    /// Sets the angular velocity, radians a second. Nothing happens to a static body.
+    pub fn set_angular_velocity(&mut self, radians_per_second: f32) {
+        if self.info().kind != BodyKind::Static && self.accept(&[radians_per_second]) {
+            self.world.bodies.set_angular_velocity(self.index, radians_per_second);
+        }
+    }
+
+    /// Applies a force in newtons at a world point, during the next step.
+    pub fn apply_force(&mut self, force: Vec2, point: impl Into<DVec2>) {
+        let arm = point.into().relative_to(self.as_ref().center());
+        let torque = arm.cross(force);
+        if self.is_dynamic() && self.accept(&[force.x, force.y, torque]) {
+            self.info().force += force;
+            self.info().torque += torque;
+        }
+    }
+
+    /// Applies a force in newtons at the centre of mass, during the next step.
+    pub fn apply_force_to_center(&mut self, force: Vec2) {
+        if self.is_dynamic() && self.accept(&[force.x, force.y]) {
+            self.info().force += force;
+        }
+    }
+
+    /// Applies a torque in newton metres during the next step.
+    pub fn apply_torque(&mut self, torque: f32) {
+        if self.is_dynamic() && self.accept(&[torque]) {
+            self.info().torque += torque;
+        }
+    }
+
+    /// Applies an impulse in newton seconds at a world point, at once.
+    pub fn apply_impulse(&mut self, impulse: Vec2, point: impl Into<DVec2>) {
+        let arm = point.into().relative_to(self.as_ref().center());
+        self.apply_impulses(impulse, arm.cross(impulse));
+    }
+
+    /// Applies an impulse in newton seconds at the centre of mass, at once.
+    pub fn apply_impulse_to_center(&mut self, impulse: Vec2) {
+        self.apply_impulses(impulse, 0.0);
+    }
+
+    /// Applies an angular impulse in newton metre seconds, at once.
+    pub fn apply_angular_impulse(&mut self, impulse: f32) {
+        self.apply_impulses(Vec2::ZERO, impulse);
+    }
+
+    fn apply_impulses(&mut self, linear: Vec2, angular: f32) {
+        if !self.is_dynamic() || !self.accept(&[linear.x, linear.y, angular]) {
+            return;
+        }
+        let index = self.index;
+        let bodies = &mut self.world.bodies;
+        let (inv_mass, inv_inertia) = bodies.inverse_masses(index);
+        bodies.set_velocity(index, bodies.velocity(index) + linear * inv_mass);
+        bodies.set_angular_velocity(index, bodies.angular_velocity(index) + angular * inv_inertia);
+    }
+
+    /// Wakes it and its island.
+    pub fn wake(&mut self) {
+        self.world.wake_index(self.index);
+    }
+
+    /// Puts it to sleep, alone if its island is awake. What touches it wakes it again.
+    pub fn sleep(&mut self) {
+        let info = self.info();
+        if info.awake && info.kind != BodyKind::Static {
+            let index = self.index;
+            self.world.put_to_sleep(&[index, NULL]);
+        }
+    }
+
+    /// Sets the factor on the world's gravity.
+    pub fn set_gravity_scale(&mut self, scale: f32) {
+        if self.accept(&[scale]) {
+            self.info().gravity_scale = scale;
+        }
+    }
+
+    /// Sets linear and angular damping, 1/s; negative values count as 0.
+    pub fn set_damping(&mut self, linear: f32, angular: f32) {
+        if self.accept(&[linear, angular]) {
+            self.info().linear_damping = linear.max(0.0);
+            self.info().angular_damping = angular.max(0.0);
+        }
+    }
+
+    /// Sets whether it is swept against moving bodies too.
+    pub fn set_bullet(&mut self, bullet: bool) {
+        self.info().bullet = bullet;
+    }
+
+    /// Sets the user's number.
+    pub fn set_user_data(&mut self, data: u64) {
+        self.info().user_data = data;
+    }
+}
+
+impl World {
+    /// A body to read; `None` if it has been removed.
+    pub fn body(&self, id: BodyId) -> Option<Body<'_>> {
+        let index = self.body_index(id).ok()?;
+        Some(Body { world: self, index })
+    }
+
+    /// A body to change; `None` if it has been removed.
+    pub fn body_mut(&mut self, id: BodyId) -> Option<BodyMut<'_>> {
+        let index = self.body_index(id).ok()?;
+        Some(BodyMut { world: self, index })
+    }
+
+    /// Handles of all bodies, in index order.
+    pub fn body_ids(&self) -> impl Iterator<Item = BodyId> + '_ {
+        self.bodies.indices().map(|index| self.body_id(index))
+    }
+
+    /// Kinetic energy of all bodies, joules.
+    pub fn kinetic_energy(&self) -> f64 {
+        self.bodies
+            .indices()
+            .map(|i| {
+                let info = &self.bodies.infos[i as usize];
+                let (v, w) = (self.bodies.velocity(i), self.bodies.angular_velocity(i));
+                let linear = f64::from(info.mass) * f64::from(v.length_sq());
+                let angular = f64::from(info.inertia) * f64::from(w) * f64::from(w);
+                0.5 * (linear + angular)
+            })
+            .sum()
+    }
+
+    /// Wakes the islands of bodies that touch this one.
+    pub(super) fn wake_neighbours(&mut self, index: u32) {
+        let first = self.bodies.infos[index as usize].first_contact;
+        let others: Vec<u32> = self
+            .contacts
+            .of_body(first)
+            .map(|(contact, _)| &self.contacts.records[contact as usize])
+            .filter(|contact| contact.touching)
+            .map(|contact| if contact.body_a == index { contact.body_b } else { contact.body_a })
+            .collect();
+        for other in others {
+            self.wake_index(other);
+        }
+    }
+
+    /// A body whose numbers stopped being finite: it stops where it last was.
+    pub(super) fn freeze(&mut self, index: u32) {
+        let row = &mut self.bodies.rows[index as usize];
+        for value in [0, 1, 2, 4, 5, 6] {
+            row[value] = 0.0;
+        }
+        let info = &mut self.bodies.infos[index as usize];
+        info.force = Vec2::ZERO;
+        info.torque = 0.0;
+    }
+}

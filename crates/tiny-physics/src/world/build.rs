@@ -1,0 +1,375 @@
+//! Adding and removing bodies and shapes.
+
+use super::World;
+use super::ids::{BodyId, ShapeId};
+use crate::broad_phase::{ProxyDef, ProxyKind};
+use crate::describe::{BodyKind, RigidBody, ShapeDef};
+use crate::dynamics::{BodyInfo, NULL, ShapeRecord};
+use crate::error::Error;
+use crate::geometry::manifold::{RoundedBox, ShapeClass};
+use crate::geometry::{MassProperties, Shape};
+use crate::math::{Pose, Rot, Transform, Vec2};
+use crate::simd::Row;
+use crate::stages::finalize;
+
+/// Coordinates beyond this are refused: 64-bit positions would lose millimetres.
+const MAX_COORDINATE: f64 = 1.0e12;
+
+impl World {
+    /// Adds a body and gives its handle.
+    ///
+    /// # Errors
+    /// A number in the description is NaN, infinite or out of range, or a shape is degenerate; the
+    /// error names it. Nothing has been added then.
+    pub fn add_body(&mut self, body: RigidBody) -> Result<BodyId, Error> {
+        check_body(&body)?;
+        let moving = body.kind != BodyKind::Static && body.enabled;
+        let rotation = Rot::from_angle(body.angle);
+        let info = BodyInfo {
+            kind: body.kind,
+            enabled: body.enabled,
+            bullet: body.bullet,
+            can_sleep: body.can_sleep,
+            locks: body.locks,
+            fixed_mass: body.mass,
+            gravity_scale: body.gravity_scale,
+            linear_damping: body.linear_damping,
+            angular_damping: body.angular_damping,
+            sleep_speed: body.sleep_speed,
+            user_data: body.user_data,
+            awake: moving && body.awake,
+            ..BodyInfo::default()
+        };
+        let index = self.bodies.insert(info, Pose::new(body.position, rotation));
+        // Pushed to the front of the list, so the last goes first.
+        for shape in body.shapes.iter().rev() {
+            self.insert_shape(index, shape);
+        }
+        self.update_mass(index);
+        if body.kind != BodyKind::Static {
+            self.bodies.set_velocity(index, body.velocity);
+            self.bodies.set_angular_velocity(index, body.angular_velocity);
+        }
+        if moving && body.awake {
+            self.bodies.push_awake(index);
+        } else if moving {
+            self.bodies.infos[index as usize].island_next = index;
+        }
+        self.create_proxies(index);
+        Ok(self.body_id(index))
+    }
+
+    /// Removes a body with its shapes, contacts and joints. What rested on it wakes.
+    ///
+    /// # Errors
+    /// The handle is stale.
+    pub fn remove_body(&mut self, id: BodyId) -> Result<(), Error> {
+        let index = self.body_index(id)?;
+        self.wake_index(index);
+        self.destroy_joints_of(index);
+        self.destroy_contacts_of(index, |_| true);
+        while self.bodies.infos[index as usize].first_shape != NULL {
+            self.unlink_shape(self.bodies.infos[index as usize].first_shape);
+        }
+        self.bodies.awake.retain(|&i| i != index);
+        self.bodies.remove(index);
+        Ok(())
+    }
+
+    /// Adds a shape to a body; mass and inertia follow.
+    ///
+    /// # Errors
+    /// The handle is stale, or a number in the description is out of range.
+    pub fn add_shape(
+        &mut self,
+        body: BodyId,
+        shape: impl Into<ShapeDef>,
+    ) -> Result<ShapeId, Error> {
+        let index = self.body_index(body)?;
+        let shape = shape.into();
+        check_shape(&shape)?;
+        self.wake_index(index);
+        let id = self.insert_shape(index, &shape);
+        self.update_mass(index);
+        self.create_proxies(index);
+        Ok(self.shape_id(id))
+    }
+
+    /// Removes a shape from its body; mass and inertia follow. What rested on it wakes.
+    ///
+    /// # Errors
+    /// The handle is stale.
+    pub fn remove_shape(&mut self, id: ShapeId) -> Result<(), Error> {
+        let shape = self.shape_index(id)?;
+        let body = self.shapes.records[shape as usize].body;
+        self.wake_index(body);
+        self.destroy_contacts_of(body, |contact| contact.0 == shape || contact.1 == shape);
+        self.unlink_shape(shape);
+        self.update_mass(body);
+        Ok(())
+    }
+
+    /// Destroys the contacts of a body whose shapes (A, B) satisfy the predicate.
+    pub(super) fn destroy_contacts_of(&mut self, body: u32, which: impl Fn((u32, u32)) -> bool) {
+        let first = self.bodies.infos[body as usize].first_contact;
+        let mut indices: Vec<u32> = self
+            .contacts
+            .of_body(first)
+            .map(|(index, _)| index)
+            .filter(|&index| {
+                let contact = &self.contacts.records[index as usize];
+                which((contact.shape_a, contact.shape_b))
+            })
+            .collect();
+        indices.sort_unstable();
+        for index in indices {
+            self.destroy_contact(index);
+        }
+    }
+
+    /// Puts a shape record at the head of a body's list.
+    fn insert_shape(&mut self, body: u32, def: &ShapeDef) -> u32 {
+        let info = &mut self.bodies.infos[body as usize];
+        let record = ShapeRecord {
+            alive: true,
+            generation: 0,
+            body,
+            class: ShapeClass::of(&def.shape),
+            shape: def.shape,
+            local: Transform::from_angle(def.offset, def.angle),
+            central: Transform::IDENTITY,
+            box_frame: Transform::IDENTITY,
+            material: def.material,
+            filter: def.filter,
+            sensor: def.sensor,
+            one_way: def.one_way,
+            contact_events: def.contact_events,
+            hit_events: def.hit_events,
+            user_data: def.user_data,
+            proxy: NULL,
+            next: info.first_shape,
+        };
+        let index = self.shapes.insert(record);
+        info.first_shape = index;
+        info.shape_count += 1;
+        index
+    }
+
+    /// Takes a shape without contacts out of its body's list and out of the world.
+    fn unlink_shape(&mut self, shape: u32) {
+        let (body, next) = {
+            let record = &self.shapes.records[shape as usize];
+            (record.body, record.next)
+        };
+        let info = &mut self.bodies.infos[body as usize];
+        info.shape_count -= 1;
+        if info.first_shape == shape {
+            info.first_shape = next;
+        } else {
+            let first = info.first_shape;
+            let previous =
+                self.shapes.of_body(first).find(|&i| self.shapes.records[i as usize].next == shape);
+            if let Some(previous) = previous {
+                self.shapes.records[previous as usize].next = next;
+            }
+        }
+        self.broad_phase.destroy_proxy(self.shapes.proxy(shape));
+        self.shapes.remove(shape);
+    }
+
+    /// Computes mass, centre of mass, inertia and extents from the shapes. The body's frame stays
+    /// where it is.
+    pub(super) fn update_mass(&mut self, index: u32) {
+        let origin = self.bodies.origin_pose(index);
+        let (total, never_turns) = self.sum_masses(index);
+        let info = &mut self.bodies.infos[index as usize];
+        info.never_turns = never_turns;
+        let dynamic = info.kind == BodyKind::Dynamic;
+        let scale = match info.fixed_mass {
+            Some(mass) if total.mass > 0.0 => mass / total.mass,
+            _ => 1.0,
+        };
+        info.mass = match info.fixed_mass {
+            _ if !dynamic => 0.0,
+            Some(mass) => mass,
+            // Something that forces are to move needs a mass.
+            None if total.mass > 0.0 => total.mass,
+            None => 1.0,
+        };
+        info.inertia = if dynamic { total.inertia * scale } else { 0.0 };
+        info.local_center = if dynamic { total.center } else { Vec2::ZERO };
+        self.bodies.set_origin_pose(index, origin.p, origin.q);
+        self.bodies.update_inverse_masses(index);
+        self.update_central_frames(index);
+        for (joint, _) in self.joints.of_body(self.bodies.infos[index as usize].first_joint) {
+            self.joint_graph.refresh(&self.joints, joint);
+        }
+    }
+
+    /// Mass properties of all shapes in the body's frame, and whether one of them must not turn.
+    fn sum_masses(&self, index: u32) -> (MassProperties, bool) {
+        let mut never_turns = false;
+        let parts = self.shapes.of_body(self.bodies.infos[index as usize].first_shape).map(|i| {
+            let record = &self.shapes.records[i as usize];
+            never_turns |= matches!(record.shape, Shape::Aabb { .. });
+            record.shape.mass_properties(record.material.density).transformed(record.local)
+        });
+        let parts: Vec<MassProperties> = parts.collect();
+        (MassProperties::combined(&parts), never_turns)
+    }
+
+    /// Recomputes what depends on the centre of mass: frames and rows of the shapes, extents.
+    fn update_central_frames(&mut self, index: u32) {
+        let first = self.bodies.infos[index as usize].first_shape;
+        let center = self.bodies.infos[index as usize].local_center;
+        let shapes: Vec<u32> = self.shapes.of_body(first).collect();
+        let (mut min_extent, mut max_extent) = (f32::MAX, 0.0_f32);
+        for shape in shapes {
+            let record = &mut self.shapes.records[shape as usize];
+            record.central = Transform::new(record.local.p - center, record.local.q);
+            let lane = LaneShape::new(&record.shape, record.central);
+            record.box_frame = lane.box_frame;
+            if !record.sensor {
+                min_extent = min_extent.min(lane.thickness);
+            }
+            let row = lane.row;
+            let reach =
+                Vec2::new(row[0], row[1]).length() + Vec2::new(row[4], row[5]).length() + row[6];
+            max_extent = max_extent.max(reach);
+            self.shapes.rows[shape as usize] = row;
+        }
+        let info = &mut self.bodies.infos[index as usize];
+        info.min_extent = if min_extent == f32::MAX { 0.0 } else { min_extent };
+        info.max_extent = max_extent;
+    }
+
+    /// Gives a broad-phase leaf to those shapes of an enabled body that have none.
+    pub(super) fn create_proxies(&mut self, index: u32) {
+        let info = &self.bodies.infos[index as usize];
+        if !info.enabled {
+            return;
+        }
+        let kind = match info.kind {
+            BodyKind::Static => ProxyKind::Static,
+            BodyKind::Kinematic => ProxyKind::Kinematic,
+            BodyKind::Dynamic => ProxyKind::Dynamic,
+        };
+        let margin = super::FAT_MARGIN * self.settings.length_unit;
+        let pose = self.bodies.poses[index as usize];
+        let shapes: Vec<u32> = self.shapes.of_body(info.first_shape).collect();
+        for shape in shapes {
+            let record = &self.shapes.records[shape as usize];
+            if record.proxy != NULL {
+                continue;
+            }
+            let def = ProxyDef {
+                kind,
+                category: record.filter.category,
+                mask: record.filter.mask,
+                user: shape,
+                margin,
+            };
+            let tight = finalize::shape_box(&self.shapes, shape, pose);
+            self.shapes.records[shape as usize].proxy = self.broad_phase.create_proxy(def, tight).0;
+        }
+    }
+
+    /// The handle of a body that is alive.
+    pub(super) fn body_id(&self, index: u32) -> BodyId {
+        BodyId::new(index, self.bodies.infos[index as usize].generation)
+    }
+
+    /// The handle of a shape; stale if it has been removed.
+    pub(super) fn shape_id(&self, index: u32) -> ShapeId {
+        ShapeId::new(index, self.shapes.records[index as usize].generation)
+    }
+
+    /// The index behind a handle.
+    pub(super) fn body_index(&self, id: BodyId) -> Result<u32, Error> {
+        match self.bodies.infos.get(id.index()) {
+            Some(info) if info.alive && info.generation == id.generation => Ok(id.index),
+            _ => Err(id.into()),
+        }
+    }
+
+    /// The index behind a handle.
+    pub(super) fn shape_index(&self, id: ShapeId) -> Result<u32, Error> {
+        match self.shapes.records.get(id.index()) {
+            Some(record) if record.alive && record.generation == id.generation => Ok(id.index),
+            _ => Err(id.into()),
+        }
+    }
+}
+
+/// A shape as the lane kernels see it.
+struct LaneShape {
+    /// See [`Shapes::rows`](crate::dynamics::Shapes).
+    row: Row,
+    /// Frame of the row in the shape's frame.
+    box_frame: Transform,
+    /// Half of the least thickness, metres.
+    thickness: f32,
+}
+
+impl LaneShape {
+    fn new(shape: &Shape, central: Transform) -> Self {
+        let (box_frame, extents, exact, thickness) = match RoundedBox::of(shape) {
+            Some(rounded) => {
+                let [x, y, radius] = rounded.extents();
+                (rounded.frame, [x, y, radius], 1.0, if x < y { x } else { y } + radius)
+            }
+            None => {
+                let core = shape.core();
+                let radius = core.reach(Vec2::ZERO) + core.radius;
+                (Transform::IDENTITY, [0.0, 0.0, radius], 0.0, inner_radius(shape))
+            }
+        };
+        let frame = central.compose(box_frame);
+        let [x, y, radius] = extents;
+        let row = [frame.p.x, frame.p.y, frame.q.c, frame.q.s, x, y, radius, exact];
+        Self { row, box_frame, thickness }
+    }
+}
+
+/// Distance from the centroid to the nearest edge, corner radius included, metres.
+fn inner_radius(shape: &Shape) -> f32 {
+    let (core, center) = (shape.core(), shape.mass_properties(1.0).center);
+    let nearest = (0..core.edge_count())
+        .map(|i| core.normal(i).dot(core.edge(i).0 - center))
+        .fold(f32::MAX, |a, b| if b < a { b } else { a });
+    nearest + core.radius
+}
+
+fn check_body(body: &RigidBody) -> Result<(), Error> {
+    for (name, value) in [("position.x", body.position.x), ("position.y", body.position.y)] {
+        if !value.is_finite() {
+            return Err(Error::NotFinite { name, value });
+        }
+        if value.abs() > MAX_COORDINATE {
+            return Err(Error::OutOfRange { name, value, allowed: "within 1e12 of the origin" });
+        }
+    }
+    Error::check_finite("angle", body.angle)?;
+    Error::check_finite_vec("velocity", body.velocity)?;
+    Error::check_finite("angular_velocity", body.angular_velocity)?;
+    Error::check_not_negative("linear_damping", body.linear_damping)?;
+    Error::check_not_negative("angular_damping", body.angular_damping)?;
+    Error::check_finite("gravity_scale", body.gravity_scale)?;
+    Error::check_not_negative("sleep_speed", body.sleep_speed)?;
+    if let Some(mass) = body.mass {
+        Error::check_positive("mass", mass)?;
+    }
+    body.shapes.iter().try_for_each(check_shape)
+}
+
+fn check_shape(shape: &ShapeDef) -> Result<(), Error> {
+    shape.shape.validate()?;
+    Error::check_finite_vec("offset", shape.offset)?;
+    Error::check_finite("angle", shape.angle)?;
+    Error::check_not_negative("density", shape.material.density)?;
+    Error::check_not_negative("friction", shape.material.friction)?;
+    Error::check_not_negative("restitution", shape.material.restitution)?;
+    Error::check_not_negative("rolling_resistance", shape.material.rolling_resistance)?;
+    Error::check_finite("tangent_speed", shape.material.tangent_speed)?;
+    shape.one_way.map_or(Ok(()), |direction| Error::check_finite_vec("one_way", direction))
+}

@@ -1,0 +1,198 @@
+//! Contacts of the world: their life, and how the user sees them.
+
+use super::World;
+use super::events::{ContactBegin, ContactEnd};
+use super::ids::{BodyId, ShapeId};
+use crate::dynamics::{Bucket, NULL, OVERFLOW, Place};
+use crate::math::{DVec2, Vec2};
+use crate::simd::BLOCK;
+use crate::stages::sleep;
+
+/// One point of a contact.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ContactPoint {
+    /// World, metres.
+    pub position: DVec2,
+    /// Metres; negative is overlap.
+    pub separation: f32,
+    /// Newton seconds in the last substep.
+    pub normal_impulse: f32,
+    /// Newton seconds in the last substep, positive along the normal turned clockwise.
+    pub tangent_impulse: f32,
+}
+
+/// A contact as of the last step.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ContactView {
+    /// First shape.
+    pub shape_a: ShapeId,
+    /// Second shape.
+    pub shape_b: ShapeId,
+    /// Body of the first shape.
+    pub body_a: BodyId,
+    /// Body of the second shape.
+    pub body_b: BodyId,
+    /// Unit, world, from A to B.
+    pub normal: Vec2,
+    points: [ContactPoint; 2],
+    count: u8,
+}
+
+impl ContactView {
+    /// One or two points.
+    pub fn points(&self) -> &[ContactPoint] {
+        &self.points[..usize::from(self.count)]
+    }
+}
+
+impl World {
+    /// Contacts that touch (or are about to) and are awake.
+    pub fn contact_count(&self) -> usize {
+        self.graph.touching_count()
+    }
+
+    /// The contacts that touch (or are about to) and are awake, as of the last step, in a fixed order
+    /// that threads do not change.
+    pub fn contacts(&self) -> impl Iterator<Item = ContactView> + '_ {
+        self.graph.buckets[..=OVERFLOW].iter().flatten().flat_map(move |bucket| {
+            (0..bucket.contacts.len()).map(move |slot| self.view(bucket, slot))
+        })
+    }
+
+    fn view(&self, bucket: &Bucket, slot: usize) -> ContactView {
+        let (block, lane) = (slot / BLOCK, slot % BLOCK);
+        let contact = &self.contacts.records[bucket.contacts[slot] as usize];
+        let (manifold, constraint) = (&bucket.manifolds[block], &bucket.constraints[block]);
+        let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
+        let center = self.bodies.poses[contact.body_a as usize].p;
+        let mut points = [ContactPoint {
+            position: DVec2::ZERO,
+            separation: 0.0,
+            normal_impulse: 0.0,
+            tangent_impulse: 0.0,
+        }; 2];
+        let mut count = 0;
+        for (point, id) in constraint.points.iter().zip([manifold.id_1[lane], manifold.id_2[lane]])
+        {
+            if id < 0.0 {
+                continue;
+            }
+            // r x n and r x t = -(r . n) give the anchor back.
+            let (across, along) = (point.normal_arm_a[lane], -point.tangent_arm_a[lane]);
+            let anchor = normal * along + Vec2::new(normal.y, -normal.x) * across;
+            points[count] = ContactPoint {
+                position: center + anchor,
+                separation: point.separation[lane],
+                normal_impulse: point.normal_impulse[lane],
+                tangent_impulse: point.tangent_impulse[lane],
+            };
+            count += 1;
+        }
+        ContactView {
+            shape_a: self.shape_id(contact.shape_a),
+            shape_b: self.shape_id(contact.shape_b),
+            body_a: self.body_id(contact.body_a),
+            body_b: self.body_id(contact.body_b),
+            normal,
+            points,
+            count: count as u8,
+        }
+    }
+
+    /// Deepest overlap of any awake contact as of the last step, metres; 0 where nothing overlaps.
+    pub fn max_penetration(&self) -> f32 {
+        let deepest = self
+            .contacts()
+            .flat_map(|contact| contact.points().iter().map(|p| p.separation).fold(None, least))
+            .fold(0.0, |a: f32, b| if b < a { b } else { a });
+        -deepest
+    }
+
+    /// A contact of the graph no longer touches.
+    pub(super) fn end_contact(&mut self, index: u32) {
+        self.graph.remove(&mut self.bodies, &mut self.contacts, index);
+        let contact = &mut self.contacts.records[index as usize];
+        contact.touching = false;
+        contact.saved = [crate::dynamics::SavedPoint::NONE; 2];
+        if contact.events {
+            let end = self.end_event(index);
+            self.events.contact_end.push(end);
+        }
+        self.graph.insert(&mut self.bodies, &mut self.contacts, index);
+    }
+
+    /// A contact of the graph has begun to touch.
+    pub(super) fn begin_contact(&mut self, index: u32) {
+        self.graph.remove(&mut self.bodies, &mut self.contacts, index);
+        let contact = &mut self.contacts.records[index as usize];
+        contact.touching = true;
+        let (body_a, body_b) = (contact.body_a, contact.body_b);
+        let (shape_a, shape_b) = (contact.shape_a, contact.shape_b);
+        if contact.events {
+            let (shape_a, shape_b) = (self.shape_id(shape_a), self.shape_id(shape_b));
+            self.events.contact_begin.push(ContactBegin { shape_a, shape_b });
+        }
+        self.wake_index(body_a);
+        self.wake_index(body_b);
+        if self.contacts.records[index as usize].place == Place::Asleep {
+            self.graph.insert(&mut self.bodies, &mut self.contacts, index);
+        }
+    }
+
+    /// Removes a contact for good. What rested on it wakes.
+    pub(super) fn destroy_contact(&mut self, index: u32) {
+        let contact = &self.contacts.records[index as usize];
+        let (touching, events) = (contact.touching, contact.events);
+        let (body_a, body_b) = (contact.body_a, contact.body_b);
+        if touching {
+            if events {
+                let end = self.end_event(index);
+                self.events.pending_end.push(end);
+            }
+            self.wake_index(body_a);
+            self.wake_index(body_b);
+        }
+        self.graph.remove(&mut self.bodies, &mut self.contacts, index);
+        self.contacts.remove(&mut self.bodies, index);
+    }
+
+    fn end_event(&self, index: u32) -> ContactEnd {
+        let contact = &self.contacts.records[index as usize];
+        ContactEnd {
+            shape_a: self.shape_id(contact.shape_a),
+            shape_b: self.shape_id(contact.shape_b),
+        }
+    }
+
+    /// Wakes the island of a body.
+    pub(super) fn wake_index(&mut self, index: u32) {
+        sleep::wake(
+            index,
+            &mut self.bodies,
+            &mut self.contacts,
+            &mut self.graph,
+            &mut self.joints,
+            &mut self.joint_graph,
+        );
+    }
+
+    /// Puts islands (each ended by NULL) to sleep.
+    pub(super) fn put_to_sleep(&mut self, islands: &[u32]) {
+        if islands.is_empty() {
+            return;
+        }
+        debug_assert_eq!(islands.last(), Some(&NULL));
+        sleep::put_to_sleep(
+            islands,
+            &mut self.bodies,
+            &mut self.contacts,
+            &mut self.graph,
+            &mut self.joints,
+            &mut self.joint_graph,
+        );
+    }
+}
+
+fn least(a: Option<f32>, b: f32) -> Option<f32> {
+    Some(a.map_or(b, |a| if b < a { b } else { a }))
+}

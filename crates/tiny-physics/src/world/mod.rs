@@ -1,0 +1,429 @@
+//! The world: the one facade over everything below.
+
+mod bodies;
+mod build;
+mod contacts;
+mod debug_draw;
+mod events;
+mod hash;
+mod ids;
+mod joints;
+mod shapes;
+mod stats;
+mod validate;
+
+pub use bodies::{Body, BodyMut};
+pub use contacts::{ContactPoint, ContactView};
+pub use events::{ContactBegin, ContactEnd, Events, Hit, JointBreak};
+pub use ids::{BodyId, JointId, ShapeId};
+pub use joints::JointRef;
+pub use shapes::ShapeRef;
+pub use stats::{Stage, Stats};
+
+use crate::broad_phase::BroadPhase;
+use crate::describe::Settings;
+use crate::dynamics::{
+    Bodies, Contacts, Graph, JOINT_OVERFLOW, JointGraph, Joints, OVERFLOW, Shapes,
+};
+use crate::error::Error;
+use crate::geometry::manifold::PairClass;
+use crate::math::Vec2;
+use crate::simd::SimdLevel;
+use crate::stages::contact_solver::{self, Parameters, Pass, Softness};
+use crate::stages::finalize::{FastBody, Findings};
+use crate::stages::touching::Changes;
+use crate::stages::{
+    continuous, finalize, integrate, joint_solver, narrow_phase, pairs, sleep, touching,
+};
+use crate::threads::{Pool, SharedRows, Team};
+use stats::Stopwatch;
+
+/// Metres; multiplied by [`Settings::length_unit`]. Points this far apart are contacts already.
+const SPECULATIVE_DISTANCE: f32 = 0.02;
+/// Metres; multiplied by [`Settings::length_unit`]. Room around a shape in its fat box.
+const FAT_MARGIN: f32 = 0.1;
+/// Contacts against static bodies are this much stiffer.
+const STATIC_STIFFNESS: f32 = 2.0;
+/// Contact stiffness is at most this fraction of the substep rate: beyond, the soft constraint rings.
+const CONTACT_RATE_FRACTION: f32 = 0.125;
+
+/// A world of bodies.
+///
+/// ```
+/// use tiny_physics::{RigidBody, Shape, Vec2, World};
+/// # fn main() -> Result<(), tiny_physics::Error> {
+/// let mut world = World::new(Vec2::new(0.0, -9.8));
+/// let ground = Shape::Aabb { half_extents: Vec2::new(20.0, 1.0) };
+/// world.add_body(RigidBody::new(ground, Vec2::new(0.0, -1.0), 0.0))?;
+/// let ball = world.add_body(RigidBody::new(Shape::Circle { radius: 0.5 }, Vec2::new(0.0, 4.0), 1.0))?;
+/// for _ in 0..300 {
+///     world.step(1.0 / 60.0);
+/// }
+/// assert!((world.body(ball).unwrap().position().y - 0.5).abs() < 0.01);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug)]
+pub struct World {
+    /// Acceleration of every dynamic body, metres a second squared.
+    pub gravity: Vec2,
+    /// Substeps, iterations, thresholds.
+    pub settings: Settings,
+    bodies: Bodies,
+    shapes: Shapes,
+    contacts: Contacts,
+    graph: Graph,
+    joints: Joints,
+    joint_graph: JointGraph,
+    broad_phase: BroadPhase,
+    events: Events,
+    step_count: u64,
+    /// 1 / substep length of the last step.
+    inv_h: f32,
+    level: SimdLevel,
+    pool: Pool,
+    stats: Stats,
+    scratch: Scratch,
+}
+
+/// Lists that a step fills anew; kept only for their memory.
+#[derive(Clone, Debug, Default)]
+struct Scratch {
+    pairs: Vec<(u32, u32)>,
+    parted: Vec<u32>,
+    changes: Changes,
+    found_pairs: Vec<Vec<(u32, u32)>>,
+    findings: Vec<Findings>,
+    fast: Vec<FastBody>,
+    islands: Vec<u32>,
+    broken_joints: Vec<u32>,
+}
+
+/// Numbers of one step.
+#[derive(Clone, Copy, Debug)]
+struct StepLengths {
+    dt: f32,
+    h: f32,
+    substeps: u32,
+    iterations: u32,
+}
+
+impl World {
+    /// An empty world with default settings.
+    pub fn new(gravity: Vec2) -> Self {
+        Self::with_settings(gravity, Settings::default())
+    }
+
+    /// An empty world with settings of your own.
+    pub fn with_settings(gravity: Vec2, settings: Settings) -> Self {
+        Self {
+            gravity,
+            settings,
+            bodies: Bodies::new(),
+            shapes: Shapes::default(),
+            contacts: Contacts::default(),
+            graph: Graph::new(),
+            joints: Joints::default(),
+            joint_graph: JointGraph::new(),
+            broad_phase: BroadPhase::new(),
+            events: Events::default(),
+            step_count: 0,
+            inv_h: 0.0,
+            level: SimdLevel::detect(),
+            pool: Pool::default(),
+            stats: Stats::default(),
+            scratch: Scratch::default(),
+        }
+    }
+
+    /// Moves the world on by `dt` seconds. Does nothing where `dt` is not a positive finite number;
+    /// [`World::try_step`] says so.
+    pub fn step(&mut self, dt: f32) {
+        if self.try_step(dt).is_err() {
+            self.stats.refused_steps += 1;
+        }
+    }
+
+    /// Moves the world on by `dt` seconds.
+    ///
+    /// # Errors
+    /// `dt` or gravity is not finite, or `dt` not above 0. The world has not changed then.
+    pub fn try_step(&mut self, dt: f32) -> Result<(), Error> {
+        let lengths = self.step_lengths(dt)?;
+        let pool = self.pool.clone();
+        pool.scope(|team| self.run_stages(team, lengths));
+        self.step_count += 1;
+        Ok(())
+    }
+
+    /// The step: one line a stage.
+    fn run_stages(&mut self, team: &Team, lengths: StepLengths) {
+        let mut watch = Stopwatch::start();
+        self.events.clear();
+        self.bodies.sort_awake();
+
+        self.update_pairs(team);
+        watch.lap(&mut self.stats, Stage::Pairs);
+        self.update_manifolds(team);
+        watch.lap(&mut self.stats, Stage::NarrowPhase);
+        self.update_touching();
+        watch.lap(&mut self.stats, Stage::Touching);
+        self.solve(team, lengths);
+        watch.lap(&mut self.stats, Stage::Solve);
+        self.finalize(team, lengths);
+        watch.lap(&mut self.stats, Stage::Finalize);
+        self.sweep_fast_bodies();
+        watch.lap(&mut self.stats, Stage::Continuous);
+        self.put_resting_islands_to_sleep();
+        watch.lap(&mut self.stats, Stage::Sleep);
+    }
+
+    /// Checks the step's numbers and divides them up.
+    fn step_lengths(&self, dt: f32) -> Result<StepLengths, Error> {
+        Error::check_positive("dt", dt)?;
+        Error::check_finite_vec("gravity", self.gravity)?;
+        let substeps = self.settings.substeps.clamp(1, 1000);
+        let iterations = self.settings.iterations.clamp(1, 1000);
+        Ok(StepLengths { dt, h: dt / substeps as f32, substeps, iterations })
+    }
+
+    /// Drops contacts of shapes that left their fat boxes and their partners; finds new partners.
+    fn update_pairs(&mut self, team: &Team) {
+        self.stats.moved_shapes = self.broad_phase.moved().len();
+        let Self { broad_phase, shapes, bodies, contacts, joints, scratch, .. } = self;
+        pairs::find_parted(broad_phase, bodies, shapes, contacts, &mut scratch.parted);
+        let stores = pairs::Partners { shapes, bodies, contacts, joints };
+        pairs::find_new(team, broad_phase, &stores, &mut scratch.found_pairs, &mut scratch.pairs);
+        self.stats.candidate_pairs = scratch.pairs.len();
+
+        let parted = core::mem::take(&mut self.scratch.parted);
+        parted.iter().for_each(|&index| self.destroy_contact(index));
+        self.scratch.parted = parted;
+        self.events.flush_pending();
+        pairs::create_contacts(
+            &self.scratch.pairs,
+            &self.settings,
+            &self.shapes,
+            &mut self.bodies,
+            &mut self.contacts,
+            &mut self.graph,
+        );
+    }
+
+    /// What the narrow phase reads, and the graph that it writes.
+    fn narrow_phase(&mut self) -> (narrow_phase::Context<'_>, &mut Graph) {
+        let context = narrow_phase::Context {
+            level: self.level,
+            body_rows: &self.bodies.rows,
+            poses: &self.bodies.poses,
+            shape_rows: &self.shapes.rows,
+            shapes: &self.shapes.records,
+            speculative_distance: SPECULATIVE_DISTANCE * self.settings.length_unit,
+        };
+        (context, &mut self.graph)
+    }
+
+    /// Computes the manifolds and constraints of all contacts in the graph.
+    fn update_manifolds(&mut self, team: &Team) {
+        let (context, graph) = self.narrow_phase();
+        graph.clear_fresh();
+        for buckets in &mut graph.buckets {
+            for (bucket, class) in buckets.iter_mut().zip(PairClass::ALL) {
+                narrow_phase::update_bucket(team, context, class, bucket);
+            }
+        }
+    }
+
+    /// Moves contacts that began or ended to where they belong; wakes what was touched.
+    fn update_touching(&mut self) {
+        let mut changes = core::mem::take(&mut self.scratch.changes);
+        touching::find_changes(&self.graph, &mut changes);
+        changes.ended.iter().for_each(|&index| self.end_contact(index));
+        changes.began.iter().for_each(|&index| self.begin_contact(index));
+        self.stats.contacts_begun = changes.began.len();
+        self.stats.contacts_ended = changes.ended.len();
+        self.scratch.changes = changes;
+
+        let (context, graph) = self.narrow_phase();
+        for (colour, class, block) in graph.take_fresh() {
+            let bucket = &mut graph.buckets[usize::from(colour)][usize::from(class)];
+            let class = PairClass::ALL[usize::from(class)];
+            narrow_phase::update_block(context, class, bucket, block as usize);
+        }
+    }
+
+    /// Integrates velocities and positions, and solves contacts and joints, substep by substep.
+    fn solve(&mut self, team: &Team, lengths: StepLengths) {
+        let parameters = self.contact_parameters(lengths);
+        self.inv_h = parameters.inv_h;
+        self.prepare_joints(team, lengths.h);
+        integrate::prepare(team, &mut self.bodies, self.gravity, lengths.h);
+        let max_speed = self.settings.max_speed * self.settings.length_unit;
+        for _ in 0..lengths.substeps {
+            integrate::velocities(team, &mut self.bodies);
+            self.solve_joints(team, joint_solver::Pass::WarmStart);
+            self.solve_contacts(team, Pass::WarmStart, &parameters);
+            for _ in 0..lengths.iterations {
+                self.solve_joints(team, joint_solver::Pass::Solve);
+                self.solve_contacts(team, Pass::Solve, &parameters);
+            }
+            integrate::positions(team, &mut self.bodies, lengths.h, max_speed);
+            self.solve_joints(team, joint_solver::Pass::Relax);
+            self.solve_contacts(team, Pass::Relax, &parameters);
+        }
+        self.solve_contacts(team, Pass::Restitution, &parameters);
+        self.solve_joints(team, joint_solver::Pass::Finish);
+        self.break_joints();
+    }
+
+    fn contact_parameters(&self, lengths: StepLengths) -> Parameters {
+        let settings = &self.settings;
+        let inv_h = 1.0 / lengths.h;
+        let hertz = settings.contact_hertz.min(CONTACT_RATE_FRACTION * inv_h);
+        let damping = settings.contact_damping_ratio;
+        Parameters {
+            inv_h,
+            soft: Softness::new(hertz, damping, lengths.h),
+            static_soft: Softness::new(STATIC_STIFFNESS * hertz, damping, lengths.h),
+            push_speed: settings.push_speed * settings.length_unit,
+            restitution_threshold: settings.restitution_threshold * settings.length_unit,
+        }
+    }
+
+    /// Runs one pass over all contacts: the overflow one by one, then colour by colour.
+    fn solve_contacts(&mut self, team: &Team, pass: Pass, parameters: &Parameters) {
+        let rows = SharedRows::new(&mut self.bodies.rows);
+        let (colours, rest) = self.graph.buckets.split_at_mut(OVERFLOW);
+        for (bucket, class) in rest[0].iter_mut().zip(PairClass::ALL) {
+            contact_solver::run_in_order(pass, parameters, rows, bucket, class.max_points());
+        }
+        for (bucket, class) in colours.iter_mut().flat_map(|c| c.iter_mut().zip(PairClass::ALL)) {
+            let points = class.max_points();
+            contact_solver::run(team, self.level, pass, parameters, rows, bucket, points);
+        }
+    }
+
+    /// Brings the joints' lanes in line with their descriptions and the poses.
+    fn prepare_joints(&mut self, team: &Team, h: f32) {
+        let Self { joint_graph, joints, bodies, level, .. } = self;
+        joint_solver::describe(joint_graph, joints, &bodies.infos, h);
+        let (poses, level) = (&bodies.poses, *level);
+        for colour in &mut joint_graph.colours {
+            colour.for_each_run(team, |blocks| joint_solver::prepare(level, poses, h, blocks));
+        }
+    }
+
+    /// Runs one pass over all joints: the overflow one by one, then colour by colour.
+    fn solve_joints(&mut self, team: &Team, pass: joint_solver::Pass) {
+        if self.joint_graph.count() == 0 {
+            return;
+        }
+        let rows = SharedRows::new(&mut self.bodies.rows);
+        let (level, inv_h) = (self.level, self.inv_h);
+        let (colours, overflow) = self.joint_graph.colours.split_at_mut(JOINT_OVERFLOW);
+        overflow[0].for_each_run(&Team::alone(), |blocks| {
+            joint_solver::run_in_order(pass, inv_h, rows, blocks);
+        });
+        for colour in colours {
+            colour.for_each_run(team, |blocks| joint_solver::run(level, pass, inv_h, rows, blocks));
+        }
+    }
+
+    /// Takes the motion over into poses and boxes.
+    fn finalize(&mut self, team: &Team, lengths: StepLengths) {
+        let options = finalize::Options { dt: lengths.dt, continuous: self.settings.continuous };
+        let Self { bodies, shapes, broad_phase, scratch, .. } = self;
+        let count =
+            finalize::run(team, bodies, shapes, broad_phase, options, &mut scratch.findings);
+        let findings = &scratch.findings[..count];
+        scratch.fast.clear();
+        scratch.fast.extend(findings.iter().flat_map(|chunk| &chunk.fast));
+        let broken: Vec<u32> = findings.iter().flat_map(|chunk| &chunk.broken).copied().collect();
+        self.stats.fast_bodies = self.scratch.fast.len();
+        self.stats.frozen_bodies = broken.len();
+        broken.into_iter().for_each(|index| self.freeze(index));
+    }
+
+    /// Stops fast bodies where they would have gone through something.
+    fn sweep_fast_bodies(&mut self) {
+        let Self { bodies, shapes, broad_phase, joints, scratch, .. } = self;
+        continuous::run(&scratch.fast, bodies, shapes, joints, broad_phase);
+    }
+
+    /// Looks for islands at rest now and then, and lets them sleep.
+    fn put_resting_islands_to_sleep(&mut self) {
+        if !self.settings.sleep || self.step_count % sleep::INTERVAL != 0 {
+            return;
+        }
+        let mut islands = core::mem::take(&mut self.scratch.islands);
+        sleep::find_resting(
+            &self.bodies,
+            &self.graph,
+            &self.joints,
+            self.settings.time_to_sleep,
+            &mut islands,
+        );
+        self.put_to_sleep(&islands);
+        self.scratch.islands = islands;
+    }
+
+    /// Steps made so far.
+    pub fn step_count(&self) -> u64 {
+        self.step_count
+    }
+
+    /// Threads that a step may use, the calling one included.
+    pub fn threads(&self) -> usize {
+        self.pool.thread_count()
+    }
+
+    /// Lets steps use this many threads, the calling one included; 0 counts as 1, and without the feature
+    /// `parallel` there is never more than 1. Results do not depend on it.
+    pub fn set_threads(&mut self, threads: usize) {
+        if threads != self.threads() {
+            self.pool = Pool::new(threads);
+        }
+    }
+
+    /// The instruction set that the world runs on.
+    pub fn simd(&self) -> SimdLevel {
+        self.level
+    }
+
+    /// Chooses an instruction set. Results do not depend on it.
+    ///
+    /// # Errors
+    /// This machine cannot run the level.
+    pub fn set_simd(&mut self, level: SimdLevel) -> Result<(), Error> {
+        if !level.is_available() {
+            return Err(Error::Unsupported { reason: "this machine lacks that SIMD level" });
+        }
+        self.level = level;
+        Ok(())
+    }
+
+    /// Times and counts of the last step.
+    pub fn stats(&self) -> &Stats {
+        &self.stats
+    }
+
+    /// What happened in the last step.
+    pub fn events(&self) -> &Events {
+        &self.events
+    }
+
+    /// Bodies in the world.
+    pub fn body_count(&self) -> usize {
+        self.bodies.count()
+    }
+
+    /// Dynamic and kinematic bodies that are awake.
+    pub fn awake_body_count(&self) -> usize {
+        self.bodies.awake.len()
+    }
+
+    /// Shapes in the world.
+    pub fn shape_count(&self) -> usize {
+        self.shapes.count()
+    }
+}

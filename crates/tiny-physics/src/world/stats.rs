@@ -1,0 +1,105 @@
+//! What the last step did and how long it took.
+
+/// The stages of a step that are timed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+pub enum Stage {
+    /// Finding pairs whose boxes overlap, creating and dropping contacts.
+    Pairs,
+    /// Computing manifolds and contact constraints.
+    NarrowPhase,
+    /// Contacts that begin and end; waking.
+    Touching,
+    /// Integrating and solving, all substeps.
+    Solve,
+    /// Taking motion over into poses and boxes.
+    Finalize,
+    /// Sweeping fast bodies.
+    Continuous,
+    /// Sensors and sleep.
+    Sleep,
+}
+
+impl Stage {
+    /// All stages in their order in a step.
+    pub const ALL: [Self; 7] = [
+        Self::Pairs,
+        Self::NarrowPhase,
+        Self::Touching,
+        Self::Solve,
+        Self::Finalize,
+        Self::Continuous,
+        Self::Sleep,
+    ];
+
+    /// The name used in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pairs => "pairs",
+            Self::NarrowPhase => "narrow_phase",
+            Self::Touching => "touching",
+            Self::Solve => "solve",
+            Self::Finalize => "finalize",
+            Self::Continuous => "continuous",
+            Self::Sleep => "sleep",
+        }
+    }
+}
+
+/// Times and counts of the last step. Not part of the world's state: never saved, hashed or
+/// compared.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Stats {
+    pub(crate) seconds: [f64; Stage::ALL.len()],
+    /// New candidate pairs that the broad phase gave.
+    pub candidate_pairs: usize,
+    /// Shapes that left their fat boxes.
+    pub moved_shapes: usize,
+    /// Contacts that began touching.
+    pub contacts_begun: usize,
+    /// Contacts that ended.
+    pub contacts_ended: usize,
+    /// Bodies that were swept because they moved fast.
+    pub fast_bodies: usize,
+    /// Bodies whose numbers stopped being finite: they were stopped where they had last been.
+    pub frozen_bodies: usize,
+    /// Steps refused because the time step was not a positive finite number.
+    pub refused_steps: u64,
+}
+
+impl Stats {
+    /// Seconds that a stage took; 0 where no clock is available.
+    pub fn seconds(&self, stage: Stage) -> f64 {
+        self.seconds[stage as usize]
+    }
+
+    /// Seconds that the whole step took.
+    pub fn total_seconds(&self) -> f64 {
+        self.seconds.iter().sum()
+    }
+}
+
+/// Measures stages; does nothing where there is no clock (wasm).
+pub(crate) struct Stopwatch {
+    #[cfg(not(target_arch = "wasm32"))]
+    last: std::time::Instant,
+}
+
+impl Stopwatch {
+    pub(crate) fn start() -> Self {
+        Self {
+            #[cfg(not(target_arch = "wasm32"))]
+            last: std::time::Instant::now(),
+        }
+    }
+
+    /// Books the time since the last call on a stage.
+    #[allow(unused_variables, reason = "without a clock there is nothing to book")]
+    pub(crate) fn lap(&mut self, stats: &mut Stats, stage: Stage) {
+        #[cfg(not(target_arch = "wasm32"))]
+        {
+            let now = std::time::Instant::now();
+            stats.seconds[stage as usize] = (now - self.last).as_secs_f64();
+            self.last = now;
+        }
+    }
+}

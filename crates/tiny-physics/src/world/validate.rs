@@ -1,0 +1,124 @@
+//! A walk over all invariants, for tests.
+
+use super::World;
+use crate::dynamics::{COLOURS, IDLE, NULL, Place};
+use crate::stages::pairs;
+
+impl World {
+    /// Checks every invariant of the world's data: links, colours, places, finite numbers. Slow; for
+    /// tests and for hunting bugs.
+    ///
+    /// # Errors
+    /// Says which invariant is broken and where.
+    pub fn validate(&self) -> Result<(), String> {
+        self.broad_phase.validate()?;
+        self.validate_bodies()?;
+        self.validate_contacts()?;
+        self.validate_colours()
+    }
+
+    fn validate_bodies(&self) -> Result<(), String> {
+        if self.bodies.rows[0] != [0.0; 8] {
+            return Err("row 0 has been written".into());
+        }
+        for index in self.bodies.indices() {
+            let info = &self.bodies.infos[index as usize];
+            let listed = self.bodies.awake.contains(&index);
+            if info.awake != listed {
+                return Err(format!(
+                    "body {index}: awake is {} but listed is {listed}",
+                    info.awake
+                ));
+            }
+            if !self.bodies.poses[index as usize].is_finite()
+                || self.bodies.rows[index as usize].iter().any(|v| !v.is_finite())
+            {
+                return Err(format!("body {index} is not finite"));
+            }
+            let shapes = self.shapes.of_body(info.first_shape).count();
+            if shapes != info.shape_count as usize {
+                return Err(format!(
+                    "body {index}: {shapes} shapes linked, {} counted",
+                    info.shape_count
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn validate_contacts(&self) -> Result<(), String> {
+        let mut links = 0;
+        for index in 0..self.bodies.infos.len() as u32 {
+            let first = self.bodies.infos[index as usize].first_contact;
+            for (contact, side) in self.contacts.of_body(first) {
+                links += 1;
+                let record = &self.contacts.records[contact as usize];
+                let body = if side == 0 { record.body_a } else { record.body_b };
+                if !record.alive || body != index {
+                    return Err(format!(
+                        "contact {contact} in the list of body {index} is not its"
+                    ));
+                }
+            }
+        }
+        let mut alive = 0;
+        for (index, contact) in self.contacts.records.iter().enumerate().filter(|(_, c)| c.alive) {
+            alive += 1;
+            let awake = pairs::is_awake(&self.bodies, contact);
+            match contact.place {
+                Place::Asleep if awake => {
+                    return Err(format!("contact {index} is awake without a lane"));
+                }
+                Place::Graph { .. } if !awake => {
+                    return Err(format!("contact {index} sleeps in a lane"));
+                }
+                Place::Graph { colour, slot } => {
+                    let bucket = &self.graph.buckets[usize::from(colour)][contact.class as usize];
+                    if bucket.contacts.get(slot as usize) != Some(&(index as u32)) {
+                        return Err(format!("contact {index} is not in its slot"));
+                    }
+                    if contact.touching != (usize::from(colour) != IDLE) {
+                        return Err(format!("contact {index}: touching does not match its colour"));
+                    }
+                }
+                Place::Asleep => {}
+            }
+            if self.contacts.pairs.get(contact.shape_a, contact.shape_b) != Some(index as u32) {
+                return Err(format!("contact {index} is not in the pair table"));
+            }
+        }
+        if links != 2 * alive || self.contacts.pairs.len() != alive {
+            return Err(format!(
+                "{alive} contacts, {links} links, {} pairs",
+                self.contacts.pairs.len()
+            ));
+        }
+        Ok(())
+    }
+
+    /// No two contacts of a colour share a dynamic body, and the bodies know their colours.
+    fn validate_colours(&self) -> Result<(), String> {
+        let mut used = vec![0_u32; self.bodies.infos.len()];
+        for (colour, buckets) in self.graph.buckets[..COLOURS].iter().enumerate() {
+            for bucket in buckets {
+                for slot in 0..bucket.contacts.len() {
+                    let (a, b) = bucket.bodies(slot);
+                    for body in [a, b].into_iter().filter(|&body| self.bodies.is_dynamic(body)) {
+                        if used[body as usize] >> colour & 1 != 0 {
+                            return Err(format!("body {body} occurs twice in colour {colour}"));
+                        }
+                        used[body as usize] |= 1 << colour;
+                    }
+                }
+            }
+        }
+        for index in self.bodies.indices().filter(|&i| self.bodies.is_dynamic(i)) {
+            let info = &self.bodies.infos[index as usize];
+            if info.contact_colours != used[index as usize] {
+                return Err(format!("body {index} does not know its colours"));
+            }
+            debug_assert_ne!(info.generation, NULL);
+        }
+        Ok(())
+    }
+}
