@@ -260,6 +260,12 @@ pub(super) struct Pair<L: Lanes> {
     pub(super) anchor_b: [L; 2],
 }
 
+/// The lanes whose body something can move, as bits.
+#[inline(always)]
+fn movable<L: Lanes>(stride: &Stride<L>, body: &[L; 8]) -> u32 {
+    L::bits(stride.zero.lt(body[Slot::INV_MASS] + body[Slot::INV_INERTIA]))
+}
+
 impl<L: Lanes> Pair<L> {
     #[inline(always)]
     pub(super) fn load(stride: &Stride<L>, rows: SharedRows<'_>, frame: &FrameLanes) -> Self {
@@ -278,12 +284,10 @@ impl<L: Lanes> Pair<L> {
     /// Writes the velocities back, except to bodies that nothing moves.
     #[inline(always)]
     pub(super) fn store(self, stride: &Stride<L>, rows: SharedRows<'_>, frame: &FrameLanes) {
-        let mask =
-            |body: &[L; 8]| L::bits(stride.zero.lt(body[Slot::INV_MASS] + body[Slot::INV_INERTIA]));
-        let (write_a, write_b) = (mask(&self.a), mask(&self.b));
-        let half = |body: [L; 8]| [body[0], body[1], body[2], body[3]];
-        L::scatter(half(self.a), rows, &frame.body_a[stride.at..], write_a);
-        L::scatter(half(self.b), rows, &frame.body_b[stride.at..], write_b);
+        let (write_a, write_b) = (movable(stride, &self.a), movable(stride, &self.b));
+        let ([ax, ay, aw, am, ..], [bx, by, bw, bm, ..]) = (self.a, self.b);
+        L::scatter([ax, ay, aw, am], rows, &frame.body_a[stride.at..], write_a);
+        L::scatter([bx, by, bw, bm], rows, &frame.body_b[stride.at..], write_b);
     }
 
     /// Sum of the inverse masses.
