@@ -173,25 +173,25 @@ impl<B: JointKernel> LaneKernel for Prepare<'_, B> {
     }
 }
 
-/// Runs a pass over blocks of one colour, in lanes. `h` is the substep length, seconds.
+/// Runs a pass over blocks of one colour, in lanes. `inv_h` is 1 / substep length.
 pub(crate) fn run(
     level: SimdLevel,
     pass: Pass,
-    h: f32,
+    inv_h: f32,
     rows: SharedRows<'_>,
     blocks: JointBlocks<'_>,
 ) {
-    with_blocks!(blocks, blocks => dispatch(level, RunPass { pass, h, rows, blocks }));
+    with_blocks!(blocks, blocks => dispatch(level, RunPass { pass, inv_h, rows, blocks }));
 }
 
 /// Runs a pass over blocks of the overflow: the one-lane instance, in order.
-pub(crate) fn run_in_order(pass: Pass, h: f32, rows: SharedRows<'_>, blocks: JointBlocks<'_>) {
-    run(SimdLevel::Scalar, pass, h, rows, blocks);
+pub(crate) fn run_in_order(pass: Pass, inv_h: f32, rows: SharedRows<'_>, blocks: JointBlocks<'_>) {
+    run(SimdLevel::Scalar, pass, inv_h, rows, blocks);
 }
 
 struct RunPass<'a, B> {
     pass: Pass,
-    h: f32,
+    inv_h: f32,
     rows: SharedRows<'a>,
     blocks: &'a mut [B],
 }
@@ -201,8 +201,8 @@ impl<B: JointKernel> LaneKernel for RunPass<'_, B> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, token: L::Token) {
-        let Self { pass, h, rows, blocks } = self;
-        let inv_h = 1.0 / h;
+        let Self { pass, inv_h, rows, blocks } = self;
+        let h = 1.0 / inv_h;
         for block in blocks {
             let extras = block.has_extras();
             for at in (0..BLOCK).step_by(L::WIDTH) {

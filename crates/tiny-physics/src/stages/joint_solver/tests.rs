@@ -5,6 +5,7 @@ use crate::describe::{BodyKind, JointKind};
 use crate::dynamics::{Bodies, BodyInfo, JointRecord, Slot};
 use crate::math::{DVec2, Rot};
 use crate::stages::integrate;
+use crate::threads::Team;
 use core::f64::consts::TAU;
 
 const G: f32 = 10.0;
@@ -62,14 +63,14 @@ impl Rig {
     }
 
     fn pass(&mut self, pass: Pass) {
-        let h = self.dt / self.substeps as f32;
+        let inv_h = self.inv_h();
         let rows = SharedRows::new(&mut self.bodies.rows);
         for (i, colour) in self.graph.colours.iter_mut().enumerate() {
             for blocks in colour.runs(2) {
                 if i == crate::dynamics::JOINT_OVERFLOW {
-                    run_in_order(pass, h, rows, blocks);
+                    run_in_order(pass, inv_h, rows, blocks);
                 } else {
-                    run(self.level, pass, h, rows, blocks);
+                    run(self.level, pass, inv_h, rows, blocks);
                 }
             }
         }
@@ -77,7 +78,8 @@ impl Rig {
 
     fn step(&mut self) {
         let h = self.dt / self.substeps as f32;
-        integrate::prepare(&mut self.bodies, self.gravity, h);
+        let team = Team::alone();
+        integrate::prepare(&team, &mut self.bodies, self.gravity, h);
         describe(&mut self.graph, &self.joints, &self.bodies.infos, h);
         for colour in &mut self.graph.colours {
             for blocks in colour.runs(2) {
@@ -85,12 +87,12 @@ impl Rig {
             }
         }
         for _ in 0..self.substeps {
-            integrate::velocities(&mut self.bodies);
+            integrate::velocities(&team, &mut self.bodies);
             self.pass(Pass::WarmStart);
             for _ in 0..self.iterations {
                 self.pass(Pass::Solve);
             }
-            integrate::positions(&mut self.bodies, h, 400.0);
+            integrate::positions(&team, &mut self.bodies, h, 400.0);
             for _ in 0..self.iterations {
                 self.pass(Pass::Relax);
             }
