@@ -190,8 +190,8 @@ impl World {
     /// Drops contacts of shapes that left their fat boxes and their partners; finds new partners.
     fn update_pairs(&mut self, team: &Team) {
         self.stats.moved_shapes = self.broad_phase.moved().len();
-        let Self { broad_phase, shapes, bodies, contacts, joints, scratch, .. } = self;
-        pairs::find_parted(broad_phase, bodies, shapes, contacts, &mut scratch.parted);
+        let Self { broad_phase, shapes, bodies, contacts, graph, joints, scratch, .. } = self;
+        pairs::find_parted(broad_phase, bodies, shapes, contacts, graph, &mut scratch.parted);
         let stores = pairs::Partners { shapes, bodies, contacts, joints };
         pairs::find_new(team, broad_phase, &stores, &mut scratch.found_pairs, &mut scratch.pairs);
         self.stats.candidate_pairs = scratch.pairs.len();
