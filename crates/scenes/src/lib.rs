@@ -25,6 +25,9 @@ mod random;
 mod scene;
 mod script;
 mod shapes;
+// Waits for the engine's `World`: with it, drop this line's condition and the one below.
+#[cfg(any())]
+mod world_host;
 
 pub use build::Options;
 pub use catalogue::{Entry, UnknownScene, all, find, tags};
@@ -32,3 +35,5 @@ pub use error::{Problem, SceneError};
 pub use host::{Host, Player};
 pub use scene::{Counts, Scene, SceneJoint, VERSION};
 pub use script::{Queries, Rain, Script, Terrain, WakeSleepers, Walkers};
+#[cfg(any())]
+pub use world_host::{Run, WorldHost};

@@ -2,8 +2,8 @@
 
 use crate::script::Script;
 use core::fmt;
-use serde::de::value::{MapAccessDeserializer, StringDeserializer};
-use serde::de::{DeserializeSeed, Error as _, IntoDeserializer, MapAccess, Visitor};
+use serde::de::value::{MapAccessDeserializer, StrDeserializer};
+use serde::de::{DeserializeSeed, Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 use tiny_physics::{BodyKind, JointDef, RigidBody, Settings, Vec2};
 
@@ -160,26 +160,57 @@ impl<'de, M: MapAccess<'de>> MapAccess<'de> for &mut Ends<M> {
 
     fn next_key_seed<K: DeserializeSeed<'de>>(
         &mut self,
-        seed: K,
+        mut seed: K,
     ) -> Result<Option<K::Value>, M::Error> {
-        while let Some(key) = self.map.next_key::<String>()? {
-            let (end, name) = match key.as_str() {
-                "a" => (&mut self.a, "a"),
-                "b" => (&mut self.b, "b"),
-                _ => {
-                    let key: StringDeserializer<M::Error> = key.into_deserializer();
-                    return seed.deserialize(key).map(Some);
-                }
+        loop {
+            let (name, unused) = match self.map.next_key_seed(EndOr(seed))? {
+                None => return Ok(None),
+                Some(Key::Other(key)) => return Ok(Some(key)),
+                Some(Key::End(name, unused)) => (name, unused),
             };
+            seed = unused;
+            let end = if name == "a" { &mut self.a } else { &mut self.b };
             if end.is_some() {
                 return Err(M::Error::duplicate_field(name));
             }
             *end = Some(self.map.next_value()?);
         }
-        Ok(None)
     }
 
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, M::Error> {
         self.map.next_value_seed(seed)
+    }
+}
+
+/// Reads a key with the seed inside, unless it is `a` or `b`.
+struct EndOr<K>(K);
+
+/// What [`EndOr`] reads; the seed comes back where it was not used.
+enum Key<K, V> {
+    End(&'static str, K),
+    Other(V),
+}
+
+impl<'de, K: DeserializeSeed<'de>> DeserializeSeed<'de> for EndOr<K> {
+    type Value = Key<K, K::Value>;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Self::Value, D::Error> {
+        deserializer.deserialize_identifier(self)
+    }
+}
+
+impl<'de, K: DeserializeSeed<'de>> Visitor<'de> for EndOr<K> {
+    type Value = Key<K, K::Value>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a field name")
+    }
+
+    fn visit_str<E: serde::de::Error>(self, key: &str) -> Result<Self::Value, E> {
+        match key {
+            "a" => Ok(Key::End("a", self.0)),
+            "b" => Ok(Key::End("b", self.0)),
+            _ => self.0.deserialize(StrDeserializer::new(key)).map(Key::Other),
+        }
     }
 }

@@ -7,6 +7,7 @@ fn main() {
     let mut world = World::new(Vec2::new(0.0, -10.0));
     world.settings.sleep = false;
     world.set_simd(level).unwrap();
+    world.set_threads(std::env::args().nth(4).map_or(1, |s| s.parse().unwrap()));
     world
         .add_body(
             RigidBody::fixed()

@@ -14,6 +14,7 @@ mod world;
 pub use describe::*;
 pub use error::Error;
 pub use fixed_step::FixedStep;
+pub use geometry::{Contact, Manifold, ManifoldPoint, collide, contact};
 pub use geometry::{Polygon, Shape};
 pub use math::{Aabb, DVec2, Pose, Rot, Transform, Vec2};
 pub use simd::SimdLevel;

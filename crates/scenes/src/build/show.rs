@@ -6,7 +6,7 @@ use crate::scene::Scene;
 use crate::shapes;
 use core::f32::consts::{FRAC_PI_2, PI};
 use tiny_physics::math::{cos, sin};
-use tiny_physics::{JointDef, RigidBody, Shape, ShapeDef, Vec2};
+use tiny_physics::{Filter, JointDef, RigidBody, Shape, ShapeDef, Vec2};
 
 fn floor(scene: &mut Scene) -> usize {
     scene.body(ground(Vec2::new(0.0, -1.0), 40.0, 1.0))
@@ -63,9 +63,10 @@ pub(crate) fn domino(options: Options) -> Scene {
         scene
             .body(RigidBody::dynamic().position(place).shape(shapes::rect(0.1, 1.0)).friction(0.5));
     }
-    let ball = ShapeDef::new(shapes::circle(0.4)).density(4.0);
-    let start = Vec2::new(-4.0, 0.4);
-    scene.body(RigidBody::dynamic().position(start).velocity(Vec2::new(4.0, 0.0)).shape(ball));
+    // It hits above the middle of the domino: below, it would knock the foot away.
+    let start = Vec2::new(-4.0, 1.2);
+    let ball = RigidBody::dynamic().position(start).velocity(Vec2::new(2.5, 0.0));
+    scene.body(ball.shape(shapes::circle(1.2)));
     scene
 }
 
@@ -83,7 +84,8 @@ pub(crate) fn card_house(options: Options) -> Scene {
     // Half of the width and of the height of a card that leans.
     let half_width = half_length * sin(LEAN) + half_thickness * cos(LEAN);
     let half_height = half_length * cos(LEAN) + half_thickness * sin(LEAN);
-    let pitch = 4.0 * half_width;
+    // Flat cards meet, end to end, over the tip of each tent.
+    let pitch = 2.0 * half_length + 0.0005;
     let mut bottom = 0.0;
     for level in 0..levels {
         let tents = levels - level;
@@ -191,16 +193,19 @@ pub(crate) fn wrecking_ball(options: Options) -> Scene {
     let hook = Vec2::new(0.0, 1.5 + 0.5 * links as f32);
     // Anchors are in the frame of the ground, whose origin is at (0, -1).
     let (mut last, mut anchor) = (ground_body, hook - Vec2::new(0.0, -1.0));
+    // The ball is wider than a link is long: chain and ball must not collide.
+    let filter = Filter { group: -1, ..Filter::default() };
     for i in 0..links {
         let place = hook + Vec2::new(-0.5 * i as f32 - 0.25, 0.0);
         let shape =
             Shape::Capsule { a: Vec2::new(-0.2, 0.0), b: Vec2::new(0.2, 0.0), radius: 0.05 };
-        let link = scene.body(RigidBody::dynamic().position(place).shape(shape));
+        let link = ShapeDef::new(shape).filter(filter);
+        let link = scene.body(RigidBody::dynamic().position(place).shape(link));
         scene.joint(last, link, JointDef::revolute().anchors(anchor, Vec2::new(0.25, 0.0)));
         (last, anchor) = (link, Vec2::new(-0.25, 0.0));
     }
     let end = hook + Vec2::new(-0.5 * links as f32, 0.0);
-    let ball = ShapeDef::new(shapes::circle(1.0)).density(10.0);
+    let ball = ShapeDef::new(shapes::circle(1.0)).density(10.0).filter(filter);
     let ball = scene.body(RigidBody::dynamic().position(end).shape(ball));
     scene.joint(last, ball, JointDef::revolute().anchors(anchor, Vec2::ZERO));
     add_pyramid(&mut scene, 8, 1.5, 0.0, |body| body);
@@ -209,7 +214,7 @@ pub(crate) fn wrecking_ball(options: Options) -> Scene {
 
 /// An arch of wedges without mortar; size is the number of stones.
 pub(crate) fn arch(options: Options) -> Scene {
-    let stones = options.size_or(15, 99);
+    let stones = options.size_or(15, 99).max(3);
     let mut scene = Scene::new("arch", "An arch of stones stands without mortar.");
     floor(&mut scene);
     let (inner, outer) = (4.0, 5.2);

@@ -14,7 +14,7 @@ enum Command {
     Rebuild,
 }
 
-fn any_box() -> impl Strategy<Value = Aabb> {
+pub(super) fn any_box() -> impl Strategy<Value = Aabb> {
     let coordinate = prop_oneof![
         8 => -20.0f32..20.0,
         1 => Just(1.0e7),
@@ -148,7 +148,7 @@ proptest! {
             prop_assert_eq!(broad_phase.validate(), Ok(()));
             if update {
                 let expected = brute_force(&broad_phase, &model);
-                prop_assert_eq!(&in_chunks(&broad_phase, chunk), &expected);
+                prop_assert_eq!(&in_chunks(&mut broad_phase, chunk), &expected);
                 let mut copy = BroadPhase::new();
                 copy.clone_from(&broad_phase);
                 broad_phase.update_pairs(&mut out);
@@ -159,6 +159,58 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn what_rests_asks_for_nothing() {
+    let mut broad_phase = BroadPhase::new();
+    let mut pairs = Vec::new();
+    let aabb = |i: u32| Aabb::from_center(Vec2::new(i as f32, 0.0), Vec2::splat(0.5));
+    let ids: Vec<ProxyId> = (0..100)
+        .map(|user| {
+            let kind = if user < 50 { ProxyKind::Static } else { ProxyKind::Dynamic };
+            let def = ProxyDef { kind, category: 1, mask: u64::MAX, user, margin: 0.05 };
+            broad_phase.create_proxy(def, aabb(user))
+        })
+        .collect();
+    broad_phase.update_pairs(&mut pairs);
+    assert_eq!(pairs.len(), 50);
+    for &id in &ids {
+        assert!(!broad_phase.move_proxy(id, aabb(id.0).grown(0.04), Vec2::ZERO));
+    }
+    assert!(broad_phase.moved().is_empty());
+    assert_eq!(broad_phase.prepare_pairs(), 0);
+    // A static proxy that is put elsewhere finds the dynamic ones there.
+    assert!(broad_phase.move_proxy(ids[3], aabb(70), Vec2::ZERO));
+    broad_phase.update_pairs(&mut pairs);
+    assert_eq!(pairs, [(3, 69), (3, 70), (3, 71)]);
+}
+
+#[test]
+fn masks_keep_pairs_out() {
+    let mut broad_phase = BroadPhase::new();
+    for user in 0..1000 {
+        let kind = ProxyKind::Dynamic;
+        let def = ProxyDef { kind, category: 2, mask: !2, user, margin: 0.1 };
+        broad_phase.create_proxy(def, Aabb::from_center(Vec2::ZERO, Vec2::splat(1.0)));
+    }
+    let mut pairs = vec![(0, 1)];
+    broad_phase.update_pairs(&mut pairs);
+    assert!(pairs.is_empty());
+}
+
+#[test]
+fn a_tree_filled_in_any_order_stays_low() {
+    let mut tree = DynamicTree::new();
+    for id in 0..10_000 {
+        tree.insert(id, Aabb::from_center(Vec2::new(id as f32, 0.0), Vec2::splat(0.5)), 1);
+    }
+    assert!(tree.height() <= 9, "{}", tree.height());
+    let grown = tree.area_ratio();
+    tree.rebuild();
+    assert_eq!(tree.validate(), Ok(()));
+    assert_eq!(tree.height(), 5);
+    assert!(tree.area_ratio() <= grown);
 }
 
 type Model = [Option<(ProxyId, ProxyDef)>; 60];
@@ -192,7 +244,7 @@ fn apply(broad_phase: &mut BroadPhase, model: &mut Model, command: Command, kind
                 broad_phase.set_filter(*id, category, u64::MAX);
             }
         }
-        Command::Rebuild => broad_phase.maintain(),
+        Command::Rebuild => drop(broad_phase.prepare_pairs()),
     }
 }
 
@@ -215,10 +267,10 @@ fn brute_force(broad_phase: &BroadPhase, model: &Model) -> Vec<(u32, u32)> {
 }
 
 /// The pairs as several threads would find them.
-fn in_chunks(broad_phase: &BroadPhase, chunk: usize) -> Vec<(u32, u32)> {
-    let (mut out, count) = (Vec::new(), broad_phase.moved().len());
+fn in_chunks(broad_phase: &mut BroadPhase, chunk: usize) -> Vec<(u32, u32)> {
+    let (mut out, count) = (Vec::new(), broad_phase.prepare_pairs());
     for start in (0..count).step_by(chunk).rev() {
-        broad_phase.query_moved(start..(start + chunk).min(count), |_, _| true, &mut out);
+        broad_phase.query_groups(start..(start + chunk).min(count), |_, _| true, &mut out);
     }
     let found = out.len();
     sort_pairs(&mut out);

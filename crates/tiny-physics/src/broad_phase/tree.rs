@@ -1,40 +1,58 @@
-//! A dynamic bounding volume tree over boxes with ids.
+//! A dynamic tree of boxes with eight children a node.
 //!
-//! Binary, with boxes in the leaves. A new leaf goes where it adds the least perimeter (the surface
-//! area heuristic of Goldsmith and Salmon, 1987, in the plane), and rotations on the way up keep the
-//! tree good (Kopta et al., "Fast, Effective BVH Updates for Animated Scenes", 2012). Every node has
-//! the union of its leaves' categories, so a query skips subtrees that it cannot collide with.
+//! An R-tree (Guttman, "R-Trees: A Dynamic Index Structure for Spatial Searching", 1984) whose
+//! nodes keep the boxes of their children as four rows of eight floats, so that one node is tested
+//! with a handful of vector compares. All leaves are at the same depth, so a million boxes are
+//! seven to ten levels at worst, whatever the order of insertion. A new box goes down where it adds
+//! the least perimeter; a full node is cut in two along the axis where its boxes spread more.
 //!
-//! Results of a query do not depend on the shape of the tree, only their order does.
+//! Every child has the union of its leaves' categories, so a query skips subtrees that it cannot
+//! collide with. Results of a query do not depend on the shape of the tree, only their order does.
 
+use super::boxes::{Boxes, WIDTH};
 use super::stack::Stack;
 use super::{BoxCast, NONE, clamped};
-use crate::math::{Aabb, Vec2};
+use crate::math::Aabb;
 use core::ops::ControlFlow;
 
-/// A leaf has `child[0] == NONE` and its id in `child[1]`. A free node has the next one in `parent`.
+/// Everything of a node but the boxes.
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    aabb: Aabb,
-    category: u64,
+    category: [u64; WIDTH],
+    /// Ids at level 0, nodes above. `NONE` where there is none.
+    child: [u32; WIDTH],
+    /// `NONE` for the root; the next free node for a free one.
     parent: u32,
-    child: [u32; 2],
-    height: u32,
+    /// Which child of the parent this is.
+    lane: u8,
+    level: u8,
+    count: u8,
 }
 
-const _: () = assert!(size_of::<Node>() == 40);
-
 impl Node {
-    #[inline]
-    fn is_leaf(&self) -> bool {
-        self.child[0] == NONE
+    const fn new(level: u8) -> Self {
+        Self { category: [0; WIDTH], child: [NONE; WIDTH], parent: NONE, lane: 0, level, count: 0 }
     }
+
+    #[inline]
+    fn all_categories(&self) -> u64 {
+        self.category.iter().fold(0, |all, category| all | category)
+    }
+}
+
+/// A child with its box: what is moved about when nodes are cut and built.
+#[derive(Clone, Copy)]
+struct Branch {
+    aabb: Aabb,
+    category: u64,
+    child: u32,
 }
 
 /// A map from small ids to boxes, with fast queries by area.
 ///
-/// Ids are the caller's: dense numbers, because a table over all ids up to the largest is kept. A box
-/// with NaN in it overlaps nothing; coordinates beyond [`LIMIT`](super::LIMIT) count as that limit.
+/// Ids are the caller's: dense numbers, because a table over all ids up to the largest is kept. A
+/// box with NaN in it overlaps nothing; coordinates beyond [`LIMIT`](super::LIMIT) count as that
+/// limit.
 ///
 /// ```
 /// use tiny_physics::{Aabb, Vec2, broad_phase::DynamicTree};
@@ -50,12 +68,17 @@ impl Node {
 /// ```
 #[derive(Debug)]
 pub struct DynamicTree {
+    boxes: Vec<Boxes>,
     nodes: Vec<Node>,
-    /// Leaf node of each id, or `NONE`.
-    leaves: Vec<u32>,
+    /// Node and lane of each id as `node * WIDTH + lane`, or `NONE`.
+    places: Vec<u32>,
     root: u32,
     free: u32,
     count: usize,
+    /// How much has changed since the last look at the quality, in boxes.
+    changes: usize,
+    /// [`cost`](Self::cost) after the last rebuild.
+    built_cost: f32,
 }
 
 impl Default for DynamicTree {
@@ -66,20 +89,36 @@ impl Default for DynamicTree {
 
 impl Clone for DynamicTree {
     fn clone(&self) -> Self {
-        Self { nodes: self.nodes.clone(), leaves: self.leaves.clone(), ..*self }
+        Self {
+            boxes: self.boxes.clone(),
+            nodes: self.nodes.clone(),
+            places: self.places.clone(),
+            ..*self
+        }
     }
 
     fn clone_from(&mut self, source: &Self) {
+        self.boxes.clone_from(&source.boxes);
         self.nodes.clone_from(&source.nodes);
-        self.leaves.clone_from(&source.leaves);
+        self.places.clone_from(&source.places);
         (self.root, self.free, self.count) = (source.root, source.free, source.count);
+        (self.changes, self.built_cost) = (source.changes, source.built_cost);
     }
 }
 
 impl DynamicTree {
     /// A tree with nothing in it.
     pub const fn new() -> Self {
-        Self { nodes: Vec::new(), leaves: Vec::new(), root: NONE, free: NONE, count: 0 }
+        Self {
+            boxes: Vec::new(),
+            nodes: Vec::new(),
+            places: Vec::new(),
+            root: NONE,
+            free: NONE,
+            count: 0,
+            changes: 0,
+            built_cost: 0.0,
+        }
     }
 
     /// Number of boxes.
@@ -94,87 +133,79 @@ impl DynamicTree {
 
     /// Is there a box with this id?
     pub fn contains(&self, id: u32) -> bool {
-        self.leaf(id).is_some()
+        self.place(id).is_some()
     }
 
     /// The box of an id, `None` where there is none.
+    #[inline]
     pub fn get(&self, id: u32) -> Option<Aabb> {
-        self.leaf(id).map(|leaf| self.nodes[leaf as usize].aabb)
+        self.place(id).map(|(node, lane)| self.boxes[node as usize].get(lane))
     }
 
     /// The union of all boxes; [`Aabb::EMPTY`] without any.
     pub fn bounds(&self) -> Aabb {
-        if self.root == NONE { Aabb::EMPTY } else { self.nodes[self.root as usize].aabb }
+        if self.root == NONE { Aabb::EMPTY } else { self.boxes[self.root as usize].union() }
     }
 
     /// The union of all categories.
     pub fn category(&self) -> u64 {
-        if self.root == NONE { 0 } else { self.nodes[self.root as usize].category }
+        if self.root == NONE { 0 } else { self.nodes[self.root as usize].all_categories() }
     }
 
     /// Removes all boxes; keeps the memory.
     pub fn clear(&mut self) {
+        self.boxes.clear();
         self.nodes.clear();
-        self.leaves.clear();
+        self.places.clear();
         (self.root, self.free, self.count) = (NONE, NONE, 0);
+        (self.changes, self.built_cost) = (0, 0.0);
     }
 
     /// Puts a box in, in place of the one that the id had before, if any.
     pub fn insert(&mut self, id: u32, aabb: Aabb, category: u64) {
         self.remove(id);
-        let leaf = self.allocate(Node {
-            aabb: clamped(aabb),
-            category,
-            parent: NONE,
-            child: [NONE, id],
-            height: 0,
-        });
-        let slot = id as usize;
-        if self.leaves.len() <= slot {
-            self.leaves.resize(slot + 1, NONE);
+        let index = id as usize;
+        if self.places.len() <= index {
+            self.places.resize(index + 1, NONE);
         }
-        self.leaves[slot] = leaf;
         self.count += 1;
-        self.link(leaf);
+        self.changes += 2;
+        self.link(Branch { aabb: clamped(aabb), category, child: id });
     }
 
     /// Takes a box out; false where the id has none.
     pub fn remove(&mut self, id: u32) -> bool {
-        let Some(leaf) = self.leaf(id) else { return false };
-        self.leaves[id as usize] = NONE;
+        let Some((node, lane)) = self.place(id) else { return false };
+        self.places[id as usize] = NONE;
         self.count -= 1;
-        self.unlink(leaf);
-        self.release(leaf);
+        self.unlink(node, lane);
         true
     }
 
-    /// Gives a box that is in the tree a new place; false where the id has none. A box that stayed
-    /// near only changes its ancestors; one that went far is put in anew.
+    /// Gives a box that is in the tree a new place; false where the id has none.
+    ///
+    /// The box stays in its node, whose ancestors grow where they have to: cheap, but the tree gets
+    /// worse until [`maintain`](Self::maintain).
+    #[inline]
     pub fn update(&mut self, id: u32, aabb: Aabb) -> bool {
-        let Some(leaf) = self.leaf(id) else { return false };
+        let Some((node, lane)) = self.place(id) else { return false };
         let aabb = clamped(aabb);
-        let parent = self.nodes[leaf as usize].parent;
-        if parent != NONE && !self.nodes[parent as usize].aabb.contains(&aabb) {
-            self.unlink(leaf);
-            self.nodes[leaf as usize].aabb = aabb;
-            self.link(leaf);
-        } else {
-            self.nodes[leaf as usize].aabb = aabb;
-            self.refit(parent);
-        }
+        self.boxes[node as usize].set(lane, aabb);
+        self.changes += 1;
+        self.grow(node, &aabb);
         true
     }
 
     /// Gives a box another category; false where the id has none.
     pub fn set_category(&mut self, id: u32, category: u64) -> bool {
-        let Some(leaf) = self.leaf(id) else { return false };
-        self.nodes[leaf as usize].category = category;
-        self.refit(self.nodes[leaf as usize].parent);
+        let Some((node, lane)) = self.place(id) else { return false };
+        self.nodes[node as usize].category[lane] = category;
+        self.refit(node);
         true
     }
 
-    /// Calls `visit` with every id whose box overlaps `aabb` (edges count) and whose category has a bit of
-    /// `mask`, until it breaks. The order depends on the shape of the tree.
+    /// Calls `visit` with every id whose box overlaps `aabb` (edges count) and whose category has a
+    /// bit of `mask`, until it breaks. The order depends on the shape of the tree.
     #[inline]
     pub fn query(&self, aabb: &Aabb, mask: u64, mut visit: impl FnMut(u32) -> ControlFlow<()>) {
         let aabb = clamped(*aabb);
@@ -182,23 +213,74 @@ impl DynamicTree {
         let mut next = (self.root != NONE).then_some(self.root);
         while let Some(index) = next {
             let node = &self.nodes[index as usize];
-            if node.category & mask == 0 || !node.aabb.overlaps(&aabb) {
-                next = stack.pop();
-            } else if node.is_leaf() {
-                if visit(node.child[1]).is_break() {
+            let mut bits = self.boxes[index as usize].overlaps(&aabb);
+            while bits != 0 {
+                let lane = bits.trailing_zeros() as usize % WIDTH;
+                bits &= bits - 1;
+                if node.category[lane] & mask == 0 {
+                    continue;
+                }
+                if node.level > 0 {
+                    stack.push(node.child[lane]);
+                } else if visit(node.child[lane]).is_break() {
                     return;
                 }
-                next = stack.pop();
-            } else {
-                stack.push(node.child[1]);
-                next = Some(node.child[0]);
             }
+            next = stack.pop();
         }
     }
 
-    /// Calls `visit` with the ids whose box the cast may hit before `max_fraction`, roughly the nearest
-    /// first. `visit` gets the id and the current limit and returns the new one: the same to go on, the fraction of
-    /// a hit to look only for nearer ones, 0 to stop.
+    /// Calls `visit` with every node of the lowest level that may have children which overlap
+    /// `aabb` and have a bit of `mask`.
+    #[inline]
+    pub(super) fn query_bottom(&self, aabb: &Aabb, mask: u64, mut visit: impl FnMut(u32)) {
+        let mut stack = Stack::new();
+        let mut next = (self.root != NONE).then_some(self.root);
+        while let Some(index) = next {
+            let node = &self.nodes[index as usize];
+            if node.level == 0 {
+                visit(index);
+                next = stack.pop();
+                continue;
+            }
+            let mut bits = self.boxes[index as usize].overlaps(aabb);
+            while bits != 0 {
+                let lane = bits.trailing_zeros() as usize % WIDTH;
+                bits &= bits - 1;
+                if node.category[lane] & mask != 0 {
+                    stack.push(node.child[lane]);
+                }
+            }
+            next = stack.pop();
+        }
+    }
+
+    /// Bit `i` set where child `i` of a node overlaps the box.
+    #[inline]
+    pub(super) fn overlaps(&self, index: u32, aabb: &Aabb) -> u32 {
+        self.boxes[index as usize].overlaps(aabb)
+    }
+
+    /// Id in a lane of a node of the lowest level.
+    #[inline]
+    pub(super) fn child(&self, index: u32, lane: usize) -> u32 {
+        self.nodes[index as usize].child[lane]
+    }
+
+    /// Number of nodes, free ones included.
+    pub(super) fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Id and box in a lane of a node of the lowest level.
+    #[inline]
+    pub(super) fn leaf(&self, index: u32, lane: usize) -> (u32, Aabb) {
+        (self.nodes[index as usize].child[lane], self.boxes[index as usize].get(lane))
+    }
+
+    /// Calls `visit` with the ids whose box the cast may hit before `max_fraction`, roughly the
+    /// nearest first. `visit` gets the id and the current limit and returns the new one: the same
+    /// to go on, the fraction of a hit to look only for nearer ones, 0 to stop.
     pub fn cast(
         &self,
         cast: &BoxCast,
@@ -212,13 +294,18 @@ impl DynamicTree {
         let mut next = (self.root != NONE).then_some(self.root);
         while let Some(index) = next {
             let node = &self.nodes[index as usize];
-            if node.category & mask == 0
-                || !node.aabb.overlaps(&bounds)
-                || cast.line_misses(&node.aabb)
-            {
+            let (order, count) = self.lanes_on_the_way(index, cast, &bounds, mask);
+            if node.level > 0 {
+                // The last one pushed, the nearest, is the next one popped.
+                order[..count].iter().rev().for_each(|&lane| stack.push(node.child[lane]));
                 next = stack.pop();
-            } else if node.is_leaf() {
-                let fraction = visit(node.child[1], limit);
+                continue;
+            }
+            for &lane in &order[..count] {
+                if !self.boxes[index as usize].get(lane).overlaps(&bounds) {
+                    continue;
+                }
+                let fraction = visit(node.child[lane], limit);
                 if fraction <= 0.0 {
                     return;
                 }
@@ -226,44 +313,70 @@ impl DynamicTree {
                     limit = fraction;
                     bounds = clamped(cast.bounds(limit));
                 }
-                next = stack.pop();
-            } else {
-                let (near, far) = self.near_far(node, cast.translation);
-                stack.push(far);
-                next = Some(near);
+            }
+            next = stack.pop();
+        }
+    }
+
+    /// Builds the tree anew where that is worth it: once about as much has changed as there are
+    /// boxes, and the nodes have become larger by a quarter.
+    pub fn maintain(&mut self) {
+        if self.changes <= self.count + 64 {
+            return;
+        }
+        self.changes = 0;
+        if self.cost() > 1.25 * self.built_cost {
+            self.rebuild();
+        }
+    }
+
+    /// Builds the tree anew, top down, by halving along the longer side of the boxes' centres.
+    pub fn rebuild(&mut self) {
+        let mut branches = Vec::with_capacity(self.count);
+        for id in 0..self.places.len() as u32 {
+            if let Some((node, lane)) = self.place(id) {
+                branches.push(self.branch(node, lane));
             }
         }
-    }
-
-    /// Builds all inner nodes anew, top down, by halving along the longer side.
-    pub fn rebuild(&mut self) {
-        let mut leaves: Vec<u32> = self.leaves.iter().copied().filter(|&n| n != NONE).collect();
-        self.free_inner_nodes();
-        self.root = if leaves.is_empty() { NONE } else { self.build(&mut leaves) };
-        if self.root != NONE {
-            self.nodes[self.root as usize].parent = NONE;
+        self.boxes.clear();
+        self.nodes.clear();
+        (self.root, self.free) = (NONE, NONE);
+        if !branches.is_empty() {
+            let mut level = 0;
+            while capacity(level) < branches.len() {
+                level += 1;
+            }
+            self.root = self.build(&mut branches, level);
         }
+        self.changes = 0;
+        self.built_cost = self.cost();
     }
 
-    /// Longest way from the root to a leaf; 0 for one box or none.
+    /// Longest way from the root to a leaf, in nodes; 0 for an empty tree.
     pub fn height(&self) -> u32 {
-        if self.root == NONE { 0 } else { self.nodes[self.root as usize].height }
+        if self.root == NONE { 0 } else { u32::from(self.nodes[self.root as usize].level) + 1 }
     }
 
-    /// Perimeters of all inner nodes over the perimeter of the root: about how many nodes a query of
-    /// random place looks at. Lower is better.
+    /// Perimeters of all inner nodes over the perimeter of the root: about how many nodes a query
+    /// of random place looks at. Lower is better.
     pub fn area_ratio(&self) -> f32 {
         let root = self.bounds().perimeter();
-        if root <= 0.0 || root.is_nan() {
+        if self.root == NONE || root <= 0.0 || root.is_nan() {
             return 0.0;
         }
+        self.cost() * self.count as f32 / root
+    }
+
+    /// Perimeters of all nodes, per box in the tree.
+    fn cost(&self) -> f32 {
         let mut total = 0.0;
-        self.for_each_node(|node| {
-            if !node.is_leaf() {
-                total += node.aabb.perimeter();
+        for boxes in &self.boxes {
+            let perimeter = boxes.union().perimeter();
+            if perimeter > 0.0 {
+                total += perimeter;
             }
-        });
-        total / root
+        }
+        total / self.count as f32
     }
 
     /// Checks every invariant. For tests.
@@ -273,49 +386,90 @@ impl DynamicTree {
     /// Says what is wrong, and at which node.
     pub fn validate(&self) -> Result<(), String> {
         let (mut leaves, mut inner) = (0, 0);
-        let mut stack = vec![(self.root, NONE)];
-        while let Some((index, parent)) = stack.pop() {
-            if index == NONE {
-                continue;
-            }
+        let mut stack: Vec<u32> = [self.root].into_iter().filter(|&root| root != NONE).collect();
+        while let Some(index) = stack.pop() {
             let node =
                 self.nodes.get(index as usize).ok_or(format!("node {index} is not there"))?;
-            if node.parent != parent {
-                return Err(format!("node {index} has parent {}, not {parent}", node.parent));
-            }
-            if node.is_leaf() {
-                leaves += 1;
-                if self.leaf(node.child[1]) != Some(index) {
-                    return Err(format!("id {} does not know its leaf {index}", node.child[1]));
-                }
-                continue;
-            }
             inner += 1;
-            if self.summary(node.child) != (node.aabb, node.category, node.height) {
-                return Err(format!("node {index} is not the union of its children"));
+            let mut count = 0;
+            for lane in 0..WIDTH {
+                let child = node.child[lane];
+                if child == NONE {
+                    if self.boxes[index as usize].get(lane) != Aabb::EMPTY
+                        || node.category[lane] != 0
+                    {
+                        return Err(format!("node {index} has something in free lane {lane}"));
+                    }
+                    continue;
+                }
+                count += 1;
+                if node.level == 0 {
+                    leaves += 1;
+                    if self.place(child) != Some((index, lane)) {
+                        return Err(format!("id {child} does not know its node {index}"));
+                    }
+                } else {
+                    self.validate_link(index, lane)?;
+                    stack.push(child);
+                }
             }
-            stack.extend(node.child.map(|child| (child, index)));
+            if count != node.count || count == 0 {
+                return Err(format!("node {index} has {count} children, not {}", node.count));
+            }
         }
-        let known = self.leaves.iter().filter(|&&leaf| leaf != NONE).count();
-        if leaves != self.count || known != self.count || inner != self.count.saturating_sub(1) {
-            return Err(format!("{leaves} leaves, {inner} inner nodes, {} boxes", self.count));
+        let known = self.places.iter().filter(|&&place| place != NONE).count();
+        let mut free = self.free;
+        while free != NONE {
+            inner += 1;
+            free = self.nodes[free as usize].parent;
+        }
+        if leaves != self.count || known != self.count || inner != self.nodes.len() {
+            return Err(format!("{leaves} leaves, {inner} nodes, {} boxes", self.count));
         }
         Ok(())
     }
 
-    #[inline]
-    fn leaf(&self, id: u32) -> Option<u32> {
-        self.leaves.get(id as usize).copied().filter(|&leaf| leaf != NONE)
+    fn validate_link(&self, index: u32, lane: usize) -> Result<(), String> {
+        let child = self.nodes[index as usize].child[lane];
+        let node = self.nodes.get(child as usize).ok_or(format!("node {child} is not there"))?;
+        if (node.parent, node.lane as usize) != (index, lane) {
+            return Err(format!("node {child} does not know its parent {index}"));
+        }
+        if node.level + 1 != self.nodes[index as usize].level {
+            return Err(format!("node {child} is on the wrong level"));
+        }
+        if !self.boxes[index as usize].get(lane).contains(&self.boxes[child as usize].union())
+            || self.nodes[index as usize].category[lane] != node.all_categories()
+        {
+            return Err(format!("node {child} is not in the box its parent has for it"));
+        }
+        Ok(())
     }
 
-    fn allocate(&mut self, node: Node) -> u32 {
+    /// Node and lane of an id.
+    #[inline]
+    pub(super) fn place(&self, id: u32) -> Option<(u32, usize)> {
+        let place = *self.places.get(id as usize)?;
+        (place != NONE).then_some((place / WIDTH as u32, place as usize % WIDTH))
+    }
+
+    #[inline]
+    fn branch(&self, node: u32, lane: usize) -> Branch {
+        let Node { category, child, .. } = &self.nodes[node as usize];
+        let aabb = self.boxes[node as usize].get(lane);
+        Branch { aabb, category: category[lane], child: child[lane] }
+    }
+
+    fn allocate(&mut self, level: u8) -> u32 {
         if self.free == NONE {
-            self.nodes.push(node);
+            self.boxes.push(Boxes::EMPTY);
+            self.nodes.push(Node::new(level));
             return self.nodes.len() as u32 - 1;
         }
         let index = self.free;
         self.free = self.nodes[index as usize].parent;
-        self.nodes[index as usize] = node;
+        self.boxes[index as usize] = Boxes::EMPTY;
+        self.nodes[index as usize] = Node::new(level);
         index
     }
 
@@ -324,193 +478,272 @@ impl DynamicTree {
         self.free = index;
     }
 
+    /// Puts a branch in a lane and tells the child.
     #[inline]
-    fn aabb(&self, index: u32) -> Aabb {
-        self.nodes[index as usize].aabb
+    fn put(&mut self, index: u32, lane: usize, branch: Branch) {
+        let node = &mut self.nodes[index as usize];
+        node.child[lane] = branch.child;
+        node.category[lane] = branch.category;
+        let level = node.level;
+        self.boxes[index as usize].set(lane, branch.aabb);
+        if level == 0 {
+            self.places[branch.child as usize] = index * WIDTH as u32 + lane as u32;
+        } else {
+            let child = &mut self.nodes[branch.child as usize];
+            (child.parent, child.lane) = (index, lane as u8);
+        }
     }
 
-    /// What a node over these children has.
+    /// The branch of a whole node.
     #[inline]
-    fn summary(&self, child: [u32; 2]) -> (Aabb, u64, u32) {
-        let (a, b) = (&self.nodes[child[0] as usize], &self.nodes[child[1] as usize]);
-        let height = 1 + if a.height > b.height { a.height } else { b.height };
-        (a.aabb.union(&b.aabb), a.category | b.category, height)
+    fn summary(&self, index: u32) -> Branch {
+        Branch {
+            aabb: self.boxes[index as usize].union(),
+            category: self.nodes[index as usize].all_categories(),
+            child: index,
+        }
     }
 
-    /// Hangs a leaf beside the best sibling.
-    fn link(&mut self, leaf: u32) {
+    /// Puts a leaf into the best node of level 0.
+    fn link(&mut self, branch: Branch) {
         if self.root == NONE {
-            self.root = leaf;
-            self.nodes[leaf as usize].parent = NONE;
-            return;
+            self.root = self.allocate(0);
         }
-        let sibling = self.best_sibling(self.aabb(leaf));
-        let parent = self.nodes[sibling as usize].parent;
-        let joint = self.allocate(Node {
-            aabb: Aabb::EMPTY,
-            category: 0,
-            parent,
-            child: [sibling, leaf],
-            height: 0,
-        });
-        self.replace_child(parent, sibling, joint);
-        self.nodes[sibling as usize].parent = joint;
-        self.nodes[leaf as usize].parent = joint;
-        self.refit(joint);
-    }
-
-    /// Takes a leaf off; its sibling takes the place of their parent.
-    fn unlink(&mut self, leaf: u32) {
-        let parent = self.nodes[leaf as usize].parent;
-        if parent == NONE {
-            self.root = NONE;
-            return;
-        }
-        let Node { child, parent: grandparent, .. } = self.nodes[parent as usize];
-        let sibling = if child[0] == leaf { child[1] } else { child[0] };
-        self.nodes[sibling as usize].parent = grandparent;
-        self.replace_child(grandparent, parent, sibling);
-        self.release(parent);
-        self.refit(grandparent);
-    }
-
-    fn replace_child(&mut self, parent: u32, old: u32, new: u32) {
-        if parent == NONE {
-            self.root = new;
-            return;
-        }
-        let child = &mut self.nodes[parent as usize].child;
-        child[usize::from(child[0] != old)] = new;
-    }
-
-    /// Goes down to where a new parent of the box adds the least perimeter.
-    fn best_sibling(&self, aabb: Aabb) -> u32 {
         let mut index = self.root;
+        while self.nodes[index as usize].level > 0 {
+            let lane = self.best_lane(index, branch.aabb);
+            index = self.nodes[index as usize].child[lane];
+        }
+        self.add(index, branch);
+    }
+
+    /// The lane that grows least, the smallest of those that grow the same.
+    #[inline]
+    fn best_lane(&self, index: u32, aabb: Aabb) -> usize {
+        let (node, boxes) = (&self.nodes[index as usize], &self.boxes[index as usize]);
+        let mut best = (f32::INFINITY, f32::INFINITY, 0);
+        let mut found = false;
+        for lane in 0..WIDTH {
+            if node.child[lane] == NONE {
+                continue;
+            }
+            let perimeter = boxes.get(lane).perimeter();
+            let growth = boxes.get(lane).union(&aabb).perimeter() - perimeter;
+            if !found || growth < best.0 || (growth == best.0 && perimeter < best.1) {
+                best = (growth, perimeter, lane);
+                found = true;
+            }
+        }
+        best.2
+    }
+
+    /// Adds a branch to a node, cutting it and its ancestors in two where they are full.
+    fn add(&mut self, mut index: u32, mut branch: Branch) {
         loop {
-            let node = &self.nodes[index as usize];
-            if node.is_leaf() {
-                return index;
-            }
-            let joined = node.aabb.union(&aabb).perimeter();
-            let inherited = joined - node.aabb.perimeter();
-            let [a, b] = node.child.map(|child| {
-                let child = &self.nodes[child as usize];
-                let joined = child.aabb.union(&aabb).perimeter();
-                if child.is_leaf() { joined } else { joined - child.aabb.perimeter() }
-            });
-            if joined < inherited + a && joined < inherited + b {
-                return index;
-            }
-            index = node.child[usize::from(b < a)];
-        }
-    }
-
-    /// Recomputes the nodes from `index` up to the root, rotating where that helps.
-    fn refit(&mut self, mut index: u32) {
-        while index != NONE {
-            self.rotate(index);
-            let summary = self.summary(self.nodes[index as usize].child);
             let node = &mut self.nodes[index as usize];
-            (node.aabb, node.category, node.height) = summary;
-            index = node.parent;
+            if (node.count as usize) < WIDTH {
+                node.count += 1;
+                let lane = node.child.iter().position(|&child| child == NONE).unwrap_or(0);
+                self.put(index, lane, branch);
+                self.refit(index);
+                return;
+            }
+            branch = self.split(index, branch);
+            let parent = self.nodes[index as usize].parent;
+            if parent == NONE {
+                let level = self.nodes[index as usize].level + 1;
+                let root = self.allocate(level);
+                self.nodes[root as usize].count = 2;
+                self.put(root, 0, self.summary(index));
+                self.put(root, 1, branch);
+                self.root = root;
+                return;
+            }
+            let lane = self.nodes[index as usize].lane as usize;
+            self.put(parent, lane, self.summary(index));
+            index = parent;
         }
     }
 
-    /// Swaps a child of `index` with a grandchild where that makes the other child smaller.
-    fn rotate(&mut self, index: u32) {
-        let child = self.nodes[index as usize].child;
-        let mut best = (0.0, 0, 0);
-        for side in 0..2 {
-            let (low, high) = (&self.nodes[child[side] as usize], self.aabb(child[1 - side]));
-            if low.is_leaf() {
-                continue;
-            }
-            let perimeter = low.aabb.perimeter();
-            for k in 0..2 {
-                let kept = self.aabb(low.child[1 - k]);
-                let gain = perimeter - kept.union(&high).perimeter();
-                if gain > best.0 {
-                    best = (gain, side, k);
-                }
-            }
+    /// Shares the children of a full node and one more between it and a new node; gives the new
+    /// one.
+    fn split(&mut self, index: u32, extra: Branch) -> Branch {
+        let mut all = [extra; WIDTH + 1];
+        for (lane, branch) in all[..WIDTH].iter_mut().enumerate() {
+            *branch = self.branch(index, lane);
         }
-        if best.0 > 0.0 {
-            self.swap(index, best.1, best.2);
+        let cut = best_cut(&mut all);
+        let Node { level, parent, lane, .. } = self.nodes[index as usize];
+        self.boxes[index as usize] = Boxes::EMPTY;
+        self.nodes[index as usize] = Node { parent, lane, ..Node::new(level) };
+        let other = self.allocate(level);
+        self.fill(index, &all[..cut]);
+        self.fill(other, &all[cut..]);
+        self.summary(other)
+    }
+
+    fn fill(&mut self, index: u32, branches: &[Branch]) {
+        for (lane, branch) in branches.iter().enumerate() {
+            self.put(index, lane, *branch);
         }
+        self.nodes[index as usize].count = branches.len() as u8;
     }
 
-    fn swap(&mut self, index: u32, side: usize, k: usize) {
-        let child = self.nodes[index as usize].child;
-        let (low, high) = (child[side], child[1 - side]);
-        let grandchild = self.nodes[low as usize].child[k];
-        self.nodes[index as usize].child[1 - side] = grandchild;
-        self.nodes[grandchild as usize].parent = index;
-        self.nodes[low as usize].child[k] = high;
-        self.nodes[high as usize].parent = low;
-        let summary = self.summary(self.nodes[low as usize].child);
-        let node = &mut self.nodes[low as usize];
-        (node.aabb, node.category, node.height) = summary;
-    }
-
-    fn near_far(&self, node: &Node, direction: Vec2) -> (u32, u32) {
-        let [a, b] = node.child;
-        let towards = |index| self.aabb(index).center().dot(direction);
-        if towards(b) < towards(a) { (b, a) } else { (a, b) }
-    }
-
-    fn for_each_node(&self, mut visit: impl FnMut(&Node)) {
-        let mut stack = vec![self.root];
-        while let Some(index) = stack.pop() {
-            if index == NONE {
-                continue;
+    /// Takes a lane off; nodes that get empty go.
+    fn unlink(&mut self, mut index: u32, mut lane: usize) {
+        loop {
+            let node = &mut self.nodes[index as usize];
+            node.child[lane] = NONE;
+            node.category[lane] = 0;
+            node.count -= 1;
+            let (count, parent, up) = (node.count, node.parent, node.lane as usize);
+            self.boxes[index as usize].set(lane, Aabb::EMPTY);
+            if count > 0 {
+                self.refit(index);
+                return;
             }
-            let node = &self.nodes[index as usize];
-            visit(node);
-            if !node.is_leaf() {
-                stack.extend(node.child);
-            }
-        }
-    }
-
-    fn free_inner_nodes(&mut self) {
-        let mut stack = vec![self.root];
-        while let Some(index) = stack.pop() {
-            if index == NONE || self.nodes[index as usize].is_leaf() {
-                continue;
-            }
-            stack.extend(self.nodes[index as usize].child);
             self.release(index);
+            if parent == NONE {
+                self.root = NONE;
+                return;
+            }
+            (index, lane) = (parent, up);
         }
     }
 
-    fn build(&mut self, leaves: &mut [u32]) -> u32 {
-        if let [leaf] = leaves {
-            return *leaf;
+    /// Makes the ancestors of a node hold a new box.
+    #[inline]
+    fn grow(&mut self, mut index: u32, aabb: &Aabb) {
+        loop {
+            let Node { parent, lane, .. } = self.nodes[index as usize];
+            if parent == NONE {
+                return;
+            }
+            let boxes = &mut self.boxes[parent as usize];
+            let now = boxes.get(lane as usize);
+            if now.contains(aabb) {
+                return;
+            }
+            boxes.set(lane as usize, now.union(aabb));
+            index = parent;
         }
-        let middle = self.partition(leaves);
-        let (low, high) = leaves.split_at_mut(middle);
-        let child = [self.build(low), self.build(high)];
-        let (aabb, category, height) = self.summary(child);
-        let index = self.allocate(Node { aabb, category, parent: NONE, child, height });
-        for child in child {
-            self.nodes[child as usize].parent = index;
+    }
+
+    /// Tells the ancestors of a node how large it is now, no larger; stops where nothing changes.
+    #[inline]
+    pub(super) fn refit(&mut self, mut index: u32) {
+        loop {
+            let Node { parent, lane, .. } = self.nodes[index as usize];
+            if parent == NONE {
+                return;
+            }
+            let (lane, summary) = (lane as usize, self.summary(index));
+            let category = &mut self.nodes[parent as usize].category[lane];
+            let boxes = &mut self.boxes[parent as usize];
+            if boxes.get(lane) == summary.aabb && *category == summary.category {
+                return;
+            }
+            *category = summary.category;
+            boxes.set(lane, summary.aabb);
+            index = parent;
         }
+    }
+
+    /// Lanes that the cast may hit, the nearest first.
+    #[inline]
+    fn lanes_on_the_way(
+        &self,
+        index: u32,
+        cast: &BoxCast,
+        bounds: &Aabb,
+        mask: u64,
+    ) -> ([usize; WIDTH], usize) {
+        let (node, boxes) = (&self.nodes[index as usize], &self.boxes[index as usize]);
+        let (mut order, mut keys, mut count) = ([0; WIDTH], [0.0; WIDTH], 0);
+        let mut bits = boxes.overlaps(bounds);
+        while bits != 0 {
+            let lane = bits.trailing_zeros() as usize % WIDTH;
+            bits &= bits - 1;
+            let aabb = boxes.get(lane);
+            if node.category[lane] & mask == 0 || cast.line_misses(&aabb) {
+                continue;
+            }
+            let key = aabb.center().dot(cast.translation);
+            let mut at = count;
+            while at > 0 && key < keys[at - 1] {
+                (keys[at], order[at]) = (keys[at - 1], order[at - 1]);
+                at -= 1;
+            }
+            (keys[at], order[at]) = (key, lane);
+            count += 1;
+        }
+        (order, count)
+    }
+
+    fn build(&mut self, branches: &mut [Branch], level: u8) -> u32 {
+        let index = self.allocate(level);
+        if level == 0 {
+            self.fill(index, branches);
+            return index;
+        }
+        let parts = branches.len().div_ceil(capacity(level - 1));
+        let mut lane = 0;
+        self.build_parts(index, &mut lane, branches, parts);
+        self.nodes[index as usize].count = lane as u8;
         index
     }
 
-    /// Sorts the leaves into two halves along the longer side of their centres.
-    fn partition(&self, leaves: &mut [u32]) -> usize {
-        let mut centers = Aabb::EMPTY;
-        for &leaf in leaves.iter() {
-            let center = self.aabb(leaf).center();
-            centers = centers.union(&Aabb::new(center, center));
+    fn build_parts(&mut self, index: u32, lane: &mut usize, part: &mut [Branch], parts: usize) {
+        if parts == 1 {
+            let child = self.build(part, self.nodes[index as usize].level - 1);
+            self.put(index, *lane, self.summary(child));
+            *lane += 1;
+            return;
         }
-        let axis = usize::from(centers.max.y - centers.min.y > centers.max.x - centers.min.x);
-        let middle = leaves.len() / 2;
-        leaves.select_nth_unstable_by(middle, |&a, &b| {
-            let (p, q) = (self.aabb(a).center()[axis], self.aabb(b).center()[axis]);
-            p.total_cmp(&q).then(a.cmp(&b))
-        });
-        middle
+        let middle = part.len() * (parts / 2) / parts;
+        let axis = wider_axis(part);
+        part.select_nth_unstable_by(middle, |a, b| compare(a, b, axis));
+        let (low, high) = part.split_at_mut(middle);
+        self.build_parts(index, lane, low, parts / 2);
+        self.build_parts(index, lane, high, parts - parts / 2);
     }
+}
+
+/// Leaves that a tree with its root on this level can hold.
+fn capacity(level: u8) -> usize {
+    WIDTH.saturating_pow(u32::from(level) + 1)
+}
+
+/// The axis along which the centres spread more.
+fn wider_axis(branches: &[Branch]) -> usize {
+    let mut centers = Aabb::EMPTY;
+    for branch in branches {
+        let center = branch.aabb.center();
+        centers = centers.union(&Aabb::new(center, center));
+    }
+    usize::from(centers.max.y - centers.min.y > centers.max.x - centers.min.x)
+}
+
+#[inline]
+fn compare(a: &Branch, b: &Branch, axis: usize) -> core::cmp::Ordering {
+    let (p, q) = (a.aabb.center()[axis], b.aabb.center()[axis]);
+    p.total_cmp(&q).then(a.child.cmp(&b.child))
+}
+
+/// Sorts the children of a full node and finds where to cut: least perimeter of both parts, three
+/// children a part at least.
+fn best_cut(all: &mut [Branch; WIDTH + 1]) -> usize {
+    let axis = wider_axis(all);
+    all.sort_unstable_by(|a, b| compare(a, b, axis));
+    let union = |part: &[Branch]| {
+        part.iter().fold(Aabb::EMPTY, |all, branch| all.union(&branch.aabb)).perimeter()
+    };
+    let (mut best, mut best_cost) = (WIDTH.div_ceil(2), f32::INFINITY);
+    for cut in 3..=WIDTH - 2 {
+        let cost = union(&all[..cut]) + union(&all[cut..]);
+        if cost < best_cost {
+            (best, best_cost) = (cut, cost);
+        }
+    }
+    best
 }

@@ -131,3 +131,12 @@ pub(crate) mod flags {
     /// Some lane sends hit events.
     pub(crate) const HIT: u8 = 8;
 }
+
+/// What is known of a block as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub(crate) struct BlockHead {
+    /// Which lanes touched in the last narrow phase, as bits.
+    pub(crate) touching: u16,
+    /// What lanes use, see [`flags`].
+    pub(crate) flags: u8,
+}

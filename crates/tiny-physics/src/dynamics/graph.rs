@@ -10,7 +10,7 @@
 //!
 //! Inside a colour, contacts lie in buckets by pair class, so a block is of one kind.
 
-use super::blocks::{ConstraintBlock, ManifoldBlock, SurfaceBlock, flags};
+use super::blocks::{BlockHead, ConstraintBlock, ManifoldBlock, SurfaceBlock, flags};
 use super::bodies::Bodies;
 use super::contacts::{Contact, Contacts, Place, SavedPoint};
 use crate::geometry::manifold::PairClass;
@@ -32,10 +32,7 @@ pub(crate) struct Bucket {
     /// As long as `manifolds`, but empty in the idle colour.
     pub(crate) constraints: Vec<ConstraintBlock>,
     pub(crate) surfaces: Vec<SurfaceBlock>,
-    /// [`flags`] of each block.
-    pub(crate) flags: Vec<u8>,
-    /// Which lanes touched in the last narrow phase, as bits.
-    pub(crate) touching: Vec<u16>,
+    pub(crate) heads: Vec<BlockHead>,
 }
 
 impl Bucket {
@@ -53,8 +50,7 @@ impl Bucket {
         self.contacts.push(index);
         if lane == 0 {
             self.manifolds.push(ManifoldBlock::NULL);
-            self.touching.push(0);
-            self.flags.push(0);
+            self.heads.push(BlockHead::default());
             if constrained {
                 self.constraints.push(ConstraintBlock::NULL);
                 self.surfaces.push(SurfaceBlock::NULL);
@@ -68,7 +64,7 @@ impl Bucket {
         manifold.friction[lane] = contact.friction;
         manifold.id_1[lane] = contact.saved[0].id;
         manifold.id_2[lane] = contact.saved[1].id;
-        self.touching[block] |= u16::from(contact.touching) << lane;
+        self.heads[block].touching |= u16::from(contact.touching) << lane;
         if constrained {
             self.fill_constraint(block, lane, contact);
         }
@@ -88,7 +84,7 @@ impl Bucket {
         surface.rolling_resistance[lane] = contact.rolling_resistance;
         surface.tangent_speed[lane] = contact.tangent_speed;
         surface.rolling_impulse[lane] = 0.0;
-        self.flags[block] |= contact_flags(contact);
+        self.heads[block].flags |= contact_flags(contact);
     }
 
     /// Takes a slot out; the last one moves into it. Gives the contact that moved, if one did.
@@ -120,16 +116,17 @@ impl Bucket {
                 SurfaceBlock::copy_lane,
             );
         }
-        let touching = self.touching[last_block] >> last_lane & 1;
-        self.touching[block] = self.touching[block] & !(1 << lane) | touching << lane;
-        self.touching[last_block] &= !(1 << last_lane);
-        self.flags[block] |= self.flags[last_block];
+        let last_head = self.heads[last_block];
+        let touching = last_head.touching >> last_lane & 1;
+        let head = &mut self.heads[block];
+        head.touching = head.touching & !(1 << lane) | touching << lane;
+        head.flags |= last_head.flags;
+        self.heads[last_block].touching &= !(1 << last_lane);
         if last_lane == 0 {
             self.manifolds.pop();
             self.constraints.pop();
             self.surfaces.pop();
-            self.flags.pop();
-            self.touching.pop();
+            self.heads.pop();
         }
         self.contacts.get(slot as usize).copied()
     }

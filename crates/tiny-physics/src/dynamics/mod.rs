@@ -11,7 +11,9 @@ mod joints;
 mod pair_table;
 mod shapes;
 
-pub(crate) use blocks::{ConstraintBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags};
+pub(crate) use blocks::{
+    BlockHead, ConstraintBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags,
+};
 pub(crate) use bodies::{Bodies, BodyInfo, Motion, NULL, Slot};
 pub(crate) use contacts::{Contact, Contacts, Place, SavedPoint};
 pub(crate) use graph::{Bucket, COLOURS, Graph, IDLE, OVERFLOW};

@@ -1,13 +1,35 @@
 //! Shapes and everything that can be computed about them without knowing bodies.
 //!
 //! Above [`math`](crate::math), below the dynamics: mass properties, bounding boxes, ray casts,
-//! distance, time of impact and contact manifolds of pairs of shapes.
+//! distance, time of impact and contact manifolds of pairs of shapes. Shapes stay in frames of their
+//! own or of one another, so 32 bits hold every coordinate.
 
+mod bounds;
+mod cast;
+#[cfg(feature = "serde")]
+mod data;
+mod distance;
+mod hull;
 pub(crate) mod manifold;
+mod mass;
+mod point;
 mod polygon;
+mod ray;
+mod rounded_core;
 mod shape;
-mod temporary;
+mod sweep;
+mod toi;
 
-pub use polygon::Polygon;
-pub use shape::Shape;
-pub use temporary::MassProperties;
+#[cfg(test)]
+mod testing;
+
+pub use cast::{CastHit, shape_cast};
+pub use distance::{Distance, distance};
+pub use manifold::{Contact, Manifold, ManifoldPoint, collide, contact};
+pub use mass::MassProperties;
+pub use polygon::{MAX_VERTICES, Polygon};
+pub use ray::{Ray, RayHit};
+pub use rounded_core::Core;
+pub use shape::{MAX_EXTENT, MIN_EXTENT, Shape};
+pub use sweep::Sweep;
+pub use toi::{LINEAR_SLOP, Toi, ToiState, time_of_impact, time_of_impact_to, toi_target};

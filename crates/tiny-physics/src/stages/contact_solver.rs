@@ -17,9 +17,9 @@
 //! Within a colour, order does not matter; colours go in order. The same functions serve as lanes
 //! and, one lane wide, for the overflow.
 
-use crate::dynamics::{ConstraintBlock, PointLanes, Slot, SurfaceBlock, flags};
+use crate::dynamics::{BlockHead, Bucket, ConstraintBlock, PointLanes, Slot, SurfaceBlock, flags};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
-use crate::threads::SharedRows;
+use crate::threads::{SharedRows, SharedSlice, Team};
 
 /// Coefficients of a soft constraint for one substep length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,25 +70,51 @@ pub(crate) enum Pass {
     Restitution,
 }
 
-/// A run of blocks of one colour and class.
-pub(crate) struct Blocks<'a> {
-    pub(crate) constraints: &'a mut [ConstraintBlock],
-    pub(crate) surfaces: &'a mut [SurfaceBlock],
-    pub(crate) flags: &'a [u8],
-    /// 1 for the classes that never have a second point.
-    pub(crate) points: usize,
-}
+/// Blocks that one member of the team solves at a time.
+const CHUNK: usize = 8;
 
-/// Runs a pass over blocks of one colour, in lanes.
+/// Runs a pass over a bucket of one colour, in lanes. `points` is 1 for the classes that never have a
+/// second point.
 pub(crate) fn run(
+    team: &Team,
     level: SimdLevel,
     pass: Pass,
     parameters: &Parameters,
     rows: SharedRows<'_>,
-    blocks: Blocks<'_>,
+    bucket: &mut Bucket,
+    points: usize,
 ) {
-    let points = blocks.points;
-    let work = RunPass { pass, parameters, rows, blocks };
+    let block_count = bucket.constraints.len();
+    let constraints = SharedSlice::new(&mut bucket.constraints);
+    let surfaces = SharedSlice::new(&mut bucket.surfaces);
+    let heads = &bucket.heads;
+    team.for_each_chunk(block_count, CHUNK, |range| {
+        let blocks = Blocks {
+            constraints: constraints.range(range.clone()),
+            surfaces: surfaces.range(range.clone()),
+            heads: &heads[range],
+        };
+        run_blocks(level, RunPass { pass, parameters, rows, blocks }, points);
+    });
+}
+
+/// Runs a pass over a bucket of the overflow: the one-lane instance, contact after contact.
+pub(crate) fn run_in_order(
+    pass: Pass,
+    parameters: &Parameters,
+    rows: SharedRows<'_>,
+    bucket: &mut Bucket,
+    points: usize,
+) {
+    let blocks = Blocks {
+        constraints: &mut bucket.constraints,
+        surfaces: &mut bucket.surfaces,
+        heads: &bucket.heads,
+    };
+    run_blocks(SimdLevel::Scalar, RunPass { pass, parameters, rows, blocks }, points);
+}
+
+fn run_blocks(level: SimdLevel, work: RunPass<'_>, points: usize) {
     if points == 1 {
         dispatch(level, Points::<1, _>(work));
     } else {
@@ -96,14 +122,11 @@ pub(crate) fn run(
     }
 }
 
-/// Runs a pass over blocks of the overflow: the one-lane instance, in order.
-pub(crate) fn run_in_order(
-    pass: Pass,
-    parameters: &Parameters,
-    rows: SharedRows<'_>,
-    blocks: Blocks<'_>,
-) {
-    run(SimdLevel::Scalar, pass, parameters, rows, blocks);
+/// A run of blocks of one colour and class.
+struct Blocks<'a> {
+    constraints: &'a mut [ConstraintBlock],
+    surfaces: &'a mut [SurfaceBlock],
+    heads: &'a [BlockHead],
 }
 
 struct RunPass<'a> {
@@ -123,7 +146,7 @@ impl<const POINTS: usize> LaneKernel for Points<POINTS, RunPass<'_>> {
         let RunPass { pass, parameters, rows, blocks } = self.0;
         let constants = Constants::<L>::new(token, parameters);
         for (index, block) in blocks.constraints.iter_mut().enumerate() {
-            let flags = blocks.flags[index];
+            let flags = blocks.heads[index].flags;
             let surface = &mut blocks.surfaces[index];
             for at in (0..BLOCK).step_by(L::WIDTH) {
                 let stride = Stride { token, rows, at, constants: &constants };

@@ -1,17 +1,118 @@
-//! Continuous collision (stand-in).
-use super::finalize::{FastBody, update_boxes};
-use crate::broad_phase::BroadPhase;
-use crate::dynamics::{Bodies, Shapes};
+//! Continuous collision: fast bodies stop where they would have gone through something.
+//!
+//! A body that moved further than a part of its own thickness is swept from where it started the step
+//! to where the solver put it. It is set back to the first impact with a static or kinematic shape; a
+//! bullet also to that with a dynamic one. Its velocity stays: the contact solver deals with it in the
+//! next step, when there is a contact. The time that is lost is at most a step.
 
+use super::finalize::{FastBody, update_boxes};
+use crate::broad_phase::{BroadPhase, ProxyKind};
+use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes};
+use crate::geometry::{Sweep, ToiState, time_of_impact};
+use crate::math::{Aabb, Pose, Transform, Vec2};
+use core::ops::ControlFlow;
+
+/// Sweeps the fast bodies, bullets last: they see where all others have ended.
 pub(crate) fn run(
     fast: &[FastBody],
     bodies: &mut Bodies,
     shapes: &Shapes,
+    joints: &Joints,
     broad_phase: &mut BroadPhase,
-    _speculative: f32,
 ) {
-    for f in fast {
-        let motion = bodies.poses[f.body as usize].p.relative_to(f.start.p);
-        update_boxes(bodies, shapes, broad_phase, f.body, motion);
+    for bullets in [false, true] {
+        for body in fast {
+            if bodies.infos[body.body as usize].bullet == bullets {
+                sweep(body, bodies, shapes, joints, broad_phase);
+            }
+        }
+    }
+}
+
+/// Sets one body back to its first impact, if it has one, and updates its boxes.
+fn sweep(
+    fast: &FastBody,
+    bodies: &mut Bodies,
+    shapes: &Shapes,
+    joints: &Joints,
+    broad_phase: &mut BroadPhase,
+) {
+    let fraction = Impact { fast, bodies, shapes, joints, broad_phase }.first_fraction();
+    if fraction < 1.0 {
+        let position = fast.start.p + fast.motion * fraction;
+        let rotation = fast.start.q.integrate(fast.turn * fraction);
+        bodies.poses[fast.body as usize] = Pose::new(position, rotation);
+    }
+    update_boxes(bodies, shapes, broad_phase, fast.body, fast.motion * fraction);
+}
+
+/// The search for the first impact of a body.
+struct Impact<'a> {
+    fast: &'a FastBody,
+    bodies: &'a Bodies,
+    shapes: &'a Shapes,
+    joints: &'a Joints,
+    broad_phase: &'a BroadPhase,
+}
+
+impl Impact<'_> {
+    /// The part of the step for which the body touches nothing new, 0 to 1.
+    fn first_fraction(&self) -> f32 {
+        let fast = self.fast;
+        let info = &self.bodies.infos[fast.body as usize];
+        // All geometry is relative to where the centre of mass was: 32 bits are enough.
+        let frame = Transform::new(Vec2::ZERO, fast.start.q);
+        let sweep = Sweep::new(frame, Vec2::ZERO, fast.motion, fast.turn);
+        let path = self.path_box(info.max_extent);
+        let mut first = 1.0;
+        for shape in self.shapes.of_body(info.first_shape) {
+            let record = &self.shapes.records[shape as usize];
+            if record.sensor {
+                continue;
+            }
+            let moving = sweep.child(record.central);
+            for kind in [ProxyKind::Static, ProxyKind::Kinematic, ProxyKind::Dynamic] {
+                if kind == ProxyKind::Dynamic && !info.bullet {
+                    continue;
+                }
+                self.broad_phase.tree(kind).query(&path, record.filter.mask, |proxy| {
+                    if let Some(other) = self.broad_phase.user(crate::broad_phase::ProxyId(proxy)) {
+                        first = self.impact(record, &moving, other, first);
+                    }
+                    ControlFlow::Continue(())
+                });
+            }
+        }
+        first
+    }
+
+    /// The box of everything that the body can have reached.
+    fn path_box(&self, extent: f32) -> Aabb {
+        let (start, end) = (self.fast.start.p, self.fast.start.p + self.fast.motion);
+        let at = |p| Aabb::rounded_out(p - Vec2::splat(extent), p + Vec2::splat(extent));
+        at(start).union(&at(end))
+    }
+
+    /// The first impact so far, taking one more shape into account.
+    fn impact(&self, record: &ShapeRecord, moving: &Sweep, other: u32, first: f32) -> f32 {
+        let other = &self.shapes.records[other as usize];
+        if !self.may_collide(record, other) {
+            return first;
+        }
+        let pose = self.bodies.poses[other.body as usize];
+        let place = Transform::new(pose.p.relative_to(self.fast.start.p), pose.q);
+        let fixed = Sweep::fixed(place.compose(other.central));
+        let toi = time_of_impact(&record.shape, moving, &other.shape, &fixed, first);
+        match toi.state {
+            ToiState::Hit | ToiState::Limit => toi.fraction,
+            ToiState::Separated | ToiState::Touching => first,
+        }
+    }
+
+    fn may_collide(&self, record: &ShapeRecord, other: &ShapeRecord) -> bool {
+        other.body != record.body
+            && !other.sensor
+            && record.filter.collides(&other.filter)
+            && self.joints.may_collide(self.bodies, record.body, other.body)
     }
 }

@@ -2,9 +2,10 @@
 
 use crate::broad_phase::{BroadPhase, ProxyId};
 use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, NULL, Shapes, Slot};
+use crate::dynamics::{Bodies, BodyInfo, Shapes, Slot};
 use crate::math::{Aabb, DVec2, Pose, Vec2};
 use crate::simd::Row;
+use crate::threads::{SharedSlice, Team};
 
 /// A body that moved so far in one step that it might have jumped over something.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,6 +13,10 @@ pub(crate) struct FastBody {
     pub(crate) body: u32,
     /// Pose of the centre of mass at the start of the step.
     pub(crate) start: Pose,
+    /// What it moved, metres.
+    pub(crate) motion: Vec2,
+    /// What it turned, radians.
+    pub(crate) turn: f32,
 }
 
 /// What [`run`] needs to know of the world's settings.
@@ -24,56 +29,115 @@ pub(crate) struct Options {
 /// Bodies that move less than this fraction of their smallest half width in a step cannot jump.
 const SAFE_FRACTION: f32 = 0.5;
 
-/// Takes the motion of the step over into the poses. Fast bodies are listed in `fast`, their boxes
-/// left for the continuous stage; bodies whose numbers are no longer finite are listed in `broken`.
+/// Bodies that one member of the team finalises at a time.
+const CHUNK: usize = 128;
+
+/// What finalising a chunk of bodies found.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Findings {
+    /// Shapes that left their fat boxes, and the new ones.
+    moved: Vec<(ProxyId, Aabb)>,
+    /// Fast bodies: their boxes are left for the continuous stage.
+    pub(crate) fast: Vec<FastBody>,
+    /// Bodies whose numbers are no longer finite.
+    pub(crate) broken: Vec<u32>,
+}
+
+/// Takes the motion of the step over into poses and boxes. `found` gets the findings by chunk, in the order of
+/// the bodies; entries past the returned count are left over from other steps.
 pub(crate) fn run(
+    team: &Team,
     bodies: &mut Bodies,
     shapes: &Shapes,
     broad_phase: &mut BroadPhase,
     options: Options,
-    fast: &mut Vec<FastBody>,
-    broken: &mut Vec<u32>,
-) {
-    let awake = core::mem::take(&mut bodies.awake);
-    for &index in &awake {
-        let i = index as usize;
-        let row = &mut bodies.rows[i];
-        let motion = Vec2::new(row[Slot::DX], row[Slot::DY]);
-        let turn = row[Slot::DA];
-        if !(motion.is_finite() && turn.is_finite() && row[..3].iter().all(|v| v.is_finite())) {
-            broken.push(index);
-            continue;
+    found: &mut Vec<Findings>,
+) -> usize {
+    let Bodies { awake, rows, poses, infos, .. } = bodies;
+    let (rows, poses, infos) =
+        (SharedSlice::new(rows), SharedSlice::new(poses), SharedSlice::new(infos));
+    let boxes = &*broad_phase;
+    let chunks = team.map_chunks(awake.len(), CHUNK, found, |range, found| {
+        found.moved.clear();
+        found.fast.clear();
+        found.broken.clear();
+        for &index in &awake[range] {
+            rows.update(index, |row| {
+                poses.update(index, |pose| {
+                    infos.update(index, |info| {
+                        let body = FinalBody { index, row, pose, info };
+                        finalize_body(body, shapes, boxes, options, found);
+                    });
+                });
+            });
         }
-        row[Slot::DX] = 0.0;
-        row[Slot::DY] = 0.0;
-        row[Slot::DA] = 0.0;
-        let start = bodies.poses[i];
-        bodies.poses[i] = Pose::new(start.p + motion, start.q.integrate(turn));
-        time_rest(bodies, index, options.dt);
-        let info = &bodies.infos[i];
-        let reach = motion.length() + turn.abs() * info.max_extent;
-        if options.continuous
-            && info.kind == BodyKind::Dynamic
-            && reach > SAFE_FRACTION * info.min_extent
-        {
-            fast.push(FastBody { body: index, start });
-        } else {
-            update_boxes(bodies, shapes, broad_phase, index, motion);
+    });
+    for chunk in &*chunks {
+        for &(proxy, fat) in &chunk.moved {
+            broad_phase.set_fat_aabb(proxy, fat);
         }
     }
-    bodies.awake = awake;
+    chunks.len()
+}
+
+/// A body on its way out of the step.
+struct FinalBody<'a> {
+    index: u32,
+    row: &'a mut Row,
+    pose: &'a mut Pose,
+    info: &'a mut BodyInfo,
+}
+
+#[inline]
+fn finalize_body(
+    body: FinalBody<'_>,
+    shapes: &Shapes,
+    boxes: &BroadPhase,
+    options: Options,
+    found: &mut Findings,
+) {
+    let FinalBody { index, row, pose, info } = body;
+    let motion = Vec2::new(row[Slot::DX], row[Slot::DY]);
+    let turn = row[Slot::DA];
+    if !row.iter().all(|value| value.is_finite()) {
+        found.broken.push(index);
+        return;
+    }
+    row[Slot::DX] = 0.0;
+    row[Slot::DY] = 0.0;
+    row[Slot::DA] = 0.0;
+    let start = *pose;
+    *pose = Pose::new(start.p + motion, start.q.integrate(turn));
+    time_rest(row, info, options.dt);
+    info.force = Vec2::ZERO;
+    info.torque = 0.0;
+    let reach = motion.length() + turn.abs() * info.max_extent;
+    let moving = info.kind == BodyKind::Dynamic;
+    if options.continuous && moving && reach > SAFE_FRACTION * info.min_extent {
+        found.fast.push(FastBody { body: index, start, motion, turn });
+        return;
+    }
+    for shape in shapes.of_body(info.first_shape) {
+        let proxy = shapes.proxy(shape);
+        let tight = shape_box(shapes, shape, *pose);
+        if let Some(fat) = boxes.needed_fat_aabb(proxy, tight, motion) {
+            found.moved.push((proxy, fat));
+        }
+    }
 }
 
 /// Counts the time that a body has been slower than its sleep speed.
-fn time_rest(bodies: &mut Bodies, index: u32, dt: f32) {
-    let speed = bodies.velocity(index).length();
-    let turn_rate = bodies.angular_velocity(index).abs();
-    let info = &mut bodies.infos[index as usize];
-    let fastest = speed.max(turn_rate * info.max_extent);
-    if !info.can_sleep || fastest > info.sleep_speed {
-        info.sleep_time = 0.0;
-    } else {
+#[inline]
+fn time_rest(row: &Row, info: &mut BodyInfo, dt: f32) {
+    let speed = Vec2::new(row[Slot::VX], row[Slot::VY]).length();
+    let surface_speed = row[Slot::W].abs() * info.max_extent;
+    let fastest = if speed > surface_speed { speed } else { surface_speed };
+    // A platform that creeps must not stop.
+    let limit = if info.kind == BodyKind::Dynamic { info.sleep_speed } else { 0.0 };
+    if info.can_sleep && fastest <= limit {
         info.sleep_time += dt;
+    } else {
+        info.sleep_time = 0.0;
     }
 }
 
@@ -88,11 +152,7 @@ pub(crate) fn update_boxes(
 ) {
     let pose = bodies.poses[index as usize];
     for shape in shapes.of_body(bodies.infos[index as usize].first_shape) {
-        let proxy = shapes.records[shape as usize].proxy;
-        if proxy != NULL {
-            let tight = shape_box(shapes, shape, pose);
-            broad_phase.move_proxy(ProxyId(proxy), tight, motion);
-        }
+        broad_phase.move_proxy(shapes.proxy(shape), shape_box(shapes, shape, pose), motion);
     }
 }
 

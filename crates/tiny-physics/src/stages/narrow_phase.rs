@@ -5,10 +5,13 @@
 //! iterates on. Running it twice on one block gives the same block, so blocks that got new contacts
 //! after the pass are simply run again.
 
-use crate::dynamics::{Bucket, ConstraintBlock, ManifoldBlock, ShapeRecord, SurfaceBlock, flags};
+use crate::dynamics::{
+    BlockHead, Bucket, ConstraintBlock, ManifoldBlock, ShapeRecord, SurfaceBlock, flags,
+};
 use crate::geometry::manifold::{self, LaneManifold, LanePair, PairClass};
 use crate::math::{Pose, Rot, Transform, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, Row, SimdLevel, dispatch};
+use crate::threads::{SharedSlice, Team};
 
 /// What the narrow phase reads.
 #[derive(Clone, Copy)]
@@ -23,46 +26,63 @@ pub(crate) struct Context<'a> {
 }
 
 /// Blocks of one bucket that are updated together.
-pub(crate) struct Blocks<'a> {
-    pub(crate) manifolds: &'a mut [ManifoldBlock],
+struct Blocks<'a> {
+    manifolds: &'a mut [ManifoldBlock],
+    heads: &'a mut [BlockHead],
     /// Empty for contacts that do not touch.
-    pub(crate) constraints: &'a mut [ConstraintBlock],
-    pub(crate) surfaces: &'a mut [SurfaceBlock],
-    pub(crate) flags: &'a [u8],
-    pub(crate) touching: &'a mut [u16],
+    constraints: &'a mut [ConstraintBlock],
+    surfaces: &'a mut [SurfaceBlock],
     /// Contacts in these blocks; the last block may be part full.
-    pub(crate) count: usize,
+    count: usize,
 }
 
-impl<'a> Blocks<'a> {
-    /// All blocks of a bucket.
-    pub(crate) fn of(bucket: &'a mut Bucket) -> Self {
-        Self {
-            count: bucket.contacts.len(),
-            manifolds: &mut bucket.manifolds,
-            constraints: &mut bucket.constraints,
-            surfaces: &mut bucket.surfaces,
-            flags: &bucket.flags,
-            touching: &mut bucket.touching,
-        }
-    }
+/// Blocks that one member of the team updates at a time.
+const CHUNK: usize = 4;
 
-    /// One block of a bucket of touching contacts.
-    pub(crate) fn of_block(bucket: &'a mut Bucket, block: usize) -> Self {
-        let range = block..block + 1;
-        Self {
-            count: (bucket.contacts.len() - block * BLOCK).min(BLOCK),
-            manifolds: &mut bucket.manifolds[range.clone()],
-            constraints: &mut bucket.constraints[range.clone()],
-            surfaces: &mut bucket.surfaces[range.clone()],
-            flags: &bucket.flags[range.clone()],
-            touching: &mut bucket.touching[range],
-        }
-    }
+/// Updates all blocks of a bucket.
+pub(crate) fn update_bucket(
+    team: &Team,
+    context: Context<'_>,
+    class: PairClass,
+    bucket: &mut Bucket,
+) {
+    let count = bucket.contacts.len();
+    let block_count = bucket.manifolds.len();
+    let manifolds = SharedSlice::new(&mut bucket.manifolds);
+    let heads = SharedSlice::new(&mut bucket.heads);
+    let constraints = SharedSlice::new(&mut bucket.constraints);
+    let surfaces = SharedSlice::new(&mut bucket.surfaces);
+    team.for_each_chunk(block_count, CHUNK, |range| {
+        let blocks = Blocks {
+            count: count.min(range.end * BLOCK) - range.start * BLOCK,
+            manifolds: manifolds.range(range.clone()),
+            heads: heads.range(range.clone()),
+            constraints: constraints.range(range.clone()),
+            surfaces: surfaces.range(range),
+        };
+        update(context, class, blocks);
+    });
 }
 
-/// Updates blocks of a class.
-pub(crate) fn update(context: Context<'_>, class: PairClass, blocks: Blocks<'_>) {
+/// Updates one block of a bucket of touching contacts.
+pub(crate) fn update_block(
+    context: Context<'_>,
+    class: PairClass,
+    bucket: &mut Bucket,
+    block: usize,
+) {
+    let range = block..block + 1;
+    let blocks = Blocks {
+        count: (bucket.contacts.len() - block * BLOCK).min(BLOCK),
+        manifolds: &mut bucket.manifolds[range.clone()],
+        heads: &mut bucket.heads[range.clone()],
+        constraints: &mut bucket.constraints[range.clone()],
+        surfaces: &mut bucket.surfaces[range],
+    };
+    update(context, class, blocks);
+}
+
+fn update(context: Context<'_>, class: PairClass, blocks: Blocks<'_>) {
     match class {
         PairClass::BoxBox => run::<BoxBox>(context, blocks),
         PairClass::BoxCapsule => run::<BoxCapsule>(context, blocks),
@@ -215,7 +235,7 @@ impl<K: PairKernel> LaneKernel for Update<'_, K> {
                 at += L::WIDTH;
             }
             let valid = if lanes == BLOCK { u16::MAX } else { (1 << lanes) - 1 };
-            blocks.touching[index] = touching as u16 & valid;
+            blocks.heads[index].touching = touching as u16 & valid;
         }
     }
 }
@@ -374,7 +394,7 @@ fn write_constraint<L: Lanes, K: PairKernel>(
     if K::POINTS == 2 {
         L::select(geometry.valid[1], geometry.id[1], none).store(&mut manifold.id_2[at..]);
     }
-    if blocks.flags[index] & (flags::RESTITUTION | flags::HIT) != 0 {
+    if blocks.heads[index].flags & (flags::RESTITUTION | flags::HIT) != 0 {
         let surface = &mut blocks.surfaces[index];
         approach[0].store(&mut surface.approach_1[at..]);
         approach[1].store(&mut surface.approach_2[at..]);

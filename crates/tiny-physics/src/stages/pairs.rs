@@ -1,9 +1,57 @@
 //! From pairs of the broad phase to contact records, and back when boxes part.
 
-use crate::broad_phase::BroadPhase;
+use crate::broad_phase::{BroadPhase, sort_pairs};
 use crate::describe::Settings;
 use crate::dynamics::{Bodies, Contact, Contacts, Graph, Joints, NULL, Place, SavedPoint, Shapes};
 use crate::geometry::manifold::PairClass;
+use crate::threads::Team;
+
+/// Groups of moved shapes whose partners one member of the team looks for at a time.
+const CHUNK: usize = 8;
+
+/// Finds the pairs around shapes that left their fat boxes which may collide and have no contact yet,
+/// each once, sorted.
+pub(crate) fn find_new(
+    team: &Team,
+    broad_phase: &mut BroadPhase,
+    stores: &Partners<'_>,
+    found: &mut Vec<Vec<(u32, u32)>>,
+    pairs: &mut Vec<(u32, u32)>,
+) {
+    let group_count = broad_phase.prepare_pairs();
+    let boxes = &*broad_phase;
+    let chunks = team.map_chunks(group_count, CHUNK, found, |range, found| {
+        found.clear();
+        boxes.query_groups(range, |a, b| stores.may_meet(a, b), found);
+    });
+    pairs.clear();
+    chunks.iter().for_each(|found| pairs.extend_from_slice(found));
+    sort_pairs(pairs);
+    broad_phase.clear_moved();
+}
+
+/// What decides whether two shapes may meet.
+#[derive(Clone, Copy)]
+pub(crate) struct Partners<'a> {
+    pub(crate) shapes: &'a Shapes,
+    pub(crate) bodies: &'a Bodies,
+    pub(crate) contacts: &'a Contacts,
+    pub(crate) joints: &'a Joints,
+}
+
+impl Partners<'_> {
+    /// Do filters, bodies and joints let the two shapes collide, and have they no contact yet?
+    fn may_meet(&self, a: u32, b: u32) -> bool {
+        let (shape_a, shape_b) =
+            (&self.shapes.records[a as usize], &self.shapes.records[b as usize]);
+        shape_a.body != shape_b.body
+            && !shape_a.sensor
+            && !shape_b.sensor
+            && shape_a.filter.collides(&shape_b.filter)
+            && self.contacts.pairs.get(a, b).is_none()
+            && self.joints.may_collide(self.bodies, shape_a.body, shape_b.body)
+    }
+}
 
 /// Creates the contacts of new pairs of shapes.
 pub(crate) fn create_contacts(
@@ -13,16 +61,13 @@ pub(crate) fn create_contacts(
     bodies: &mut Bodies,
     contacts: &mut Contacts,
     graph: &mut Graph,
-    joints: &Joints,
 ) {
     for &(a, b) in pairs {
-        if contacts.pairs.get(a, b).is_none() && may_collide(a, b, shapes, bodies, joints) {
-            let contact = new_contact(a, b, settings, shapes);
-            let awake = is_awake(bodies, &contact);
-            let index = contacts.insert(bodies, contact);
-            if awake {
-                graph.insert(bodies, contacts, index);
-            }
+        let contact = new_contact(a, b, settings, shapes);
+        let awake = is_awake(bodies, &contact);
+        let index = contacts.insert(bodies, contact);
+        if awake {
+            graph.insert(bodies, contacts, index);
         }
     }
 }
@@ -30,17 +75,6 @@ pub(crate) fn create_contacts(
 /// Is one of the two bodies awake and able to move?
 pub(crate) fn is_awake(bodies: &Bodies, contact: &Contact) -> bool {
     bodies.infos[contact.body_a as usize].awake || bodies.infos[contact.body_b as usize].awake
-}
-
-/// Do filters, bodies and joints let the two shapes collide?
-fn may_collide(a: u32, b: u32, shapes: &Shapes, bodies: &Bodies, joints: &Joints) -> bool {
-    let (a, b) = (&shapes.records[a as usize], &shapes.records[b as usize]);
-    a.body != b.body
-        && !a.sensor
-        && !b.sensor
-        && a.filter.collides(&b.filter)
-        && (bodies.is_dynamic(a.body) || bodies.is_dynamic(b.body))
-        && joints.may_collide(bodies, a.body, b.body)
 }
 
 fn new_contact(a: u32, b: u32, settings: &Settings, shapes: &Shapes) -> Contact {

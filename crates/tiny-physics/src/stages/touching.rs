@@ -17,7 +17,8 @@ pub(crate) fn find_changes(graph: &Graph, changes: &mut Changes) {
     const { assert!(OVERFLOW == COLOURS && IDLE == OVERFLOW + 1) };
     for (colour, buckets) in graph.buckets.iter().enumerate() {
         for bucket in buckets {
-            for (block, &touching) in bucket.touching.iter().enumerate() {
+            for (block, head) in bucket.heads.iter().enumerate() {
+                let touching = head.touching;
                 let first = block * BLOCK;
                 let lanes = (bucket.contacts.len() - first).min(BLOCK);
                 let all = if lanes == BLOCK { u16::MAX } else { (1 << lanes) - 1 };

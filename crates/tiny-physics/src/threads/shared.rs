@@ -1,6 +1,7 @@
 //! Slices shared between the members of a stage.
 
 use core::marker::PhantomData;
+use core::ops::Range;
 
 #[cfg(debug_assertions)]
 use super::race;
@@ -89,6 +90,24 @@ impl<'a, T> SharedSlice<'a, T> {
         // SAFETY: the pointer is valid and aligned, coming from a slice; no other chunk touches the
         // element meanwhile by the invariant in the type's description, nor does `change`.
         change(unsafe { &mut *self.place(index) })
+    }
+
+    /// The elements of a range, to change in place; what lies beyond the end is left out. No two chunks
+    /// of a stage may take ranges that overlap.
+    #[inline]
+    #[allow(
+        clippy::mut_from_ref,
+        reason = "the invariant in the type's description keeps borrows apart"
+    )]
+    pub(crate) fn range(self, range: Range<usize>) -> &'a mut [T] {
+        let end = range.end.min(self.len);
+        let start = range.start.min(end);
+        #[cfg(debug_assertions)]
+        for index in start..end {
+            race::note(self.id, index as u32, race::Access::Write);
+        }
+        // SAFETY: in bounds, as start <= end <= len; exclusive by the invariant in the type's description.
+        unsafe { core::slice::from_raw_parts_mut(self.start.add(start), end - start) }
     }
 
     /// The place of an element that the caller is about to write.

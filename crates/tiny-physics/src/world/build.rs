@@ -210,8 +210,8 @@ impl World {
             never_turns |= matches!(record.shape, Shape::Aabb { .. });
             record.shape.mass_properties(record.material.density).transformed(record.local)
         });
-        let total = MassProperties::combine(parts);
-        (total, never_turns)
+        let parts: Vec<MassProperties> = parts.collect();
+        (MassProperties::combined(&parts), never_turns)
     }
 
     /// Recomputes what depends on the centre of mass: frames and rows of the shapes, extents.
@@ -315,8 +315,9 @@ impl LaneShape {
                 (rounded.frame, [x, y, radius], 1.0, if x < y { x } else { y } + radius)
             }
             None => {
-                let radius = shape.bounding_radius();
-                (Transform::IDENTITY, [0.0, 0.0, radius], 0.0, shape.inner_radius())
+                let core = shape.core();
+                let radius = core.reach(Vec2::ZERO) + core.radius;
+                (Transform::IDENTITY, [0.0, 0.0, radius], 0.0, inner_radius(shape))
             }
         };
         let frame = central.compose(box_frame);
@@ -324,6 +325,15 @@ impl LaneShape {
         let row = [frame.p.x, frame.p.y, frame.q.c, frame.q.s, x, y, radius, exact];
         Self { row, box_frame, thickness }
     }
+}
+
+/// Distance from the centroid to the nearest edge, corner radius included, metres.
+fn inner_radius(shape: &Shape) -> f32 {
+    let (core, center) = (shape.core(), shape.mass_properties(1.0).center);
+    let nearest = (0..core.edge_count())
+        .map(|i| core.normal(i).dot(core.edge(i).0 - center))
+        .fold(f32::MAX, |a, b| if b < a { b } else { a });
+    nearest + core.radius
 }
 
 fn check_body(body: &RigidBody) -> Result<(), Error> {

@@ -19,16 +19,16 @@ pub use stats::{Stage, Stats};
 
 use crate::broad_phase::BroadPhase;
 use crate::describe::Settings;
-use crate::dynamics::{Bodies, COLOURS, Contacts, Graph, JointGraph, Joints, OVERFLOW, Shapes};
+use crate::dynamics::{Bodies, Contacts, Graph, JointGraph, Joints, OVERFLOW, Shapes};
 use crate::error::Error;
 use crate::geometry::manifold::PairClass;
 use crate::math::Vec2;
 use crate::simd::SimdLevel;
 use crate::stages::contact_solver::{self, Parameters, Pass, Softness};
-use crate::stages::finalize::FastBody;
+use crate::stages::finalize::{FastBody, Findings};
 use crate::stages::touching::Changes;
 use crate::stages::{continuous, finalize, integrate, narrow_phase, pairs, sleep, touching};
-use crate::threads::SharedRows;
+use crate::threads::{Pool, SharedRows, Team};
 use stats::Stopwatch;
 
 /// Metres; multiplied by [`Settings::length_unit`]. Points this far apart are contacts already.
@@ -72,6 +72,7 @@ pub struct World {
     events: Events,
     step_count: u64,
     level: SimdLevel,
+    pool: Pool,
     stats: Stats,
     scratch: Scratch,
 }
@@ -82,8 +83,9 @@ struct Scratch {
     pairs: Vec<(u32, u32)>,
     parted: Vec<u32>,
     changes: Changes,
+    found_pairs: Vec<Vec<(u32, u32)>>,
+    findings: Vec<Findings>,
     fast: Vec<FastBody>,
-    broken: Vec<u32>,
     islands: Vec<u32>,
 }
 
@@ -117,6 +119,7 @@ impl World {
             events: Events::default(),
             step_count: 0,
             level: SimdLevel::detect(),
+            pool: Pool::default(),
             stats: Stats::default(),
             scratch: Scratch::default(),
         }
@@ -136,27 +139,32 @@ impl World {
     /// `dt` or gravity is not finite, or `dt` not above 0. The world has not changed then.
     pub fn try_step(&mut self, dt: f32) -> Result<(), Error> {
         let lengths = self.step_lengths(dt)?;
+        let pool = self.pool.clone();
+        pool.scope(|team| self.run_stages(team, lengths));
+        self.step_count += 1;
+        Ok(())
+    }
+
+    /// The step: one line a stage.
+    fn run_stages(&mut self, team: &Team, lengths: StepLengths) {
         let mut watch = Stopwatch::start();
         self.events.clear();
         self.bodies.sort_awake();
 
-        self.update_pairs();
+        self.update_pairs(team);
         watch.lap(&mut self.stats, Stage::Pairs);
-        self.update_manifolds();
+        self.update_manifolds(team);
         watch.lap(&mut self.stats, Stage::NarrowPhase);
         self.update_touching();
         watch.lap(&mut self.stats, Stage::Touching);
-        self.solve(lengths);
+        self.solve(team, lengths);
         watch.lap(&mut self.stats, Stage::Solve);
-        self.finalize(lengths);
+        self.finalize(team, lengths);
         watch.lap(&mut self.stats, Stage::Finalize);
         self.sweep_fast_bodies();
         watch.lap(&mut self.stats, Stage::Continuous);
         self.put_resting_islands_to_sleep();
         watch.lap(&mut self.stats, Stage::Sleep);
-
-        self.step_count += 1;
-        Ok(())
     }
 
     /// Checks the step's numbers and divides them up.
@@ -168,20 +176,19 @@ impl World {
         Ok(StepLengths { dt, h: dt / substeps as f32, substeps, iterations })
     }
 
-    /// Finds new pairs around shapes that left their fat boxes; drops contacts whose boxes parted.
-    fn update_pairs(&mut self) {
-        self.broad_phase.maintain();
-        let Scratch { pairs, parted, .. } = &mut self.scratch;
+    /// Drops contacts of shapes that left their fat boxes and their partners; finds new partners.
+    fn update_pairs(&mut self, team: &Team) {
         self.stats.moved_shapes = self.broad_phase.moved().len();
-        pairs::find_parted(&self.broad_phase, &self.bodies, &self.shapes, &self.contacts, parted);
-        let parted = core::mem::take(parted);
-        for &index in &parted {
-            self.destroy_contact(index);
-        }
+        let Self { broad_phase, shapes, bodies, contacts, joints, scratch, .. } = self;
+        pairs::find_parted(broad_phase, bodies, shapes, contacts, &mut scratch.parted);
+        let stores = pairs::Partners { shapes, bodies, contacts, joints };
+        pairs::find_new(team, broad_phase, &stores, &mut scratch.found_pairs, &mut scratch.pairs);
+        self.stats.candidate_pairs = scratch.pairs.len();
+
+        let parted = core::mem::take(&mut self.scratch.parted);
+        parted.iter().for_each(|&index| self.destroy_contact(index));
         self.scratch.parted = parted;
         self.events.flush_pending();
-        self.broad_phase.update_pairs(&mut self.scratch.pairs);
-        self.stats.candidate_pairs = self.scratch.pairs.len();
         pairs::create_contacts(
             &self.scratch.pairs,
             &self.settings,
@@ -189,7 +196,6 @@ impl World {
             &mut self.bodies,
             &mut self.contacts,
             &mut self.graph,
-            &self.joints,
         );
     }
 
@@ -207,14 +213,12 @@ impl World {
     }
 
     /// Computes the manifolds and constraints of all contacts in the graph.
-    fn update_manifolds(&mut self) {
+    fn update_manifolds(&mut self, team: &Team) {
         let (context, graph) = self.narrow_phase();
         graph.clear_fresh();
         for buckets in &mut graph.buckets {
             for (bucket, class) in buckets.iter_mut().zip(PairClass::ALL) {
-                if !bucket.contacts.is_empty() {
-                    narrow_phase::update(context, class, narrow_phase::Blocks::of(bucket));
-                }
+                narrow_phase::update_bucket(team, context, class, bucket);
             }
         }
     }
@@ -223,38 +227,35 @@ impl World {
     fn update_touching(&mut self) {
         let mut changes = core::mem::take(&mut self.scratch.changes);
         touching::find_changes(&self.graph, &mut changes);
-        for &index in &changes.ended {
-            self.end_contact(index);
-        }
-        for &index in &changes.began {
-            self.begin_contact(index);
-        }
+        changes.ended.iter().for_each(|&index| self.end_contact(index));
+        changes.began.iter().for_each(|&index| self.begin_contact(index));
         self.stats.contacts_begun = changes.began.len();
         self.stats.contacts_ended = changes.ended.len();
+        self.scratch.changes = changes;
+
         let (context, graph) = self.narrow_phase();
         for (colour, class, block) in graph.take_fresh() {
             let bucket = &mut graph.buckets[usize::from(colour)][usize::from(class)];
-            let blocks = narrow_phase::Blocks::of_block(bucket, block as usize);
-            narrow_phase::update(context, PairClass::ALL[usize::from(class)], blocks);
+            let class = PairClass::ALL[usize::from(class)];
+            narrow_phase::update_block(context, class, bucket, block as usize);
         }
-        self.scratch.changes = changes;
     }
 
     /// Integrates velocities and positions, and solves contacts and joints, substep by substep.
-    fn solve(&mut self, lengths: StepLengths) {
+    fn solve(&mut self, team: &Team, lengths: StepLengths) {
         let parameters = self.contact_parameters(lengths);
-        integrate::prepare(&mut self.bodies, self.gravity, lengths.h);
+        integrate::prepare(team, &mut self.bodies, self.gravity, lengths.h);
         let max_speed = self.settings.max_speed * self.settings.length_unit;
         for _ in 0..lengths.substeps {
-            integrate::velocities(&mut self.bodies);
-            self.solve_contacts(Pass::WarmStart, &parameters);
+            integrate::velocities(team, &mut self.bodies);
+            self.solve_contacts(team, Pass::WarmStart, &parameters);
             for _ in 0..lengths.iterations {
-                self.solve_contacts(Pass::Solve, &parameters);
+                self.solve_contacts(team, Pass::Solve, &parameters);
             }
-            integrate::positions(&mut self.bodies, lengths.h, max_speed);
-            self.solve_contacts(Pass::Relax, &parameters);
+            integrate::positions(team, &mut self.bodies, lengths.h, max_speed);
+            self.solve_contacts(team, Pass::Relax, &parameters);
         }
-        self.solve_contacts(Pass::Restitution, &parameters);
+        self.solve_contacts(team, Pass::Restitution, &parameters);
     }
 
     fn contact_parameters(&self, lengths: StepLengths) -> Parameters {
@@ -272,54 +273,37 @@ impl World {
     }
 
     /// Runs one pass over all contacts: the overflow one by one, then colour by colour.
-    fn solve_contacts(&mut self, pass: Pass, parameters: &Parameters) {
+    fn solve_contacts(&mut self, team: &Team, pass: Pass, parameters: &Parameters) {
         let rows = SharedRows::new(&mut self.bodies.rows);
-        for colour in core::iter::once(OVERFLOW).chain(0..COLOURS) {
-            for (bucket, class) in self.graph.buckets[colour].iter_mut().zip(PairClass::ALL) {
-                if bucket.contacts.is_empty() {
-                    continue;
-                }
-                let blocks = contact_solver::Blocks {
-                    constraints: &mut bucket.constraints,
-                    surfaces: &mut bucket.surfaces,
-                    flags: &bucket.flags,
-                    points: class.max_points(),
-                };
-                if colour == OVERFLOW {
-                    contact_solver::run_in_order(pass, parameters, rows, blocks);
-                } else {
-                    contact_solver::run(self.level, pass, parameters, rows, blocks);
-                }
-            }
+        let (colours, rest) = self.graph.buckets.split_at_mut(OVERFLOW);
+        for (bucket, class) in rest[0].iter_mut().zip(PairClass::ALL) {
+            contact_solver::run_in_order(pass, parameters, rows, bucket, class.max_points());
+        }
+        for (bucket, class) in colours.iter_mut().flat_map(|c| c.iter_mut().zip(PairClass::ALL)) {
+            let points = class.max_points();
+            contact_solver::run(team, self.level, pass, parameters, rows, bucket, points);
         }
     }
 
     /// Takes the motion over into poses and boxes.
-    fn finalize(&mut self, lengths: StepLengths) {
-        let Scratch { fast, broken, .. } = &mut self.scratch;
-        fast.clear();
-        broken.clear();
+    fn finalize(&mut self, team: &Team, lengths: StepLengths) {
         let options = finalize::Options { dt: lengths.dt, continuous: self.settings.continuous };
-        finalize::run(&mut self.bodies, &self.shapes, &mut self.broad_phase, options, fast, broken);
-        self.stats.fast_bodies = fast.len();
+        let Self { bodies, shapes, broad_phase, scratch, .. } = self;
+        let count =
+            finalize::run(team, bodies, shapes, broad_phase, options, &mut scratch.findings);
+        let findings = &scratch.findings[..count];
+        scratch.fast.clear();
+        scratch.fast.extend(findings.iter().flat_map(|chunk| &chunk.fast));
+        let broken: Vec<u32> = findings.iter().flat_map(|chunk| &chunk.broken).copied().collect();
+        self.stats.fast_bodies = self.scratch.fast.len();
         self.stats.frozen_bodies = broken.len();
-        let broken = core::mem::take(broken);
-        for &index in &broken {
-            self.freeze(index);
-        }
-        self.scratch.broken = broken;
+        broken.into_iter().for_each(|index| self.freeze(index));
     }
 
     /// Stops fast bodies where they would have gone through something.
     fn sweep_fast_bodies(&mut self) {
-        let speculative = SPECULATIVE_DISTANCE * self.settings.length_unit;
-        continuous::run(
-            &self.scratch.fast,
-            &mut self.bodies,
-            &self.shapes,
-            &mut self.broad_phase,
-            speculative,
-        );
+        let Self { bodies, shapes, broad_phase, joints, scratch, .. } = self;
+        continuous::run(&scratch.fast, bodies, shapes, joints, broad_phase);
     }
 
     /// Looks for islands at rest now and then, and lets them sleep.
@@ -342,6 +326,19 @@ impl World {
     /// Steps made so far.
     pub fn step_count(&self) -> u64 {
         self.step_count
+    }
+
+    /// Threads that a step may use, the calling one included.
+    pub fn threads(&self) -> usize {
+        self.pool.thread_count()
+    }
+
+    /// Lets steps use this many threads, the calling one included; 0 counts as 1, and without the feature
+    /// `parallel` there is never more than 1. Results do not depend on it.
+    pub fn set_threads(&mut self, threads: usize) {
+        if threads != self.threads() {
+            self.pool = Pool::new(threads);
+        }
     }
 
     /// The instruction set that the world runs on.

@@ -11,6 +11,9 @@ const AXIS_BIAS: f32 = 5.0e-4;
 /// Below this fraction of both boxes' size, the direction between two corners is rounding noise.
 const NOISE: f32 = 4.0e-5;
 
+/// Two points nearer to each other than this fraction of both boxes' size are one.
+const MIN_WIDTH: f32 = 4.0e-6;
+
 /// Box against box, both with a radius; A and B may be flat (capsules) or points (circles).
 #[inline(always)]
 pub(crate) fn box_box<L: Lanes>(
@@ -21,7 +24,7 @@ pub(crate) fn box_box<L: Lanes>(
     let scale = Scale::of(token, pair);
     let view = View::along_best_axis(token, pair, scale.bias);
     let edge = Edge::facing(token, &view);
-    let normal = nearest_direction(token, &view, &edge, &scale, max_separation);
+    let normal = nearest_direction(token, &view, &edge, scale.noise);
     let overlap = Overlap::of(token, &view, &edge, normal);
     view.manifold(token, pair, &overlap, max_separation, &scale)
 }
@@ -31,8 +34,10 @@ pub(crate) fn box_box<L: Lanes>(
 struct Scale<L> {
     /// What an axis must be better by.
     bias: L,
-    /// Shorter than this is rounding.
+    /// Shorter than this has no direction.
     noise: L,
+    /// Narrower than this is one point.
+    width: L,
     /// Both radii.
     radius: L,
 }
@@ -45,6 +50,7 @@ impl<L: Lanes> Scale<L> {
         Self {
             bias: L::splat(token, AXIS_BIAS) * size_a.min(size_b),
             noise: L::splat(token, NOISE) * (size_a + size_b),
+            width: L::splat(token, MIN_WIDTH) * (size_a + size_b),
             radius: pair.a[2] + pair.b[2],
         }
     }
@@ -152,7 +158,7 @@ impl<L: Lanes> View<L> {
             L::select(self.flipped, overlap.high, overlap.low),
             L::select(self.flipped, overlap.low, overlap.high),
         ];
-        let wide = (overlap.high - overlap.low).gt(scale.noise);
+        let wide = (overlap.high - overlap.low).gt(scale.width);
 
         let direction = self.direction_in_a(pair, overlap.normal);
         let normal = [
@@ -232,8 +238,7 @@ fn nearest_direction<L: Lanes>(
     token: L::Token,
     view: &View<L>,
     edge: &Edge<L>,
-    scale: &Scale<L>,
-    max_separation: L,
+    noise: L,
 ) -> [L; 2] {
     let (zero, one) = (L::splat(token, 0.0), L::splat(token, 1.0));
     let [tangent_n, tangent_t] = edge.tangent;
@@ -249,9 +254,8 @@ fn nearest_direction<L: Lanes>(
 
     let length = (dn * dn + dt * dt).sqrt();
     let beside = view.half[1].lt(lowest_t.abs());
-    let reach = max_separation + scale.radius + scale.noise;
-    let in_reach = L::and(length.gt(scale.noise), length.lt(reach));
-    let corner = L::and(L::and(beside, dn.gt(zero)), in_reach);
+    let usable = L::and(length.gt(noise), length.lt(L::splat(token, f32::INFINITY)));
+    let corner = L::and(L::and(beside, dn.gt(zero)), usable);
     let inv_length = one / L::select(corner, length, one);
     [L::select(corner, dn * inv_length, one), L::select(corner, dt * inv_length, zero)]
 }
@@ -268,17 +272,23 @@ struct Profile<L> {
 }
 
 impl<L: Lanes> Profile<L> {
-    /// An edge seen along the normal `(kn, kt)`. Its tangent is never along the normal: for the
-    /// reference the angle to the normal is at least 45 degrees, for the other at least 22.
+    /// The reference face: at height `half[0]`, flat, `half[1]` to both sides of the middle. The normal
+    /// is within 45 degrees of `n`.
     #[inline(always)]
-    fn of(center: [L; 2], tangent: [L; 2], half: L, [kn, kt]: [L; 2]) -> Self {
-        let across = tangent[1] * kn - tangent[0] * kt;
-        let along = tangent[0] * kn + tangent[1] * kt;
+    fn of_reference(half: [L; 2], [kn, kt]: [L; 2]) -> Self {
+        Self { middle: -(half[0] * kt), height: half[0] * kn, slope: kt / kn, half: half[1] * kn }
+    }
+
+    /// The edge that faces it. The angle between its tangent and the normal is at least 22 degrees.
+    #[inline(always)]
+    fn of_edge(edge: &Edge<L>, [kn, kt]: [L; 2]) -> Self {
+        let across = edge.tangent[1] * kn - edge.tangent[0] * kt;
+        let along = edge.tangent[0] * kn + edge.tangent[1] * kt;
         Self {
-            middle: center[1] * kn - center[0] * kt,
-            height: center[0] * kn + center[1] * kt,
+            middle: edge.center[1] * kn - edge.center[0] * kt,
+            height: edge.center[0] * kn + edge.center[1] * kt,
             slope: along / across,
-            half: half * across,
+            half: edge.half * across,
         }
     }
 
@@ -303,9 +313,9 @@ impl<L: Lanes> Overlap<L> {
     /// Shadows that only just miss each other count as one point in the middle of the gap.
     #[inline(always)]
     fn of(token: L::Token, view: &View<L>, edge: &Edge<L>, normal: [L; 2]) -> Self {
-        let (zero, one, half) = (L::splat(token, 0.0), L::splat(token, 1.0), L::splat(token, 0.5));
-        let reference = Profile::of([view.half[0], zero], [zero, one], view.half[1], normal);
-        let other = Profile::of(edge.center, edge.tangent, edge.half, normal);
+        let half = L::splat(token, 0.5);
+        let reference = Profile::of_reference(view.half, normal);
+        let other = Profile::of_edge(edge, normal);
         let low = (reference.middle - reference.half).max(other.middle - other.half);
         let high = (reference.middle + reference.half).min(other.middle + other.half);
         let middle = half * (low + high);

@@ -89,8 +89,8 @@ impl PairClass {
         }
     }
 
-    /// Collides pairs of this class that lie in lanes. `General` pairs are no rounded boxes: theirs is
-    /// an empty answer of the box kernel's form only if the caller gives it boxes, so do not.
+    /// Collides pairs of this class that lie in lanes. `General` pairs have no lane form and do not come
+    /// here; [`collide_general`](super::collide_general) is for them.
     #[inline(always)]
     pub fn collide<L: Lanes>(
         self,
@@ -110,7 +110,7 @@ impl PairClass {
 }
 
 /// All points within `radius` of a box, which may have no width or no height or neither.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct RoundedBox {
     /// The box's own frame, its centre at the origin, in the shape's frame.
     pub frame: Transform,

@@ -27,37 +27,24 @@
 //! The normal has unit length and is never NaN, whatever the input: coincident centres, zero
 //! extents and ties all have a fixed answer. Results have the same bits at every lane width.
 
+#![allow(dead_code, unused_imports, reason = "used by the narrow phase, which comes next")]
+
 mod boxes;
 mod capsule;
 mod circle;
 mod class;
+mod collide;
+mod contact;
+mod general;
 mod lane;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use boxes::box_box;
 pub(crate) use capsule::{box_capsule, capsule_capsule};
 pub(crate) use circle::{box_circle, capsule_circle, circle_circle};
 pub(crate) use class::{PairClass, RoundedBox, ShapeClass};
+pub use collide::{Manifold, ManifoldPoint, collide};
+pub use contact::{Contact, contact};
+pub(crate) use general::collide_general;
 pub(crate) use lane::{LaneManifold, LanePair};
-
-pub struct Manifold {
-    pub normal: crate::math::Vec2,
-    pts: Vec<MP>,
-}
-pub struct MP {
-    pub point: crate::math::Vec2,
-    pub separation: f32,
-    pub id: u16,
-}
-impl Manifold {
-    pub fn points(&self) -> &[MP] {
-        &self.pts
-    }
-}
-pub fn collide(
-    _: &crate::geometry::Shape,
-    _: &crate::geometry::Shape,
-    _: crate::math::Transform,
-    _: f32,
-) -> Manifold {
-    Manifold { normal: crate::math::Vec2::Y, pts: vec![] }
-}

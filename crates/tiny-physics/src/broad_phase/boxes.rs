@@ -1,0 +1,69 @@
+//! The boxes of a node's children, side by side, so that all are tested at once.
+
+use crate::math::{Aabb, Vec2};
+
+/// Children of a node.
+pub(super) const WIDTH: usize = 8;
+
+/// The boxes of a node's children; lanes without a child are [`Aabb::EMPTY`].
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(super) struct Boxes {
+    min_x: [f32; WIDTH],
+    min_y: [f32; WIDTH],
+    max_x: [f32; WIDTH],
+    max_y: [f32; WIDTH],
+}
+
+const _: () = assert!(size_of::<Boxes>() == 128);
+
+impl Boxes {
+    /// No child in any lane.
+    pub(super) const EMPTY: Self = Self {
+        min_x: [f32::INFINITY; WIDTH],
+        min_y: [f32::INFINITY; WIDTH],
+        max_x: [f32::NEG_INFINITY; WIDTH],
+        max_y: [f32::NEG_INFINITY; WIDTH],
+    };
+
+    /// The box of a lane.
+    #[inline]
+    pub(super) fn get(&self, lane: usize) -> Aabb {
+        Aabb::new(
+            Vec2::new(self.min_x[lane], self.min_y[lane]),
+            Vec2::new(self.max_x[lane], self.max_y[lane]),
+        )
+    }
+
+    /// Gives a lane a box.
+    #[inline]
+    pub(super) fn set(&mut self, lane: usize, aabb: Aabb) {
+        (self.min_x[lane], self.min_y[lane]) = (aabb.min.x, aabb.min.y);
+        (self.max_x[lane], self.max_y[lane]) = (aabb.max.x, aabb.max.y);
+    }
+
+    /// Bit `i` set where lane `i` overlaps the box.
+    #[inline]
+    pub(super) fn overlaps(&self, aabb: &Aabb) -> u32 {
+        let mut bits = [0u32; WIDTH];
+        for (lane, bit) in bits.iter_mut().enumerate() {
+            let hit = (self.min_x[lane] <= aabb.max.x)
+                & (aabb.min.x <= self.max_x[lane])
+                & (self.min_y[lane] <= aabb.max.y)
+                & (aabb.min.y <= self.max_y[lane]);
+            *bit = u32::from(hit).wrapping_neg() & 1 << lane;
+        }
+        let [a, b, c, d, e, f, g, h] = bits;
+        ((a | e) | (b | f)) | ((c | g) | (d | h))
+    }
+
+    /// The union of all lanes.
+    #[inline]
+    pub(super) fn union(&self) -> Aabb {
+        let mut all = self.get(0);
+        for lane in 1..WIDTH {
+            all = all.union(&self.get(lane));
+        }
+        all
+    }
+}
