@@ -25,8 +25,6 @@ mod random;
 mod scene;
 mod script;
 mod shapes;
-// Waits for the engine's `World`: with it, drop this line's condition and the one below.
-#[cfg(any())]
 mod world_host;
 
 pub use build::Options;
@@ -35,5 +33,4 @@ pub use error::{Problem, SceneError};
 pub use host::{Host, Player};
 pub use scene::{Counts, Scene, SceneJoint, VERSION};
 pub use script::{Queries, Rain, Script, Terrain, WakeSleepers, Walkers};
-#[cfg(any())]
 pub use world_host::{Run, WorldHost};

@@ -3,7 +3,7 @@
 use crate::host::{Host, Player};
 use crate::scene::Scene;
 use tiny_physics::{
-    BodyId, DVec2, Error, JointDef, JointId, QueryFilter, RigidBody, Settings, Vec2, World,
+    BodyId, DVec2, Error, JointDef, JointId, RigidBody, Settings, Vec2, World,
 };
 
 /// A scene that runs in a [`World`].
@@ -160,11 +160,4 @@ impl Host for WorldHost {
     fn step(&mut self, dt: f32) {
         self.world.step(dt);
     }
-
-    fn ray_cast(&mut self, origin: Vec2, translation: Vec2, mask: u64) -> Option<f32> {
-        let filter = QueryFilter { mask, ..QueryFilter::default() };
-        self.world.ray_cast(origin, translation, filter).map(|hit| hit.fraction)
-    }
-
-    // `circle_cast` and `count_overlaps` follow when the world has shape casts and overlap queries.
 }

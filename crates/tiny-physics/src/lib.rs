@@ -1,5 +1,6 @@
 //! tiny-physics.
 pub mod broad_phase;
+mod debug_draw;
 mod describe;
 mod dynamics;
 mod error;
@@ -11,6 +12,10 @@ mod stages;
 mod threads;
 mod world;
 
+pub use debug_draw::{
+    Color, DEPTH_SCALE, DebugDraw, DebugDrawOptions, Layer, Palette, depth_color, draw_bounds,
+    draw_shape,
+};
 pub use describe::*;
 pub use error::Error;
 pub use fixed_step::FixedStep;

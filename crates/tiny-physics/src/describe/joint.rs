@@ -1,8 +1,11 @@
 //! A joint as described by the user.
 
-use crate::math::Vec2;
+use crate::error::Error;
+use crate::math::{DVec2, Vec2};
 
-/// A spring and damper by its behaviour: independent of the masses that hang on it.
+/// A spring and damper by its behaviour: independent of the masses that hang on it. Frequency and
+/// decay are met exactly up to a quarter of the substep rate; a faster spring acts as one of that
+/// rate.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -47,23 +50,25 @@ pub struct Break {
 }
 
 /// What a joint does. A and B are the joint's two bodies, anchors are points of their frames, angles
-/// are B's against A's.
+/// are B's against A's, directions are given by [`JointDef::angle_a`]. What acts on B acts on A the
+/// other way round.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum JointKind {
-    /// Keeps the anchors at a distance.
+    /// Keeps the anchors at a distance. Without spring, limits and motor it is a rigid rod of
+    /// `length`; with any of them the distance is free but for what they do.
     Distance {
-        /// Rest length, metres, above 0.
+        /// Length of the rod, and rest length of the spring, metres, above 0.
         length: f32,
-        /// Makes it springy between the limits; `None` is rigid.
+        /// Pulls the distance to `length`.
         #[cfg_attr(feature = "serde", serde(default))]
         spring: Option<Spring>,
-        /// Shortest and longest length: a rope has a spring of its own or `lower` 0.
+        /// Shortest and longest distance; a rope has limits from 0.
         #[cfg_attr(feature = "serde", serde(default))]
         limits: Option<Limits>,
-        /// Drives the length.
+        /// Drives the distance.
         #[cfg_attr(feature = "serde", serde(default))]
         motor: Option<Motor>,
     },
@@ -75,12 +80,116 @@ pub enum JointKind {
         /// Where the spring rests, radians.
         #[cfg_attr(feature = "serde", serde(default))]
         target_angle: f32,
-        /// Range of the angle, radians within [-pi, pi].
+        /// Range of the angle, radians, less than a whole turn wide.
         #[cfg_attr(feature = "serde", serde(default))]
         limits: Option<Limits>,
         /// Drives the angle.
         #[cfg_attr(feature = "serde", serde(default))]
         motor: Option<Motor>,
+    },
+    /// A slider: anchor B stays on the line through anchor A along the joint's direction, and the
+    /// bodies do not turn against each other. Its coordinate is the distance along the line.
+    Prismatic {
+        /// Pulls the coordinate to `target`.
+        #[cfg_attr(feature = "serde", serde(default))]
+        spring: Option<Spring>,
+        /// Where the spring rests, metres.
+        #[cfg_attr(feature = "serde", serde(default))]
+        target: f32,
+        /// Range of the coordinate, metres.
+        #[cfg_attr(feature = "serde", serde(default))]
+        limits: Option<Limits>,
+        /// Drives the coordinate.
+        #[cfg_attr(feature = "serde", serde(default))]
+        motor: Option<Motor>,
+    },
+    /// Glues the bodies: anchors and angles coincide.
+    Weld {
+        /// Makes the place springy; `None` is rigid.
+        #[cfg_attr(feature = "serde", serde(default))]
+        linear: Option<Spring>,
+        /// Makes the angle springy; `None` is rigid.
+        #[cfg_attr(feature = "serde", serde(default))]
+        angular: Option<Spring>,
+    },
+    /// A wheel B on a suspension of A: anchor B stays on the line through anchor A along the joint's
+    /// direction and B turns freely.
+    Wheel {
+        /// Suspension: pulls the distance along the line to 0.
+        #[cfg_attr(feature = "serde", serde(default))]
+        spring: Option<Spring>,
+        /// Range of the distance along the line, metres.
+        #[cfg_attr(feature = "serde", serde(default))]
+        limits: Option<Limits>,
+        /// Turns the wheel, radians a second against A.
+        #[cfg_attr(feature = "serde", serde(default))]
+        motor: Option<Motor>,
+    },
+    /// Drives B against A by bounded forces: at a velocity, to anchor A, or both. Zero velocity with
+    /// a maximum is friction (a body seen from above).
+    Motor {
+        /// Velocity of anchor B against anchor A, metres a second, world axes.
+        #[cfg_attr(feature = "serde", serde(default))]
+        velocity: Vec2,
+        /// Greatest force that keeps the velocity, newtons.
+        #[cfg_attr(feature = "serde", serde(default))]
+        max_force: f32,
+        /// Angular velocity of B against A, radians a second.
+        #[cfg_attr(feature = "serde", serde(default))]
+        angular_velocity: f32,
+        /// Greatest torque that keeps the angular velocity, newton metres.
+        #[cfg_attr(feature = "serde", serde(default))]
+        max_torque: f32,
+        /// Pulls anchor B to anchor A.
+        #[cfg_attr(feature = "serde", serde(default))]
+        linear_spring: Option<Spring>,
+        /// Greatest force of that spring, newtons.
+        #[cfg_attr(feature = "serde", serde(default))]
+        max_spring_force: f32,
+        /// Pulls the angle to 0.
+        #[cfg_attr(feature = "serde", serde(default))]
+        angular_spring: Option<Spring>,
+        /// Greatest torque of that spring, newton metres.
+        #[cfg_attr(feature = "serde", serde(default))]
+        max_spring_torque: f32,
+    },
+    /// Pulls anchor B to a point of the world, as when dragged by a mouse. A feels nothing: it may be
+    /// any static body.
+    Mouse {
+        /// Where to, metres in the world.
+        target: DVec2,
+        /// How.
+        spring: Spring,
+        /// Greatest force, newtons.
+        max_force: f32,
+    },
+    /// Does nothing but keep the bodies from colliding with each other.
+    Filter,
+    /// A rope from anchor A over two fixed points of the world to anchor B:
+    /// `distance(A, ground_a) + ratio * distance(B, ground_b) <= length`. It pulls, it never pushes.
+    Pulley {
+        /// Where A's end hangs from, metres in the world.
+        ground_a: DVec2,
+        /// Where B's end hangs from, metres in the world.
+        ground_b: DVec2,
+        /// Length of the rope, metres.
+        length: f32,
+        /// How much faster A's end runs than B's, above 0: 2 is a block and tackle on B.
+        ratio: f32,
+    },
+    /// Couples motions of two bodies against the world: `change of A + ratio * change of B = 0`, from
+    /// the moment on in which the joint is added. A change is that of the angle (radians) or, where a
+    /// direction is given, of the anchor's place along it (metres). The bodies keep their own hinges
+    /// and sliders.
+    Gear {
+        /// Turns (or metres) of A per turn (or metre) of B, the other way round; not 0.
+        ratio: f32,
+        /// A slides in this direction of the world, as a rack; `None`: A turns.
+        #[cfg_attr(feature = "serde", serde(default))]
+        slide_a: Option<Vec2>,
+        /// B slides in this direction of the world; `None`: B turns.
+        #[cfg_attr(feature = "serde", serde(default))]
+        slide_b: Option<Vec2>,
     },
 }
 
@@ -91,6 +200,8 @@ pub enum JointKind {
 /// let hinge = JointDef::revolute().anchors(Vec2::new(0.5, 0.0), Vec2::new(-0.5, 0.0)).motor(2.0, 100.0);
 /// let rod = JointDef::distance(3.0);
 /// assert!(hinge != rod);
+/// assert!(hinge.validate().is_ok());
+/// assert!(JointDef::distance(-3.0).validate().is_err());
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -104,7 +215,8 @@ pub struct JointDef {
     /// Anchor in B's frame, metres.
     #[cfg_attr(feature = "serde", serde(default))]
     pub anchor_b: Vec2,
-    /// Direction of the joint's frame in A's frame, radians: turns the zero of angles.
+    /// Direction of the joint's frame in A's frame, radians: the line of sliders, and a part of the
+    /// zero of angles. The joint's angle is B's angle + `angle_b` - A's angle - `angle_a`.
     #[cfg_attr(feature = "serde", serde(default))]
     pub angle_a: f32,
     /// Direction of the joint's frame in B's frame, radians.
@@ -113,7 +225,8 @@ pub struct JointDef {
     /// Do the joined bodies still collide with each other?
     #[cfg_attr(feature = "serde", serde(default))]
     pub collide_connected: bool,
-    /// Stiffness of what the joint holds rigid; `None` takes 60 hertz, damping ratio 2.
+    /// Stiffness of what the joint holds rigid, and of its limits; `None` takes 60 hertz (at most a
+    /// quarter of the substep rate), damping ratio 2.
     #[cfg_attr(feature = "serde", serde(default))]
     pub softness: Option<Spring>,
     /// Load at which it breaks.
@@ -124,6 +237,7 @@ pub struct JointDef {
     pub user_data: u64,
 }
 
+/// Constructors.
 impl JointDef {
     /// A joint of a kind with both anchors at the bodies' origins.
     pub fn new(kind: JointKind) -> Self {
@@ -145,6 +259,11 @@ impl JointDef {
         Self::new(JointKind::Distance { length, spring: None, limits: None, motor: None })
     }
 
+    /// A rope: the anchors are at most `length` metres apart.
+    pub fn rope(length: f32) -> Self {
+        Self::distance(length).limits(0.0, length)
+    }
+
     /// A free hinge.
     pub fn revolute() -> Self {
         Self::new(JointKind::Revolute {
@@ -155,6 +274,68 @@ impl JointDef {
         })
     }
 
+    /// A slider along a direction of A's frame, for bodies that now have the same angle.
+    pub fn prismatic(direction: Vec2) -> Self {
+        let kind = JointKind::Prismatic { spring: None, target: 0.0, limits: None, motor: None };
+        Self::new(kind).direction(direction)
+    }
+
+    /// Rigid glue.
+    pub fn weld() -> Self {
+        Self::new(JointKind::Weld { linear: None, angular: None })
+    }
+
+    /// A wheel on a suspension along a direction of A's frame, without a spring yet.
+    pub fn wheel(direction: Vec2) -> Self {
+        Self::new(JointKind::Wheel { spring: None, limits: None, motor: None }).direction(direction)
+    }
+
+    /// A drive without any force yet; set the fields of [`JointKind::Motor`], or see
+    /// [`JointDef::friction`].
+    pub fn drive() -> Self {
+        Self::friction(0.0, 0.0)
+    }
+
+    /// Friction between two bodies: a bounded force and torque against any motion.
+    pub fn friction(max_force: f32, max_torque: f32) -> Self {
+        Self::new(JointKind::Motor {
+            velocity: Vec2::ZERO,
+            max_force,
+            angular_velocity: 0.0,
+            max_torque,
+            linear_spring: None,
+            max_spring_force: 0.0,
+            angular_spring: None,
+            max_spring_torque: 0.0,
+        })
+    }
+
+    /// Pulls anchor B to a point of the world with a spring of 5 hertz, damping ratio 0.7, and at most
+    /// `max_force` newtons.
+    pub fn mouse(target: impl Into<DVec2>, max_force: f32) -> Self {
+        let spring = Spring { hertz: 5.0, damping_ratio: 0.7 };
+        Self::new(JointKind::Mouse { target: target.into(), spring, max_force })
+    }
+
+    /// Only keeps the bodies from colliding.
+    pub fn filter() -> Self {
+        Self::new(JointKind::Filter)
+    }
+
+    /// A rope over two fixed points, ratio 1.
+    pub fn pulley(ground_a: impl Into<DVec2>, ground_b: impl Into<DVec2>, length: f32) -> Self {
+        let (ground_a, ground_b) = (ground_a.into(), ground_b.into());
+        Self::new(JointKind::Pulley { ground_a, ground_b, length, ratio: 1.0 })
+    }
+
+    /// Couples the angles of two bodies: A turns `-ratio` times as far as B.
+    pub fn gear(ratio: f32) -> Self {
+        Self::new(JointKind::Gear { ratio, slide_a: None, slide_b: None })
+    }
+}
+
+/// Builder methods. One that a kind has no use for changes nothing.
+impl JointDef {
     /// Sets both anchors, each in its body's frame.
     pub fn anchors(mut self, anchor_a: Vec2, anchor_b: Vec2) -> Self {
         self.anchor_a = anchor_a;
@@ -162,12 +343,36 @@ impl JointDef {
         self
     }
 
-    /// Sets a spring where the kind has one.
+    /// Sets [`JointDef::angle_a`] and [`JointDef::angle_b`].
+    pub fn angles(mut self, angle_a: f32, angle_b: f32) -> Self {
+        self.angle_a = angle_a;
+        self.angle_b = angle_b;
+        self
+    }
+
+    /// Sets both angles of the joint's frame to that of a direction.
+    pub fn direction(self, direction: Vec2) -> Self {
+        let angle = crate::math::atan2(direction.y, direction.x);
+        self.angles(angle, angle)
+    }
+
+    /// Sets the spring where the kind has one (both springs of a weld).
     pub fn spring(mut self, hertz: f32, damping_ratio: f32) -> Self {
+        let value = Spring { hertz, damping_ratio };
         match &mut self.kind {
-            JointKind::Distance { spring, .. } | JointKind::Revolute { spring, .. } => {
-                *spring = Some(Spring { hertz, damping_ratio });
+            JointKind::Distance { spring, .. }
+            | JointKind::Revolute { spring, .. }
+            | JointKind::Prismatic { spring, .. }
+            | JointKind::Wheel { spring, .. } => *spring = Some(value),
+            JointKind::Weld { linear, angular } => {
+                *linear = Some(value);
+                *angular = Some(value);
             }
+            JointKind::Mouse { spring, .. } => *spring = value,
+            JointKind::Motor { .. }
+            | JointKind::Filter
+            | JointKind::Pulley { .. }
+            | JointKind::Gear { .. } => {}
         }
         self
     }
@@ -175,20 +380,45 @@ impl JointDef {
     /// Sets limits where the kind has them.
     pub fn limits(mut self, lower: f32, upper: f32) -> Self {
         match &mut self.kind {
-            JointKind::Distance { limits, .. } | JointKind::Revolute { limits, .. } => {
-                *limits = Some(Limits { lower, upper });
-            }
+            JointKind::Distance { limits, .. }
+            | JointKind::Revolute { limits, .. }
+            | JointKind::Prismatic { limits, .. }
+            | JointKind::Wheel { limits, .. } => *limits = Some(Limits { lower, upper }),
+            JointKind::Weld { .. }
+            | JointKind::Motor { .. }
+            | JointKind::Mouse { .. }
+            | JointKind::Filter
+            | JointKind::Pulley { .. }
+            | JointKind::Gear { .. } => {}
         }
         self
     }
 
     /// Sets a motor where the kind has one: speed in metres or radians a second, greatest force or
-    /// torque.
+    /// torque. A [`JointKind::Motor`] takes it as its angular part.
     pub fn motor(mut self, speed: f32, max: f32) -> Self {
         match &mut self.kind {
-            JointKind::Distance { motor, .. } | JointKind::Revolute { motor, .. } => {
-                *motor = Some(Motor { speed, max });
+            JointKind::Distance { motor, .. }
+            | JointKind::Revolute { motor, .. }
+            | JointKind::Prismatic { motor, .. }
+            | JointKind::Wheel { motor, .. } => *motor = Some(Motor { speed, max }),
+            JointKind::Motor { angular_velocity, max_torque, .. } => {
+                *angular_velocity = speed;
+                *max_torque = max;
             }
+            JointKind::Weld { .. }
+            | JointKind::Mouse { .. }
+            | JointKind::Filter
+            | JointKind::Pulley { .. }
+            | JointKind::Gear { .. } => {}
+        }
+        self
+    }
+
+    /// Sets the ratio of a pulley or gear.
+    pub fn ratio(mut self, value: f32) -> Self {
+        if let JointKind::Pulley { ratio, .. } | JointKind::Gear { ratio, .. } = &mut self.kind {
+            *ratio = value;
         }
         self
     }
@@ -209,5 +439,216 @@ impl JointDef {
     pub fn break_at(mut self, force: f32, torque: f32) -> Self {
         self.break_at = Some(Break { force, torque });
         self
+    }
+
+    /// Sets [`JointDef::user_data`].
+    pub fn user_data(mut self, data: u64) -> Self {
+        self.user_data = data;
+        self
+    }
+}
+
+impl JointDef {
+    /// Checks that the joint makes sense.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] and [`Error::OutOfRange`] name the first field that does not.
+    pub fn validate(&self) -> Result<(), Error> {
+        Error::check_finite_vec("anchor_a", self.anchor_a)?;
+        Error::check_finite_vec("anchor_b", self.anchor_b)?;
+        Error::check_finite("angle_a", self.angle_a)?;
+        Error::check_finite("angle_b", self.angle_b)?;
+        check_spring("softness", self.softness)?;
+        if let Some(limit) = self.break_at {
+            Error::check_not_negative("break_at.force", limit.force)?;
+            Error::check_not_negative("break_at.torque", limit.torque)?;
+        }
+        self.kind.validate()
+    }
+}
+
+impl JointKind {
+    fn validate(&self) -> Result<(), Error> {
+        match *self {
+            Self::Distance { length, spring, limits, motor } => {
+                Error::check_positive("length", length)?;
+                check_axis(spring, length, limits, motor)?;
+                limits.map_or(Ok(()), |l| Error::check_not_negative("limits.lower", l.lower))
+            }
+            Self::Revolute { spring, target_angle, limits, motor } => {
+                check_axis(spring, target_angle, limits, motor)?;
+                check_less_than_a_turn(limits)
+            }
+            Self::Prismatic { spring, target, limits, motor } => {
+                check_axis(spring, target, limits, motor)
+            }
+            Self::Weld { linear, angular } => {
+                check_spring("linear", linear)?;
+                check_spring("angular", angular)
+            }
+            Self::Wheel { spring, limits, motor } => check_axis(spring, 0.0, limits, motor),
+            Self::Motor {
+                velocity,
+                max_force,
+                angular_velocity,
+                max_torque,
+                linear_spring,
+                max_spring_force,
+                angular_spring,
+                max_spring_torque,
+            } => {
+                Error::check_finite_vec("velocity", velocity)?;
+                Error::check_finite("angular_velocity", angular_velocity)?;
+                Error::check_not_negative("max_force", max_force)?;
+                Error::check_not_negative("max_torque", max_torque)?;
+                Error::check_not_negative("max_spring_force", max_spring_force)?;
+                Error::check_not_negative("max_spring_torque", max_spring_torque)?;
+                check_spring("linear_spring", linear_spring)?;
+                check_spring("angular_spring", angular_spring)
+            }
+            Self::Mouse { target, spring, max_force } => {
+                check_point("target", target)?;
+                check_spring("spring", Some(spring))?;
+                Error::check_not_negative("max_force", max_force)
+            }
+            Self::Filter => Ok(()),
+            Self::Pulley { ground_a, ground_b, length, ratio } => {
+                check_point("ground_a", ground_a)?;
+                check_point("ground_b", ground_b)?;
+                Error::check_positive("length", length)?;
+                Error::check_positive("ratio", ratio)
+            }
+            Self::Gear { ratio, slide_a, slide_b } => {
+                Error::check_finite("ratio", ratio)?;
+                if ratio == 0.0 {
+                    return Err(Error::OutOfRange { name: "ratio", value: 0.0, allowed: "not 0" });
+                }
+                check_direction("slide_a", slide_a)?;
+                check_direction("slide_b", slide_b)
+            }
+        }
+    }
+}
+
+fn check_axis(
+    spring: Option<Spring>,
+    target: f32,
+    limits: Option<Limits>,
+    motor: Option<Motor>,
+) -> Result<(), Error> {
+    check_spring("spring", spring)?;
+    Error::check_finite("target", target)?;
+    if let Some(Limits { lower, upper }) = limits {
+        Error::check_finite("limits.lower", lower)?;
+        Error::check_finite("limits.upper", upper)?;
+        if upper < lower {
+            let value = upper.into();
+            return Err(Error::OutOfRange {
+                name: "limits.upper",
+                value,
+                allowed: "not below lower",
+            });
+        }
+    }
+    if let Some(Motor { speed, max }) = motor {
+        Error::check_finite("motor.speed", speed)?;
+        Error::check_not_negative("motor.max", max)?;
+    }
+    Ok(())
+}
+
+fn check_less_than_a_turn(limits: Option<Limits>) -> Result<(), Error> {
+    match limits {
+        Some(Limits { lower, upper }) if upper - lower >= core::f32::consts::TAU => {
+            let value = upper.into();
+            let allowed = "less than a whole turn above lower";
+            Err(Error::OutOfRange { name: "limits.upper", value, allowed })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn check_spring(name: &'static str, spring: Option<Spring>) -> Result<(), Error> {
+    spring.map_or(Ok(()), |spring| {
+        Error::check_positive(name, spring.hertz)?;
+        Error::check_not_negative(name, spring.damping_ratio)
+    })
+}
+
+fn check_point(name: &'static str, point: DVec2) -> Result<(), Error> {
+    for value in [point.x, point.y] {
+        if !value.is_finite() {
+            return Err(Error::NotFinite { name, value });
+        }
+    }
+    Ok(())
+}
+
+fn check_direction(name: &'static str, direction: Option<Vec2>) -> Result<(), Error> {
+    direction.map_or(Ok(()), |direction| {
+        Error::check_finite_vec(name, direction)?;
+        Error::check_positive(name, direction.length())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all_kinds() -> Vec<JointDef> {
+        let x = Vec2::new(1.0, 0.0);
+        vec![
+            JointDef::distance(1.0).limits(0.5, 2.0).spring(1.0, 0.0).motor(1.0, 2.0),
+            JointDef::rope(2.0),
+            JointDef::revolute().limits(-1.0, 1.0).spring(2.0, 1.0).motor(1.0, 2.0),
+            JointDef::prismatic(x).limits(-1.0, 1.0).spring(2.0, 1.0).motor(1.0, 2.0),
+            JointDef::weld().spring(3.0, 0.5),
+            JointDef::wheel(x).limits(-1.0, 1.0).spring(2.0, 1.0).motor(1.0, 2.0),
+            JointDef::friction(10.0, 5.0),
+            JointDef::mouse(DVec2::new(1.0, 2.0), 100.0),
+            JointDef::filter(),
+            JointDef::pulley(DVec2::ZERO, DVec2::new(1.0, 0.0), 5.0).ratio(2.0),
+            JointDef::gear(2.0),
+        ]
+    }
+
+    #[test]
+    fn good_joints_pass() {
+        for def in all_kinds() {
+            assert_eq!(def.validate(), Ok(()), "{def:?}");
+        }
+    }
+
+    #[test]
+    fn hostile_numbers_are_refused() {
+        let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
+        for value in bad {
+            for def in all_kinds() {
+                assert!(def.anchors(Vec2::new(value, 0.0), Vec2::ZERO).validate().is_err());
+                assert!(def.anchors(Vec2::ZERO, Vec2::new(0.0, value)).validate().is_err());
+                assert!(def.angles(value, 0.0).validate().is_err());
+                assert!(def.softness(value, 1.0).validate().is_err());
+                assert!(def.break_at(value, 1.0).validate().is_err());
+                let changed = [
+                    def.spring(value, 1.0),
+                    def.spring(1.0, value),
+                    def.limits(value, 1.0),
+                    def.limits(0.0, value),
+                    def.motor(value, 1.0),
+                    def.motor(1.0, value),
+                    def.ratio(value),
+                ];
+                for other in changed.into_iter().filter(|other| other.kind != def.kind) {
+                    assert!(other.validate().is_err(), "{other:?}");
+                }
+            }
+            assert!(JointDef::mouse(DVec2::new(value.into(), 0.0), 1.0).validate().is_err());
+            assert!(JointDef::friction(value, 1.0).validate().is_err());
+        }
+        assert!(JointDef::revolute().limits(1.0, -1.0).validate().is_err());
+        assert!(JointDef::revolute().limits(-4.0, 4.0).validate().is_err());
+        assert!(JointDef::gear(0.0).validate().is_err());
+        assert!(JointDef::distance(0.0).validate().is_err());
+        assert!(JointDef::distance(1.0).spring(-1.0, 0.0).validate().is_err());
     }
 }

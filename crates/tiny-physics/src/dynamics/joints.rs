@@ -1,16 +1,243 @@
-//! Joints (stand-in until the joint stores are merged).
-use super::Bodies;
+//! Joint records: what the user asked for, and where the solver's copy of it is.
+
+use super::bodies::{Bodies, NULL};
+use super::joint_blocks::{Impulses, JointClass};
+use crate::describe::JointDef;
+use crate::math::Vec2;
+
+/// Where the lanes of a joint are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum JointPlace {
+    /// In the joint graph: colour (or overflow) and slot in the bucket of its class.
+    Graph {
+        /// Index of the colour.
+        colour: u8,
+        /// Block * lanes + lane.
+        slot: u32,
+    },
+    /// Nowhere: its bodies sleep or are disabled, or it has nothing to solve.
+    Asleep,
+}
+
+/// The lasting record of a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct JointRecord {
+    pub(crate) alive: bool,
+    pub(crate) generation: u32,
+    pub(crate) body_a: u32,
+    pub(crate) body_b: u32,
+    pub(crate) def: JointDef,
+    pub(crate) place: JointPlace,
+    /// Impulses kept while the joint has no lane.
+    pub(crate) saved: Impulses,
+    /// Neighbours in the joint lists of A and B: (previous, next) edges.
+    pub(crate) links: [(u32, u32); 2],
+}
+
+impl JointRecord {
+    /// A joint that has not been linked to its bodies yet.
+    pub(crate) fn new(body_a: u32, body_b: u32, def: JointDef) -> Self {
+        Self {
+            alive: true,
+            generation: 0,
+            body_a,
+            body_b,
+            def,
+            place: JointPlace::Asleep,
+            saved: Impulses::default(),
+            links: [(NULL, NULL); 2],
+        }
+    }
+
+    /// Which kernel solves it; `None` where there is nothing to solve.
+    pub(crate) fn class(&self) -> Option<JointClass> {
+        JointClass::of(&self.def.kind)
+    }
+}
+
+/// What a joint does to body B, as of the last substep: the opposite acts on body A.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct JointLoad {
+    /// Newtons, world axes, at anchor B.
+    pub(crate) force: Vec2,
+    /// Newton metres.
+    pub(crate) torque: f32,
+}
+
+/// All joints of a world, by stable index.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub(crate) struct Joints;
-#[derive(Clone, Debug, PartialEq, Default)]
-pub(crate) struct JointGraph;
+pub(crate) struct Joints {
+    pub(crate) records: Vec<JointRecord>,
+    /// Joints that can break, ascending.
+    pub(crate) breakable: Vec<u32>,
+    free: Vec<u32>,
+    count: usize,
+}
+
 impl Joints {
-    pub(crate) fn may_collide(&self, _: &Bodies, _: u32, _: u32) -> bool {
-        true
+    /// Joints alive.
+    pub(crate) fn count(&self) -> usize {
+        self.count
     }
-    pub(crate) fn awake_pairs(&self, _: &Bodies) -> impl Iterator<Item = (u32, u32)> + '_ {
-        core::iter::empty()
+
+    /// Indices of the joints alive, ascending.
+    pub(crate) fn indices(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..self.records.len() as u32).filter(|&i| self.records[i as usize].alive)
     }
-    pub(crate) fn put_to_sleep(&mut self, _: &Bodies, _: &mut JointGraph, _: u32) {}
-    pub(crate) fn wake(&mut self, _: &Bodies, _: &mut JointGraph, _: u32) {}
+
+    /// Puts a record in: into both bodies' lists too. The generation of a reused place has gone up.
+    pub(crate) fn insert(&mut self, bodies: &mut Bodies, mut record: JointRecord) -> u32 {
+        self.count += 1;
+        record.alive = true;
+        let index = if let Some(index) = self.free.pop() {
+            record.generation = self.records[index as usize].generation;
+            self.records[index as usize] = record;
+            index
+        } else {
+            self.records.push(record);
+            self.records.len() as u32 - 1
+        };
+        self.link(bodies, index, 0);
+        self.link(bodies, index, 1);
+        self.note_breakable(index);
+        index
+    }
+
+    /// Takes a record out. The caller has taken its lanes out of the graph.
+    pub(crate) fn remove(&mut self, bodies: &mut Bodies, index: u32) {
+        debug_assert_eq!(self.records[index as usize].place, JointPlace::Asleep);
+        self.count -= 1;
+        self.unlink(bodies, index, 0);
+        self.unlink(bodies, index, 1);
+        let record = &mut self.records[index as usize];
+        record.alive = false;
+        record.generation = record.generation.wrapping_add(1);
+        record.def.break_at = None;
+        self.note_breakable(index);
+        self.free.push(index);
+    }
+
+    /// Joints of a body as (joint, side) from the head of its list: the newest first.
+    pub(crate) fn of_body(&self, first_edge: u32) -> impl Iterator<Item = (u32, u32)> + '_ {
+        core::iter::successors((first_edge != NULL).then_some(first_edge), |&edge| {
+            let next = self.records[edge as usize / 2].links[edge as usize % 2].1;
+            (next != NULL).then_some(next)
+        })
+        .map(|edge| (edge / 2, edge % 2))
+    }
+
+    /// Does no joint between the two bodies forbid them to collide?
+    pub(crate) fn may_collide(&self, bodies: &Bodies, a: u32, b: u32) -> bool {
+        let first = |body: u32| bodies.infos[body as usize].first_joint;
+        if first(a) == NULL || first(b) == NULL {
+            return true;
+        }
+        // Every joint of a static body may be a long list; that of a dynamic one is short.
+        let (body, other) = if bodies.is_dynamic(a) { (a, b) } else { (b, a) };
+        self.of_body(first(body)).all(|(index, side)| {
+            let record = &self.records[index as usize];
+            let partner = if side == 0 { record.body_b } else { record.body_a };
+            partner != other || record.def.collide_connected
+        })
+    }
+
+    /// The bodies of joints that tie islands together: those in the graph or of class none.
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
+        self.records
+            .iter()
+            .filter(|record| record.alive && record.place != JointPlace::Asleep)
+            .map(|record| (record.body_a, record.body_b))
+    }
+
+    /// Keeps the list of breakable joints in line with a joint's description.
+    pub(crate) fn note_breakable(&mut self, index: u32) {
+        let breakable = self.records[index as usize].def.break_at.is_some();
+        match (self.breakable.binary_search(&index), breakable) {
+            (Err(at), true) => self.breakable.insert(at, index),
+            (Ok(at), false) => {
+                self.breakable.remove(at);
+            }
+            (Ok(_), true) | (Err(_), false) => {}
+        }
+    }
+
+    fn body(&self, index: u32, side: usize) -> u32 {
+        let record = &self.records[index as usize];
+        if side == 0 { record.body_a } else { record.body_b }
+    }
+
+    fn link(&mut self, bodies: &mut Bodies, index: u32, side: usize) {
+        let edge = index * 2 + side as u32;
+        let info = &mut bodies.infos[self.body(index, side) as usize];
+        let head = core::mem::replace(&mut info.first_joint, edge);
+        if head != NULL {
+            self.records[head as usize / 2].links[head as usize % 2].0 = edge;
+        }
+        self.records[index as usize].links[side] = (NULL, head);
+    }
+
+    fn unlink(&mut self, bodies: &mut Bodies, index: u32, side: usize) {
+        let (previous, next) = self.records[index as usize].links[side];
+        if previous == NULL {
+            bodies.infos[self.body(index, side) as usize].first_joint = next;
+        } else {
+            self.records[previous as usize / 2].links[previous as usize % 2].1 = next;
+        }
+        if next != NULL {
+            self.records[next as usize / 2].links[next as usize % 2].0 = previous;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::BodyInfo;
+    use crate::math::Pose;
+
+    /// Random insertions and removals; the lists of the bodies always agree with the records.
+    #[test]
+    fn lists_follow_insertions_and_removals() {
+        let mut bodies = Bodies::new();
+        let mut joints = Joints::default();
+        for _ in 0..8 {
+            bodies.insert(BodyInfo::default(), Pose::default());
+        }
+        let mut state = 7_u32;
+        let mut random = |below: u32| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 16) % below
+        };
+        for _ in 0..2000 {
+            let alive: Vec<u32> = joints.indices().collect();
+            if alive.len() > 20 || (random(3) == 0 && !alive.is_empty()) {
+                joints.remove(&mut bodies, alive[random(alive.len() as u32) as usize]);
+            } else {
+                let a = random(9);
+                let b = (a + 1 + random(8)) % 9;
+                let def = JointDef::revolute();
+                let def = if random(2) == 0 { def.break_at(1.0, 1.0) } else { def };
+                joints.insert(&mut bodies, JointRecord::new(a, b, def));
+            }
+            check(&bodies, &joints);
+        }
+    }
+
+    fn check(bodies: &Bodies, joints: &Joints) {
+        let mut found = 0;
+        for body in 0..bodies.infos.len() as u32 {
+            for (index, side) in joints.of_body(bodies.infos[body as usize].first_joint) {
+                let record = &joints.records[index as usize];
+                assert!(record.alive);
+                assert_eq!(joints.body(index, side as usize), body);
+                found += 1;
+            }
+        }
+        assert_eq!(found, joints.count() * 2);
+        let breakable: Vec<u32> = joints
+            .indices()
+            .filter(|&i| joints.records[i as usize].def.break_at.is_some())
+            .collect();
+        assert_eq!(joints.breakable, breakable);
+    }
 }

@@ -7,6 +7,8 @@ mod blocks;
 mod bodies;
 mod contacts;
 mod graph;
+mod joint_blocks;
+mod joint_graph;
 mod joints;
 mod pair_table;
 mod shapes;
@@ -17,6 +19,10 @@ pub(crate) use blocks::{
 pub(crate) use bodies::{Bodies, BodyInfo, Motion, NULL, Slot};
 pub(crate) use contacts::{Contact, Contacts, Place, SavedPoint};
 pub(crate) use graph::{Bucket, COLOURS, Graph, IDLE, OVERFLOW};
-pub(crate) use joints::{JointGraph, Joints};
+pub(crate) use joint_blocks::*;
+pub(crate) use joint_graph::{
+    JOINT_COLOURS, JOINT_OVERFLOW, JointBlocks, JointBucket, JointColour, JointGraph,
+};
+pub(crate) use joints::{JointLoad, JointPlace, JointRecord, Joints};
 pub(crate) use pair_table::PairTable;
 pub(crate) use shapes::{ShapeRecord, Shapes};

@@ -1,4 +1,4 @@
-//! Axis-aligned boxes around shapes.
+//! Axis-aligned boxes and circles around and inside shapes.
 
 use super::Shape;
 use crate::math::{Aabb, DVec2, Pose, Rot, Transform, Vec2};
@@ -17,6 +17,30 @@ impl Shape {
         let reach = f64::from(radius);
         let reach = DVec2::new(reach, reach);
         Aabb::rounded_out(pose.p + core.min - reach, pose.p + core.max + reach)
+    }
+
+    /// Radius of the circle around the frame's origin that holds the shape, metres.
+    pub fn bounding_radius(&self) -> f32 {
+        let core = self.core();
+        core.reach(Vec2::ZERO) + core.radius
+    }
+
+    /// Radius of the disk around the centre of mass that fits inside, metres: half of the shape's thickness,
+    /// more or less. A body that moves less in a step cannot pass a wall by its centre. 0 for a segment.
+    pub fn inner_radius(&self) -> f32 {
+        let core = self.core();
+        if core.count < 3 {
+            return core.radius;
+        }
+        let center = self.mass_properties(1.0).center;
+        let mut least = f32::INFINITY;
+        for i in 0..core.edge_count() {
+            let depth = core.normal(i).dot(core.points[i] - center);
+            if depth < least {
+                least = depth;
+            }
+        }
+        least + core.radius
     }
 
     /// Box around the turned core, relative to the frame's origin, and the radius to add.
@@ -66,6 +90,21 @@ mod tests {
             let half = shape.aabb(quarter).half_extents();
             assert!((half - Vec2::new(2.0, 1.0)).length() < 1e-6);
         }
+    }
+
+    #[test]
+    fn circles_inside_and_around() {
+        let close = |a: f32, b: f32| (a - b).abs() < 1e-6;
+        let capsule = Shape::capsule(Vec2::ZERO, Vec2::X * 2.0, 0.25).unwrap();
+        assert!(close(capsule.bounding_radius(), 2.25) && close(capsule.inner_radius(), 0.25));
+        let rect = Shape::rect(3.0, 4.0).unwrap();
+        assert!(close(rect.bounding_radius(), 5.0) && close(rect.inner_radius(), 3.0));
+        let circle = Shape::circle(0.5).unwrap();
+        assert!(close(circle.bounding_radius(), 0.5) && close(circle.inner_radius(), 0.5));
+        let segment = Shape::segment(Vec2::ZERO, Vec2::X).unwrap();
+        assert!(close(segment.bounding_radius(), 1.0) && close(segment.inner_radius(), 0.0));
+        let triangle = Shape::regular(3, 1.0).unwrap();
+        assert!(close(triangle.inner_radius(), 0.5));
     }
 
     #[test]

@@ -39,26 +39,23 @@ impl MassProperties {
         self.inertia + self.mass * (self.center - point).length_sq()
     }
 
-    /// Several bodies of one frame as one. Without mass at all, the centre is the mean of the centres.
+    /// Several parts of one frame as one. Without mass at all, the centre is the mean of the centres.
     pub fn combined(parts: &[Self]) -> Self {
-        let mass: f64 = parts.iter().fold(0.0, |sum, part| sum + f64::from(part.mass));
-        let weight = |part: &Self| if mass > 0.0 { f64::from(part.mass) } else { 1.0 };
-        let mut center = DVec2::ZERO;
-        let mut total = 0.0;
+        let origin = DVec2::from(parts.first().map_or(Vec2::ZERO, |part| part.center));
+        let mut sum = Moments { area: 0.0, first: DVec2::ZERO, second: 0.0 };
+        let (mut centers, mut count) = (DVec2::ZERO, 0.0);
         for part in parts {
-            center = center + DVec2::from(part.center) * weight(part);
-            total += weight(part);
+            let (mass, center) = (f64::from(part.mass), DVec2::from(part.center) - origin);
+            sum.area += mass;
+            sum.first = sum.first + center * mass;
+            sum.second += f64::from(part.inertia) + mass * dot(center, center);
+            (centers, count) = (centers + center, count + 1.0);
         }
-        if total > 0.0 {
-            center = center * (1.0 / total);
+        if sum.area > 0.0 {
+            return sum.finish(origin, 1.0);
         }
-        let inertia: f64 = parts.iter().fold(0.0, |sum, part| sum + part.inertia_about_f64(center));
-        Self { mass: mass as f32, center: center.to_vec2(), inertia: inertia as f32 }
-    }
-
-    fn inertia_about_f64(&self, point: DVec2) -> f64 {
-        let arm = DVec2::from(self.center) - point;
-        f64::from(self.inertia) + f64::from(self.mass) * dot(arm, arm)
+        let mean = centers * (1.0 / if count > 0.0 { count } else { 1.0 });
+        Self { center: (origin + mean).to_vec2(), ..Self::default() }
     }
 }
 
@@ -68,18 +65,11 @@ impl Shape {
         let core = self.core();
         let origin = DVec2::from(core.points[0]);
         let moments = Moments::of_core(&core, origin);
-        let density = f64::from(density);
         if moments.area <= 0.0 {
             let center = (core.points[0] + core.points[core.count - 1]) * 0.5;
             return MassProperties { center, ..MassProperties::default() };
         }
-        let center = moments.first * (1.0 / moments.area);
-        let inertia = moments.second - moments.area * dot(center, center);
-        MassProperties {
-            mass: (density * moments.area) as f32,
-            center: (origin + center).to_vec2(),
-            inertia: (density * inertia) as f32,
-        }
+        moments.finish(origin, f64::from(density))
     }
 
     /// Area, square metres.
@@ -88,7 +78,7 @@ impl Shape {
     }
 }
 
-/// Integrals over an area, about one origin: of 1, of the position, of its square.
+/// Integrals over an area (or a mass), about one origin: of 1, of the position, of its square.
 struct Moments {
     area: f64,
     first: DVec2,
@@ -113,6 +103,17 @@ impl Moments {
             }
         }
         sum
+    }
+
+    /// Mass, centre and inertia about the centre, for a density; the area must be above 0.
+    fn finish(&self, origin: DVec2, density: f64) -> MassProperties {
+        let center = self.first * (1.0 / self.area);
+        let inertia = self.second - self.area * dot(center, center);
+        MassProperties {
+            mass: (density * self.area) as f32,
+            center: (origin + center).to_vec2(),
+            inertia: (density * inertia) as f32,
+        }
     }
 
     /// The triangle from the origin to p and q, signed.
@@ -211,13 +212,16 @@ mod tests {
 
     /// Sums over the middles of a grid of cells.
     fn integrated(shape: &Shape) -> MassProperties {
-        const CELLS: usize = 300;
+        // No common divisor: a box's diagonal must not run through the middles of all its cells.
+        const COLUMNS: usize = 300;
+        const ROWS: usize = 331;
         let bounds = shape.aabb(Transform::IDENTITY);
-        let cell = (bounds.max - bounds.min) / CELLS as f32;
+        let size = bounds.max - bounds.min;
+        let cell = Vec2::new(size.x / COLUMNS as f32, size.y / ROWS as f32);
         let area = f64::from(cell.x * cell.y);
         let mut sum = Moments { area: 0.0, first: DVec2::ZERO, second: 0.0 };
-        for i in 0..CELLS * CELLS {
-            let (column, row) = ((i % CELLS) as f32 + 0.5, (i / CELLS) as f32 + 0.5);
+        for i in 0..COLUMNS * ROWS {
+            let (column, row) = ((i % COLUMNS) as f32 + 0.5, (i / COLUMNS) as f32 + 0.5);
             let point = bounds.min + Vec2::new(cell.x * column, cell.y * row);
             if shape.contains(point) {
                 let point = DVec2::from(point);
@@ -226,12 +230,7 @@ mod tests {
                 sum.second += dot(point, point) * area;
             }
         }
-        let center = sum.first * (1.0 / sum.area);
-        MassProperties {
-            mass: sum.area as f32,
-            center: center.to_vec2(),
-            inertia: (sum.second - sum.area * dot(center, center)) as f32,
-        }
+        sum.finish(DVec2::ZERO, 1.0)
     }
 
     proptest! {

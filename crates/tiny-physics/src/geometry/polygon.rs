@@ -174,7 +174,7 @@ impl Polygon {
         }
         let half_extents = Vec2::new((b - a).length(), (c - b).length()) * 0.5;
         let axis = self.normals[1];
-        let center = (a + b + c + d) * 0.25;
+        let center = ((a + c) + (b + d)) * 0.25;
         Some((half_extents, Transform::new(center, Rot { c: axis.x, s: axis.y })))
     }
 

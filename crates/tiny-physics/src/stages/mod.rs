@@ -7,6 +7,7 @@ pub(crate) mod contact_solver;
 pub(crate) mod continuous;
 pub(crate) mod finalize;
 pub(crate) mod integrate;
+pub(crate) mod joint_solver;
 pub(crate) mod narrow_phase;
 pub(crate) mod pairs;
 pub(crate) mod sleep;

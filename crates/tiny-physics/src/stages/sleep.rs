@@ -80,7 +80,7 @@ impl Sets {
     }
 
     fn join_joints(&mut self, bodies: &Bodies, joints: &Joints) {
-        for (a, b) in joints.awake_pairs(bodies) {
+        for (a, b) in joints.pairs() {
             self.join(bodies, a, b);
         }
     }
@@ -154,7 +154,14 @@ fn put_island_to_sleep(
             }
             edge = next;
         }
-        joints.put_to_sleep(bodies, joint_graph, body);
+        for index in joints_of(bodies, joints, body) {
+            let record = &joints.records[index as usize];
+            if !bodies.infos[record.body_a as usize].awake
+                && !bodies.infos[record.body_b as usize].awake
+            {
+                joint_graph.remove(bodies, joints, index);
+            }
+        }
     }
 }
 
@@ -193,6 +200,16 @@ pub(crate) fn wake(
             }
             edge = contacts.records[edge as usize / 2].links[edge as usize % 2].1;
         }
-        joints.wake(bodies, joint_graph, body);
+        for index in joints_of(bodies, joints, body) {
+            joint_graph.insert(bodies, joints, index);
+        }
     }
+}
+
+/// Joints of a body, ascending.
+fn joints_of(bodies: &Bodies, joints: &Joints, body: u32) -> Vec<u32> {
+    let first = bodies.infos[body as usize].first_joint;
+    let mut indices: Vec<u32> = joints.of_body(first).map(|(index, _)| index).collect();
+    indices.sort_unstable();
+    indices
 }

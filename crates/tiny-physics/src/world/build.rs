@@ -66,6 +66,7 @@ impl World {
     pub fn remove_body(&mut self, id: BodyId) -> Result<(), Error> {
         let index = self.body_index(id)?;
         self.wake_index(index);
+        self.destroy_joints_of(index);
         self.destroy_contacts_of(index, |_| true);
         while self.bodies.infos[index as usize].first_shape != NULL {
             self.unlink_shape(self.bodies.infos[index as usize].first_shape);
@@ -200,6 +201,9 @@ impl World {
         self.bodies.set_origin_pose(index, origin.p, origin.q);
         self.bodies.update_inverse_masses(index);
         self.update_central_frames(index);
+        for (joint, _) in self.joints.of_body(self.bodies.infos[index as usize].first_joint) {
+            self.joint_graph.refresh(&self.joints, joint);
+        }
     }
 
     /// Mass properties of all shapes in the body's frame, and whether one of them must not turn.

@@ -1,6 +1,6 @@
 //! What happened in the last step, to be read after it.
 
-use super::ids::ShapeId;
+use super::ids::{JointId, ShapeId};
 use crate::math::Vec2;
 
 /// Two shapes began to touch.
@@ -36,6 +36,19 @@ pub struct Hit {
     pub speed: f32,
 }
 
+/// A joint bore more than it can and is gone.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct JointBreak {
+    /// Its handle, now stale.
+    pub joint: JointId,
+    /// Force on body B when it broke, newtons.
+    pub force: Vec2,
+    /// Torque on body B when it broke, newton metres.
+    pub torque: f32,
+    /// The user's number.
+    pub user_data: u64,
+}
+
 /// The events of one step, each list in a fixed order that threads do not change. Only shapes that ask for
 /// events (see [`ShapeDef`](crate::ShapeDef)) have them.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -43,6 +56,7 @@ pub struct Events {
     pub(crate) contact_begin: Vec<ContactBegin>,
     pub(crate) contact_end: Vec<ContactEnd>,
     pub(crate) hits: Vec<Hit>,
+    pub(crate) joint_breaks: Vec<JointBreak>,
     /// Ends that came about between steps, by removal: part of the next step's events.
     pub(crate) pending_end: Vec<ContactEnd>,
 }
@@ -63,11 +77,17 @@ impl Events {
         &self.hits
     }
 
+    /// Joints that broke.
+    pub fn joint_breaks(&self) -> &[JointBreak] {
+        &self.joint_breaks
+    }
+
     /// Makes room for the events of a new step.
     pub(crate) fn clear(&mut self) {
         self.contact_begin.clear();
         self.contact_end.clear();
         self.hits.clear();
+        self.joint_breaks.clear();
         self.flush_pending();
     }
 

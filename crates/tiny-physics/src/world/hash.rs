@@ -27,6 +27,7 @@ impl World {
         hasher.float(self.gravity.y);
         self.hash_bodies(&mut hasher);
         self.hash_contacts(&mut hasher);
+        self.hash_joints(&mut hasher);
         hasher.0
     }
 
@@ -46,6 +47,16 @@ impl World {
             hasher.float(info.torque);
             hasher.word(u64::from(info.contact_colours) << 32 | u64::from(info.island_next));
             hasher.word(u64::from(info.awake) | u64::from(info.joint_colours) << 32);
+        }
+    }
+
+    fn hash_joints(&self, hasher: &mut Hasher) {
+        for index in self.joints.indices() {
+            let record = &self.joints.records[index as usize];
+            hasher.word(u64::from(record.body_a) << 32 | u64::from(record.body_b));
+            for value in self.joint_graph.impulses(record) {
+                hasher.float(value);
+            }
         }
     }
 

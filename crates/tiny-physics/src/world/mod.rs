@@ -3,23 +3,28 @@
 mod bodies;
 mod build;
 mod contacts;
+mod debug_draw;
 mod events;
 mod hash;
 mod ids;
+mod joints;
 mod shapes;
 mod stats;
 mod validate;
 
 pub use bodies::{Body, BodyMut};
 pub use contacts::{ContactPoint, ContactView};
-pub use events::{ContactBegin, ContactEnd, Events, Hit};
+pub use events::{ContactBegin, ContactEnd, Events, Hit, JointBreak};
 pub use ids::{BodyId, JointId, ShapeId};
+pub use joints::JointRef;
 pub use shapes::ShapeRef;
 pub use stats::{Stage, Stats};
 
 use crate::broad_phase::BroadPhase;
 use crate::describe::Settings;
-use crate::dynamics::{Bodies, Contacts, Graph, JointGraph, Joints, OVERFLOW, Shapes};
+use crate::dynamics::{
+    Bodies, Contacts, Graph, JOINT_OVERFLOW, JointGraph, Joints, OVERFLOW, Shapes,
+};
 use crate::error::Error;
 use crate::geometry::manifold::PairClass;
 use crate::math::Vec2;
@@ -27,7 +32,9 @@ use crate::simd::SimdLevel;
 use crate::stages::contact_solver::{self, Parameters, Pass, Softness};
 use crate::stages::finalize::{FastBody, Findings};
 use crate::stages::touching::Changes;
-use crate::stages::{continuous, finalize, integrate, narrow_phase, pairs, sleep, touching};
+use crate::stages::{
+    continuous, finalize, integrate, joint_solver, narrow_phase, pairs, sleep, touching,
+};
 use crate::threads::{Pool, SharedRows, Team};
 use stats::Stopwatch;
 
@@ -71,6 +78,8 @@ pub struct World {
     broad_phase: BroadPhase,
     events: Events,
     step_count: u64,
+    /// 1 / substep length of the last step.
+    inv_h: f32,
     level: SimdLevel,
     pool: Pool,
     stats: Stats,
@@ -87,6 +96,7 @@ struct Scratch {
     findings: Vec<Findings>,
     fast: Vec<FastBody>,
     islands: Vec<u32>,
+    broken_joints: Vec<u32>,
 }
 
 /// Numbers of one step.
@@ -114,10 +124,11 @@ impl World {
             contacts: Contacts::default(),
             graph: Graph::new(),
             joints: Joints::default(),
-            joint_graph: JointGraph::default(),
+            joint_graph: JointGraph::new(),
             broad_phase: BroadPhase::new(),
             events: Events::default(),
             step_count: 0,
+            inv_h: 0.0,
             level: SimdLevel::detect(),
             pool: Pool::default(),
             stats: Stats::default(),
@@ -244,18 +255,25 @@ impl World {
     /// Integrates velocities and positions, and solves contacts and joints, substep by substep.
     fn solve(&mut self, team: &Team, lengths: StepLengths) {
         let parameters = self.contact_parameters(lengths);
+        self.inv_h = parameters.inv_h;
+        self.prepare_joints(team, lengths.h);
         integrate::prepare(team, &mut self.bodies, self.gravity, lengths.h);
         let max_speed = self.settings.max_speed * self.settings.length_unit;
         for _ in 0..lengths.substeps {
             integrate::velocities(team, &mut self.bodies);
+            self.solve_joints(team, joint_solver::Pass::WarmStart);
             self.solve_contacts(team, Pass::WarmStart, &parameters);
             for _ in 0..lengths.iterations {
+                self.solve_joints(team, joint_solver::Pass::Solve);
                 self.solve_contacts(team, Pass::Solve, &parameters);
             }
             integrate::positions(team, &mut self.bodies, lengths.h, max_speed);
+            self.solve_joints(team, joint_solver::Pass::Relax);
             self.solve_contacts(team, Pass::Relax, &parameters);
         }
         self.solve_contacts(team, Pass::Restitution, &parameters);
+        self.solve_joints(team, joint_solver::Pass::Finish);
+        self.break_joints();
     }
 
     fn contact_parameters(&self, lengths: StepLengths) -> Parameters {
@@ -282,6 +300,32 @@ impl World {
         for (bucket, class) in colours.iter_mut().flat_map(|c| c.iter_mut().zip(PairClass::ALL)) {
             let points = class.max_points();
             contact_solver::run(team, self.level, pass, parameters, rows, bucket, points);
+        }
+    }
+
+    /// Brings the joints' lanes in line with their descriptions and the poses.
+    fn prepare_joints(&mut self, team: &Team, h: f32) {
+        let Self { joint_graph, joints, bodies, level, .. } = self;
+        joint_solver::describe(joint_graph, joints, &bodies.infos, h);
+        let (poses, level) = (&bodies.poses, *level);
+        for colour in &mut joint_graph.colours {
+            colour.for_each_run(team, |blocks| joint_solver::prepare(level, poses, h, blocks));
+        }
+    }
+
+    /// Runs one pass over all joints: the overflow one by one, then colour by colour.
+    fn solve_joints(&mut self, team: &Team, pass: joint_solver::Pass) {
+        if self.joint_graph.count() == 0 {
+            return;
+        }
+        let rows = SharedRows::new(&mut self.bodies.rows);
+        let (level, inv_h) = (self.level, self.inv_h);
+        let (colours, overflow) = self.joint_graph.colours.split_at_mut(JOINT_OVERFLOW);
+        overflow[0].for_each_run(&Team::alone(), |blocks| {
+            joint_solver::run_in_order(pass, inv_h, rows, blocks);
+        });
+        for colour in colours {
+            colour.for_each_run(team, |blocks| joint_solver::run(level, pass, inv_h, rows, blocks));
         }
     }
 

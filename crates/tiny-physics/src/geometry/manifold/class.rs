@@ -27,7 +27,7 @@ impl ShapeClass {
             Shape::Circle { .. } => Self::Circle,
             Shape::Capsule { .. } | Shape::Segment { .. } => Self::Capsule,
             Shape::Aabb { .. } => Self::Box,
-            Shape::Polygon(polygon) if is_rectangle(polygon) => Self::Box,
+            Shape::Polygon(polygon) if polygon.as_rect().is_some() => Self::Box,
             Shape::Polygon(_) => Self::General,
         }
     }
@@ -146,19 +146,8 @@ impl RoundedBox {
     }
 
     fn rectangle(polygon: &Polygon) -> Option<Self> {
-        if !is_rectangle(polygon) {
-            return None;
-        }
-        let v = polygon.vertices();
-        let x_axis = polygon.normals()[1];
-        Some(Self {
-            frame: Transform::new(
-                ((v[0] + v[2]) + (v[1] + v[3])) * 0.25,
-                Rot { c: x_axis.x, s: x_axis.y },
-            ),
-            half_extents: Vec2::new(0.5 * (v[1] - v[0]).length(), 0.5 * (v[2] - v[1]).length()),
-            radius: polygon.radius(),
-        })
+        let (half_extents, frame) = polygon.as_rect()?;
+        Some(Self { frame, half_extents, radius: polygon.radius() })
     }
 
     /// Half extents and radius as the kernels take them.
@@ -166,16 +155,6 @@ impl RoundedBox {
     pub fn extents(&self) -> [f32; 3] {
         [self.half_extents.x, self.half_extents.y, self.radius]
     }
-}
-
-/// Four vertices whose normals are at right angles, to within rounding.
-fn is_rectangle(polygon: &Polygon) -> bool {
-    const TOLERANCE: f32 = 1.0e-5;
-    let n = polygon.normals();
-    n.len() == 4
-        && n[0].dot(n[1]).abs() < TOLERANCE
-        && (n[0] + n[2]).length_sq() < TOLERANCE * TOLERANCE
-        && (n[1] + n[3]).length_sq() < TOLERANCE * TOLERANCE
 }
 
 #[cfg(test)]

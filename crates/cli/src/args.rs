@@ -1,0 +1,279 @@
+//! The command line.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+use tiny_physics::SimdLevel;
+
+/// A 2D rigid-body physics engine at work: nothing tunnels, nothing jitters, it stays light.
+#[derive(Parser, Debug)]
+#[command(name = "tiny-physics", version, args_conflicts_with_subcommands = true)]
+#[command(after_help = "Without a command it plays the demo in the terminal.
+
+Examples:
+  tiny-physics                             watch shapes fall, hit, stack and rest
+  tiny-physics list                        what scenes there are
+  tiny-physics run large_pyramid           time a scene
+  tiny-physics render seed_demo -o a.gif   make an animation
+  tiny-physics view tumbler                open a window
+
+'tiny-physics help COMMAND' says more about a command.")]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// The demo's options count without its name, too.
+    #[command(flatten)]
+    pub demo: DemoArgs,
+}
+
+/// The commands.
+#[derive(Subcommand, Debug)]
+pub enum Command {
+    /// Play a scene in the terminal, in letters (this is what happens without a command)
+    #[command(
+        after_help = "Letters: # static, o circle, [ ] box, ( ) capsule, < > other polygon, = kinematic.
+In a terminal: space steps one frame, p plays or pauses, r restarts, n takes the next seed, q quits.
+Without a terminal it plays by itself, prints a few frames and a summary.
+
+Examples:
+  tiny-physics demo
+  tiny-physics demo --seed 42
+  tiny-physics demo --scene domino
+  tiny-physics demo --plain > demo.txt"
+    )]
+    Demo(DemoArgs),
+    /// List the built-in scenes
+    #[command(after_help = "Examples:
+  tiny-physics list
+  tiny-physics list --json")]
+    List(ListArgs),
+    /// Run a scene as fast as it goes and report times, contacts, penetration and state hash
+    #[command(
+        after_help = "The hash covers the whole state of the world. It is the same for every number of threads, every
+SIMD level and every platform.
+
+Examples:
+  tiny-physics run seed_demo --steps 900
+  tiny-physics run large_pyramid --threads 4 --simd avx2
+  tiny-physics run my_scene.json --json"
+    )]
+    Run(RunArgs),
+    /// Draw a scene into a PNG picture or a GIF animation
+    #[command(
+        after_help = "A .png shows the last step; with --every, numbered pictures of every K-th step are written.
+A .gif shows every K-th step (2 where not said) from the start.
+Contact points are coloured by penetration depth; bodies that overlap too deeply take that colour.
+
+Examples:
+  tiny-physics render seed_demo --steps 300 -o heap.png
+  tiny-physics render domino --every 2 -o domino.gif
+  tiny-physics render tumbler --area=-11,-1,11,21 --size 800x800 -o drum.png
+  tiny-physics render my_scene.json --show bounds,mass --hide normals -o scene.png"
+    )]
+    Render(RenderArgs),
+    /// Watch a scene in a window, step by step if you like, and pull at bodies with the mouse
+    #[command(after_help = "Keys are listed in the window; H hides the list. It needs a display.
+
+Examples:
+  tiny-physics view
+  tiny-physics view tumbler
+  tiny-physics view my_scene.json --paused")]
+    View(ViewArgs),
+}
+
+/// Which scene, and how the world runs.
+#[derive(Args, Clone, Debug)]
+pub struct WorldArgs {
+    /// Seed of scenes that have chance in them
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Threads to use; results do not depend on it
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub threads: u16,
+    /// SIMD level: scalar, sse2, sse42, avx2, avx512, neon or simd128; the best there is where not
+    /// said. Results do not depend on it
+    #[arg(long, value_name = "LEVEL", value_parser = simd_level)]
+    pub simd: Option<SimdLevel>,
+}
+
+/// Options of `demo`.
+#[derive(Args, Clone, Debug)]
+pub struct DemoArgs {
+    /// Seed of the shapes' places and sizes
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Another scene or scene file
+    #[arg(long, value_name = "SCENE|FILE", default_value = "seed_demo")]
+    pub scene: String,
+    /// Play by itself and print a few frames even in a terminal
+    #[arg(long)]
+    pub plain: bool,
+}
+
+/// Options of `list`.
+#[derive(Args, Clone, Debug)]
+pub struct ListArgs {
+    /// As JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Options of `run`.
+#[derive(Args, Clone, Debug)]
+pub struct RunArgs {
+    /// Name of a built-in scene, or a scene file
+    #[arg(value_name = "SCENE|FILE")]
+    pub scene: String,
+    /// Steps to run; the scene's own number where not said
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub steps: Option<u32>,
+    /// Report as JSON
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub world: WorldArgs,
+}
+
+/// Options of `render`.
+#[derive(Args, Clone, Debug)]
+pub struct RenderArgs {
+    /// Name of a built-in scene, or a scene file
+    #[arg(value_name = "SCENE|FILE")]
+    pub scene: String,
+    /// The file to write: .png or .gif
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// Steps to run; the scene's own number where not said
+    #[arg(long, value_name = "N")]
+    pub steps: Option<u32>,
+    /// Draw every K-th step
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..))]
+    pub every: Option<u32>,
+    /// Pixels; 1280x720 for pictures, 640x360 for animations where not said
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<(u32, u32)>,
+    /// The part of the world to show, metres; all of the scene's start where not said
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = area, allow_hyphen_values = true)]
+    pub area: Option<Area>,
+    /// Show more
+    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
+    pub show: Vec<Overlay>,
+    /// Show less
+    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
+    pub hide: Vec<Overlay>,
+    #[command(flatten)]
+    pub world: WorldArgs,
+}
+
+/// Options of `view`.
+#[derive(Args, Clone, Debug)]
+pub struct ViewArgs {
+    /// Name of a built-in scene, or a scene file
+    #[arg(value_name = "SCENE|FILE", default_value = "seed_demo")]
+    pub scene: String,
+    /// Pixels
+    #[arg(long, value_name = "WxH", value_parser = size, default_value = "1280x720")]
+    pub size: (u32, u32),
+    /// Start paused
+    #[arg(long)]
+    pub paused: bool,
+    #[command(flatten)]
+    pub world: WorldArgs,
+}
+
+/// Things that can be drawn or left out.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Overlay {
+    /// Joints
+    Joints,
+    /// Bounding boxes
+    Bounds,
+    /// Centres of mass
+    Mass,
+    /// Contact points, coloured by penetration depth
+    Contacts,
+    /// Contact normals
+    Normals,
+    /// Velocities
+    Velocities,
+    /// Bodies in the colour of their deepest contact
+    Tint,
+    /// Frame and counts
+    Text,
+    /// The legend
+    Legend,
+}
+
+/// A box in the world: lower left and upper right, metres.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Area {
+    /// Left, bottom.
+    pub min: [f64; 2],
+    /// Right, top.
+    pub max: [f64; 2],
+}
+
+fn simd_level(text: &str) -> Result<SimdLevel, String> {
+    let level: SimdLevel = text.parse()?;
+    if level.is_available() {
+        return Ok(level);
+    }
+    let names: Vec<_> = SimdLevel::available().map(SimdLevel::name).collect();
+    Err(format!("this machine cannot run {level}; it has {}", names.join(", ")))
+}
+
+fn size(text: &str) -> Result<(u32, u32), String> {
+    let parse = || {
+        let (width, height) = text.split_once(['x', 'X'])?;
+        let size = (width.parse().ok()?, height.parse().ok()?);
+        let allowed = 64..=8192;
+        (allowed.contains(&size.0) && allowed.contains(&size.1)).then_some(size)
+    };
+    parse().ok_or_else(|| "width and height in pixels, 64 to 8192 each, like 1280x720".into())
+}
+
+fn area(text: &str) -> Result<Area, String> {
+    let numbers: Vec<f64> = text.split(',').filter_map(|part| part.trim().parse().ok()).collect();
+    match numbers[..] {
+        [x0, y0, x1, y1]
+            if x0 < x1 && y0 < y1 && [x0, y0, x1, y1].iter().all(|x| x.is_finite()) =>
+        {
+            Ok(Area { min: [x0, y0], max: [x1, y1] })
+        }
+        _ => Err("left,bottom,right,top in metres, like -10,0,10,20".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_sound() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn every_command_shows_examples() {
+        for command in Cli::command().get_subcommands() {
+            let help = command.get_after_help().map(|help| help.to_string()).unwrap_or_default();
+            assert!(help.contains("Examples:"), "{}", command.get_name());
+        }
+    }
+
+    #[test]
+    fn the_demo_needs_no_name() {
+        let cli = Cli::parse_from(["tiny-physics", "--seed", "7"]);
+        assert!(cli.command.is_none());
+        assert_eq!(cli.demo.seed, 7);
+    }
+
+    #[test]
+    fn sizes_and_areas() {
+        assert_eq!(size("640x480"), Ok((640, 480)));
+        assert!(size("640").is_err() && size("0x0").is_err() && size("axb").is_err());
+        assert_eq!(area("-1,-2,3,4.5"), Ok(Area { min: [-1.0, -2.0], max: [3.0, 4.5] }));
+        assert!(area("1,1,0,0").is_err() && area("1,2,3").is_err() && area("nan,0,1,1").is_err());
+    }
+}

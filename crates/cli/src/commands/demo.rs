@@ -1,0 +1,89 @@
+//! `demo`: a scene in letters, in the terminal or printed.
+
+use super::player;
+use crate::args::{DemoArgs, WorldArgs};
+use crate::failure::Outcome;
+use crate::simulation::Simulation;
+use crate::{source, text_frame};
+use std::io::{IsTerminal, Write, stdin, stdout};
+use tiny_physics_draw::TextView;
+
+/// Size of printed frames, letters.
+const COLUMNS: usize = 80;
+const ROWS: usize = 24;
+/// Printed frames: these steps, and the last.
+const FRAMES: [u64; 4] = [0, 45, 90, 150];
+/// Steps at most; it ends earlier when everything sleeps.
+const MOST_STEPS: u64 = 1800;
+
+/// Plays the scene: with keys in a terminal, else by itself.
+///
+/// # Errors
+/// No such scene, or the terminal's.
+pub fn run(args: &DemoArgs) -> Outcome {
+    let terminal = stdin().is_terminal() && stdout().is_terminal();
+    if terminal && !args.plain {
+        return player::run(args);
+    }
+    let simulation = open(args, args.seed)?;
+    print_frames(&mut stdout().lock(), simulation, args)
+}
+
+/// The demo's scene with a seed.
+///
+/// # Errors
+/// No such scene, or the engine refuses it.
+pub(super) fn open(args: &DemoArgs, seed: u64) -> Outcome<Simulation> {
+    let how = WorldArgs { seed, threads: 1, simd: None };
+    Simulation::new(source::open(&args.scene, seed)?, &how)
+}
+
+fn print_frames(out: &mut impl Write, mut simulation: Simulation, args: &DemoArgs) -> Outcome {
+    let bounds = simulation.bounds();
+    let mut view = TextView::new(COLUMNS, ROWS);
+    let mut deepest = 0.0_f32;
+    let mut print = |simulation: &Simulation| -> Outcome {
+        text_frame::draw(&mut view, simulation, bounds);
+        writeln!(out, "--- {}", simulation.status())?;
+        for line in view.to_lines() {
+            writeln!(out, "{line}")?;
+        }
+        Ok(writeln!(out)?)
+    };
+    loop {
+        let status = simulation.status();
+        let at_rest = status.awake == 0 && status.moving > 0;
+        let last = at_rest || status.frame >= MOST_STEPS;
+        if last || FRAMES.contains(&status.frame) {
+            print(&simulation)?;
+        }
+        if last {
+            break;
+        }
+        simulation.step();
+        deepest = deepest.max(simulation.world().max_penetration());
+    }
+    let status = simulation.status();
+    let seconds = status.frame as f32 * simulation.dt();
+    let rest = if status.awake == 0 {
+        format!("all {} bodies came to rest and sleep", status.moving)
+    } else {
+        format!("{} of {} bodies are still awake", status.awake, status.moving)
+    };
+    writeln!(
+        out,
+        "{} seed {}: {rest} after {} frames ({seconds:.1} s).",
+        args.scene, args.seed, status.frame
+    )?;
+    writeln!(
+        out,
+        "Deepest penetration on the way {:.1} mm; state {:016x}.",
+        deepest * 1000.0,
+        simulation.world().state_hash()
+    )?;
+    writeln!(
+        out,
+        "In a terminal it plays frame by frame; 'tiny-physics help' shows what else there is."
+    )?;
+    Ok(())
+}

@@ -1,0 +1,26 @@
+//! One file a command.
+
+mod demo;
+mod list;
+mod player;
+mod render;
+mod run;
+mod view;
+
+use crate::args::{Cli, Command};
+use crate::failure::Outcome;
+
+/// Does what the command line says.
+///
+/// # Errors
+/// The command's, in words for the user.
+pub fn run(cli: Cli) -> Outcome {
+    match cli.command {
+        None => demo::run(&cli.demo),
+        Some(Command::Demo(args)) => demo::run(&args),
+        Some(Command::List(args)) => list::run(&args),
+        Some(Command::Run(args)) => run::run(&args),
+        Some(Command::Render(args)) => render::run(&args),
+        Some(Command::View(args)) => view::run(&args),
+    }
+}

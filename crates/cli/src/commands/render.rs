@@ -1,0 +1,164 @@
+//! `render`: a scene into a PNG or GIF.
+
+use super::run::Progress;
+use crate::args::RenderArgs;
+use crate::failure::{Failure, Outcome};
+use crate::picture::{self, Overlays};
+use crate::simulation::Simulation;
+use crate::source;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use tiny_physics_draw::{Animation, Camera, Canvas};
+
+/// Draws every so many steps of an animation, where not said: 30 frames a second.
+const USUAL_EVERY: u32 = 2;
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Format {
+    Png,
+    Gif,
+}
+
+/// Runs the scene and writes the file.
+///
+/// # Errors
+/// No such scene, an extension other than png or gif, a file that cannot be written.
+pub fn run(args: &RenderArgs) -> Outcome {
+    let format = format_of(&args.output)?;
+    let scene = source::open(&args.scene, args.world.seed)?;
+    let steps = args.steps.unwrap_or(scene.steps);
+    let simulation = Simulation::new(scene, &args.world)?;
+    let (width, height) = args.size.unwrap_or(match format {
+        Format::Png => (1280, 720),
+        Format::Gif => (640, 360),
+    });
+    let (min, max) = match args.area {
+        Some(area) => (area.min.into(), area.max.into()),
+        None => simulation.bounds(),
+    };
+    let mut film = Film {
+        simulation,
+        camera: Camera::fit_above(min, max, width, height, Canvas::LEGEND_HEIGHT),
+        canvas: Canvas::new(width, height)?,
+        overlays: Overlays::new(&args.show, &args.hide),
+    };
+    match (format, args.every) {
+        (Format::Gif, every) => film.gif(&args.output, steps, every.unwrap_or(USUAL_EVERY)),
+        (Format::Png, None) => film.png(&args.output, steps),
+        (Format::Png, Some(every)) => film.series(&args.output, steps, every),
+    }
+}
+
+fn format_of(path: &Path) -> Outcome<Format> {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("png") => Ok(Format::Png),
+        Some("gif") => Ok(Format::Gif),
+        _ => Err(Failure::new(format!("'{}' is neither .png nor .gif", path.display()))
+            .hint("name the output like 'out.png' or 'out.gif'")),
+    }
+}
+
+struct Film {
+    simulation: Simulation,
+    camera: Camera,
+    canvas: Canvas,
+    overlays: Overlays,
+}
+
+impl Film {
+    fn draw(&mut self) {
+        picture::draw(&mut self.canvas, &self.simulation, &self.camera, &self.overlays, "");
+    }
+
+    /// The last step.
+    fn png(&mut self, path: &Path, steps: u32) -> Outcome {
+        let progress = Progress::new(steps);
+        for step in 0..steps {
+            self.simulation.step();
+            progress.at(step);
+        }
+        progress.finish();
+        self.draw();
+        self.write_png(path)?;
+        report(path, &format!("step {steps}"))
+    }
+
+    /// Every so many steps a picture with the step's number in its name.
+    fn series(&mut self, path: &Path, steps: u32, every: u32) -> Outcome {
+        let progress = Progress::new(steps);
+        let mut count = 0;
+        for step in 0..=steps {
+            if step > 0 {
+                self.simulation.step();
+            }
+            if step % every == 0 {
+                self.draw();
+                self.write_png(&numbered(path, step))?;
+                count += 1;
+            }
+            progress.at(step);
+        }
+        progress.finish();
+        report(&numbered(path, 0), &format!("and so on, {count} pictures"))
+    }
+
+    fn write_png(&self, path: &Path) -> Outcome {
+        let png = self.canvas.to_png()?;
+        std::fs::write(path, png).map_err(|error| cannot_write(path, &error))
+    }
+
+    /// An animation of every so many steps.
+    fn gif(&mut self, path: &Path, steps: u32, every: u32) -> Outcome {
+        let file = File::create(path).map_err(|error| cannot_write(path, &error))?;
+        let delay_ms = self.simulation.dt() * 1000.0 * every as f32;
+        let mut animation = Animation::new(BufWriter::new(file), delay_ms.round() as u32);
+        let progress = Progress::new(steps);
+        for step in 0..=steps {
+            if step > 0 {
+                self.simulation.step();
+            }
+            if step % every == 0 {
+                self.draw();
+                animation.add(&self.canvas)?;
+            }
+            progress.at(step);
+        }
+        progress.finish();
+        animation.finish()?.flush().map_err(|error| cannot_write(path, &error))?;
+        report(path, &format!("{} frames", steps / every + 1))
+    }
+}
+
+fn cannot_write(path: &Path, error: &std::io::Error) -> Failure {
+    Failure::new(format!("cannot write '{}': {error}", path.display()))
+}
+
+fn report(path: &Path, what: &str) -> Outcome {
+    Ok(writeln!(std::io::stdout(), "{} ({what})", path.display())?)
+}
+
+/// `out.png` becomes `out_00042.png`.
+fn numbered(path: &Path, step: u32) -> PathBuf {
+    let stem = path.file_stem().map(|s| s.to_string_lossy()).unwrap_or_default();
+    path.with_file_name(format!("{stem}_{step:05}.png"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formats_come_from_the_name() {
+        assert_eq!(format_of(Path::new("a/b.PNG")).unwrap(), Format::Png);
+        assert_eq!(format_of(Path::new("b.gif")).unwrap(), Format::Gif);
+        assert!(format_of(Path::new("b.jpg")).unwrap_err().to_string().contains("hint"));
+        assert!(format_of(Path::new("png")).is_err());
+    }
+
+    #[test]
+    fn pictures_of_a_series_are_numbered() {
+        assert_eq!(numbered(Path::new("x/out.png"), 42), Path::new("x/out_00042.png"));
+    }
+}

@@ -1,0 +1,103 @@
+//! A frame of a simulation in pixels.
+
+use crate::args::Overlay;
+use crate::simulation::Simulation;
+use tiny_physics::{DebugDraw, DebugDrawOptions, Layer};
+use tiny_physics_draw::{Camera, Canvas};
+
+/// What a picture shows besides bodies.
+#[derive(Clone, Copy, Debug)]
+pub struct Overlays {
+    /// What the world draws.
+    pub world: DebugDrawOptions,
+    /// Frame and counts.
+    pub text: bool,
+    /// The legend.
+    pub legend: bool,
+}
+
+impl Default for Overlays {
+    fn default() -> Self {
+        Self { world: DebugDrawOptions::default(), text: true, legend: true }
+    }
+}
+
+impl Overlays {
+    /// The default with some switched on and then some off.
+    pub fn new(show: &[Overlay], hide: &[Overlay]) -> Self {
+        let mut overlays = Self::default();
+        show.iter().for_each(|overlay| *overlays.switch(*overlay) = true);
+        hide.iter().for_each(|overlay| *overlays.switch(*overlay) = false);
+        overlays
+    }
+
+    /// On the other way.
+    pub fn toggle(&mut self, overlay: Overlay) {
+        let switch = self.switch(overlay);
+        *switch = !*switch;
+    }
+
+    fn switch(&mut self, overlay: Overlay) -> &mut bool {
+        match overlay {
+            Overlay::Joints => &mut self.world.joints,
+            Overlay::Bounds => &mut self.world.bounds,
+            Overlay::Mass => &mut self.world.mass,
+            Overlay::Contacts => &mut self.world.contacts,
+            Overlay::Normals => &mut self.world.normals,
+            Overlay::Velocities => &mut self.world.velocities,
+            Overlay::Tint => &mut self.world.depth_tint,
+            Overlay::Text => &mut self.text,
+            Overlay::Legend => &mut self.legend,
+        }
+    }
+}
+
+/// Size of points in the world, metres, as far as pixels allow: far away they must not hide bodies.
+const POINT_METRES: f32 = 0.14;
+
+/// Draws a frame. `note` follows the scene's name in the status.
+pub fn draw(
+    canvas: &mut Canvas,
+    simulation: &Simulation,
+    camera: &Camera,
+    overlays: &Overlays,
+    note: &str,
+) {
+    canvas.begin(camera);
+    let view = camera.view();
+    let options = DebugDrawOptions {
+        origin: camera.center,
+        clip: Some(view),
+        point_size: (camera.scale * POINT_METRES).clamp(1.5, 6.5),
+        ..overlays.world
+    };
+    simulation.world().debug_draw(canvas, &options);
+    if let Some((from, to)) = simulation.pull_line() {
+        let relative = |p: tiny_physics::DVec2| p.relative_to(camera.center);
+        canvas.layer(Layer::Joint);
+        canvas.segment(relative(from), relative(to), options.palette.joint);
+        canvas.point(relative(from), 7.0, options.palette.joint);
+    }
+    if overlays.legend {
+        canvas.legend(&options.palette);
+    }
+    if overlays.text {
+        canvas.status(&status_lines(simulation, note));
+    }
+}
+
+fn status_lines(simulation: &Simulation, note: &str) -> [String; 3] {
+    let (status, world) = (simulation.status(), simulation.world());
+    [
+        format!("{}   frame {}{note}", simulation.scene().name, status.frame),
+        format!(
+            "bodies {} ({} of {} awake)   contacts {}   joints {}",
+            world.body_count(),
+            status.awake,
+            status.moving,
+            status.contacts,
+            world.joint_count()
+        ),
+        format!("deepest penetration {:.2} mm", status.deepest * 1000.0),
+    ]
+}

@@ -1,0 +1,246 @@
+//! A scene that runs on the engine, as the commands need it.
+
+use crate::args::WorldArgs;
+use crate::engine::Engine;
+use crate::failure::Outcome;
+use core::fmt;
+use tiny_physics::{Aabb, BodyId, BodyKind, DVec2, Pose, Rot, Vec2, World};
+use tiny_physics_scenes::{Player, Scene};
+
+/// A scene, its world, and a body that the mouse may hold.
+pub struct Simulation {
+    scene: Scene,
+    how: WorldArgs,
+    player: Player<Engine>,
+    held: Option<Held>,
+}
+
+/// A body pulled by the mouse.
+#[derive(Clone, Copy, Debug)]
+struct Held {
+    body: BodyId,
+    /// Where it was taken, in the body's frame.
+    local: Vec2,
+    target: DVec2,
+}
+
+/// The numbers of a status line.
+#[derive(Clone, Copy, Debug)]
+pub struct Status {
+    /// Steps made.
+    pub frame: u64,
+    /// Contacts that touch.
+    pub contacts: usize,
+    /// Deepest penetration, metres.
+    pub deepest: f32,
+    /// Moving bodies that are awake.
+    pub awake: usize,
+    /// Bodies that can move.
+    pub moving: usize,
+}
+
+impl fmt::Display for Status {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { frame, contacts, deepest, awake, moving } = self;
+        let millimetres = deepest * 1000.0;
+        write!(
+            f,
+            "frame {frame}   contacts {contacts}   deepest {millimetres:.1} mm   awake {awake} of {moving}"
+        )
+    }
+}
+
+/// The mouse lets a held body reach the pointer at this rate, 1/s.
+const PULL_RATE: f32 = 12.0;
+/// The mouse changes a body's speed by no more than this in a second, metres a second squared.
+const PULL_LIMIT: f32 = 600.0;
+
+impl Simulation {
+    /// Sets the scene up.
+    ///
+    /// # Errors
+    /// The scene holds something that the engine refuses, or the machine lacks the SIMD level.
+    pub fn new(scene: Scene, how: &WorldArgs) -> Outcome<Self> {
+        scene.check()?;
+        let mut world = World::with_settings(scene.gravity, scene.settings);
+        world.set_threads(usize::from(how.threads));
+        if let Some(level) = how.simd {
+            world.set_simd(level)?;
+        }
+        let player = Player::new(&scene, Engine::new(world));
+        player.host().check()?;
+        Ok(Self { scene, how: how.clone(), player, held: None })
+    }
+
+    /// Back to the start.
+    ///
+    /// # Errors
+    /// As [`Simulation::new`].
+    pub fn restart(&mut self) -> Outcome {
+        *self = Self::new(self.scene.clone(), &self.how)?;
+        Ok(())
+    }
+
+    /// One step of the scene.
+    pub fn step(&mut self) {
+        self.pull();
+        self.player.step();
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The world.
+    pub fn world(&self) -> &World {
+        &self.player.host().world
+    }
+
+    fn world_mut(&mut self) -> &mut World {
+        &mut self.player.host_mut().world
+    }
+
+    /// Length of a step, seconds.
+    pub fn dt(&self) -> f32 {
+        self.player.dt()
+    }
+
+    /// Numbers for a status line.
+    pub fn status(&self) -> Status {
+        let world = self.world();
+        let bodies = world.body_ids().filter_map(|id| world.body(id));
+        Status {
+            frame: world.step_count(),
+            contacts: world.contact_count(),
+            // Adding nothing turns -0 into 0.
+            deepest: world.max_penetration() + 0.0,
+            awake: world.awake_body_count(),
+            moving: bodies.filter(|body| body.kind() != BodyKind::Static).count(),
+        }
+    }
+
+    /// The box around everything that matters: all bodies, but of static ones much wider than the
+    /// moving ones only the part near them.
+    pub fn bounds(&self) -> (DVec2, DVec2) {
+        let world = self.world();
+        let origin = self.some_position();
+        let (mut moving, mut fixed) = (Aabb::EMPTY, Aabb::EMPTY);
+        for shape in world.shape_ids().filter_map(|id| world.shape(id)) {
+            let Some(body) = world.body(shape.body()) else { continue };
+            let frame = body.pose().relative_to(Pose::new(origin, Rot::IDENTITY));
+            let bounds = shape.shape().aabb(frame.compose(shape.local()));
+            let of_kind = if body.kind() == BodyKind::Static { &mut fixed } else { &mut moving };
+            *of_kind = of_kind.union(&bounds);
+        }
+        let bounds = part_of_interest(moving, fixed);
+        (origin + bounds.min, origin + bounds.max)
+    }
+
+    fn some_position(&self) -> DVec2 {
+        let world = self.world();
+        let first = world.body_ids().find_map(|id| world.body(id));
+        first.map_or(DVec2::ZERO, |body| body.position_f64())
+    }
+
+    /// Takes the moving body at a point of the world, if there is one.
+    pub fn grab(&mut self, point: DVec2) {
+        let world = self.world();
+        let shapes = world.shape_ids().filter_map(|id| world.shape(id));
+        let hit = shapes.filter_map(|shape| {
+            let body = world.body(shape.body())?;
+            let local = body.pose().unapply(point);
+            let inside = shape.shape().contains(shape.local().unapply(local));
+            (inside && body.kind() == BodyKind::Dynamic).then_some(Held {
+                body: shape.body(),
+                local,
+                target: point,
+            })
+        });
+        let held = hit.last();
+        self.held = held;
+    }
+
+    /// Moves the point that the held body follows.
+    pub fn drag(&mut self, point: DVec2) {
+        if let Some(held) = &mut self.held {
+            held.target = point;
+        }
+    }
+
+    /// Lets go.
+    pub fn release(&mut self) {
+        self.held = None;
+    }
+
+    /// Where the held body is held and where it is to go.
+    pub fn pull_line(&self) -> Option<(DVec2, DVec2)> {
+        let held = self.held?;
+        Some((self.world().body(held.body)?.pose().apply(held.local), held.target))
+    }
+
+    /// An impulse that brings the held point towards the pointer.
+    fn pull(&mut self) {
+        let Some(held) = self.held else { return };
+        let (dt, gravity) = (self.player.dt(), self.world().gravity);
+        let Some(mut body) = self.world_mut().body_mut(held.body) else {
+            self.held = None;
+            return;
+        };
+        let view = body.as_ref();
+        let point = view.pose().apply(held.local);
+        let arm = point.relative_to(view.center());
+        let velocity = view.velocity_at(point);
+        let wanted = held.target.relative_to(point) * PULL_RATE;
+        let change = wanted - velocity - gravity * dt;
+        let most = PULL_LIMIT * dt;
+        let change = if change.length() > most { change.normalized() * most } else { change };
+        // What the point weighs against an impulse: less than the body where it can turn.
+        let (mass, inertia) = (view.mass(), view.inertia());
+        let turning = if inertia > 0.0 { arm.length_sq() * mass / inertia } else { 0.0 };
+        body.apply_impulse(change * (mass / (1.0 + turning)), point);
+    }
+}
+
+/// Both boxes; where the fixed one is far larger, only its part near the moving one.
+fn part_of_interest(moving: Aabb, fixed: Aabb) -> Aabb {
+    /// Sizes of the moving box: how much larger all may be, and how far to look where it is larger.
+    const LARGER: f32 = 4.0;
+    const NEAR: f32 = 0.4;
+    match (moving.is_valid(), fixed.is_valid()) {
+        (true, true) => {
+            let size = 1.0 + largest_side(&moving);
+            let all = moving.union(&fixed);
+            if largest_side(&all) <= LARGER * size {
+                return all;
+            }
+            let near = moving.grown(NEAR * size);
+            let cut = Aabb::new(fixed.min.max(near.min), fixed.max.min(near.max));
+            if cut.is_valid() { moving.union(&cut) } else { moving }
+        }
+        (true, false) => moving,
+        (false, true) => fixed,
+        (false, false) => Aabb::new(Vec2::splat(-5.0), Vec2::splat(5.0)),
+    }
+}
+
+fn largest_side(bounds: &Aabb) -> f32 {
+    let size = bounds.max - bounds.min;
+    size.x.max(size.y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ground_without_end_does_not_hide_what_moves() {
+        let moving = Aabb::new(Vec2::new(-5.0, 0.0), Vec2::new(5.0, 8.0));
+        let near = Aabb::new(Vec2::new(-20.0, -2.0), Vec2::new(20.0, 0.0));
+        assert_eq!(part_of_interest(moving, near), moving.union(&near));
+        let endless = Aabb::new(Vec2::new(-1000.0, -2.0), Vec2::new(1000.0, 0.0));
+        let shown = part_of_interest(moving, endless);
+        assert!(shown.contains(&moving) && shown.min.y == -2.0 && largest_side(&shown) < 20.0);
+        assert!(part_of_interest(Aabb::EMPTY, Aabb::EMPTY).is_valid());
+    }
+}

@@ -1,0 +1,192 @@
+//! The program from outside: what it prints, where it fails and how.
+
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+
+fn program(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_tiny-physics"))
+        .args(arguments)
+        .stdin(Stdio::null())
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .output()
+        .expect("the program starts")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// What it prints where it succeeds.
+fn good(arguments: &[&str]) -> String {
+    let output = program(arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+/// What it complains about where it fails.
+fn bad(arguments: &[&str]) -> String {
+    let output = program(arguments);
+    assert!(!output.status.success(), "{arguments:?} succeeded: {}", text(&output.stdout));
+    assert!(output.stdout.is_empty(), "{}", text(&output.stdout));
+    text(&output.stderr)
+}
+
+fn scratch(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name)
+}
+
+#[test]
+fn without_a_terminal_the_demo_plays_by_itself() {
+    for arguments in [&[][..], &["demo"], &["--seed", "3"], &["demo", "--seed", "3"]] {
+        let out = good(arguments);
+        assert!(out.matches("--- frame").count() >= 3, "{out}");
+        assert!(out.contains('#') && out.contains('o') && out.contains('[') && out.contains(']'));
+        assert!(out.contains("came to rest"), "{out}");
+    }
+    assert_eq!(good(&["--seed", "3"]), good(&["demo", "--seed", "3"]));
+}
+
+#[test]
+fn help_has_examples_everywhere() {
+    assert!(good(&["--help"]).contains("Examples:"));
+    for command in ["demo", "list", "run", "render", "view"] {
+        assert!(good(&[command, "--help"]).contains("Examples:"), "{command}");
+    }
+}
+
+#[test]
+fn list_names_the_scenes() {
+    let out = good(&["list"]);
+    assert!(out.contains("seed_demo") && out.contains("large_pyramid"), "{out}");
+    let json: serde_json::Value = serde_json::from_str(&good(&["list", "--json"])).unwrap();
+    assert!(json.as_array().unwrap().len() > 5);
+}
+
+#[test]
+fn the_report_has_its_fields_and_no_others() {
+    let out = good(&["run", "seed_demo", "--steps", "30", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let report = json.as_object().unwrap();
+    let mut names: Vec<_> = report.keys().map(String::as_str).collect();
+    names.sort_unstable();
+    let mut expected = vec![
+        "scene",
+        "steps",
+        "bodies",
+        "shapes",
+        "joints",
+        "contacts",
+        "awake_bodies",
+        "threads",
+        "simd",
+        "ms_per_step",
+        "stage_ms",
+        "max_penetration_m",
+        "kinetic_energy_j",
+        "hash",
+    ];
+    expected.sort_unstable();
+    assert_eq!(names, expected);
+    for time in ["mean", "median", "p99", "max"] {
+        assert!(report["ms_per_step"][time].is_f64(), "{time}");
+    }
+    assert!(!report["stage_ms"].as_object().unwrap().is_empty());
+    assert_eq!(report["steps"], 30);
+    assert_eq!(report["bodies"], 22);
+    let hash = report["hash"].as_str().unwrap();
+    assert!(hash.len() == 16 && hash.chars().all(|c| c.is_ascii_hexdigit()), "{hash}");
+}
+
+#[test]
+fn neither_threads_nor_simd_change_the_hash() {
+    let hash = |more: &[&str]| {
+        let arguments = [&["run", "seed_demo", "--steps", "200", "--json"][..], more].concat();
+        let json: serde_json::Value = serde_json::from_str(&good(&arguments)).unwrap();
+        json["hash"].clone()
+    };
+    let expected = hash(&[]);
+    assert_eq!(hash(&["--simd", "scalar"]), expected);
+    assert_eq!(hash(&["--threads", "2"]), expected);
+    assert_ne!(hash(&["--seed", "2"]), expected);
+}
+
+#[test]
+fn the_table_says_the_same() {
+    let out = good(&["run", "seed_demo", "--steps", "10"]);
+    for word in ["bodies       22", "ms per step", "penetration", "hash"] {
+        assert!(out.contains(word), "{word} in {out}");
+    }
+}
+
+#[test]
+fn unknown_scenes_and_options_are_explained() {
+    let error = bad(&["run", "seed_dmeo"]);
+    assert!(error.contains("'seed_dmeo'") && error.contains("'seed_demo'"), "{error}");
+    assert!(bad(&["run", "no/such/file.json"]).contains("no/such/file.json"));
+    assert!(bad(&["run"]).contains("SCENE"));
+    assert!(bad(&["run", "seed_demo", "--simd", "mmx"]).contains("avx2"));
+    assert!(bad(&["run", "seed_demo", "--steps", "0"]).contains("--steps"));
+    assert!(bad(&["run", "seed_demo", "--threads", "many"]).contains("--threads"));
+    assert!(bad(&["rendr", "seed_demo"]).contains("'render'"));
+    assert!(bad(&["render", "seed_demo", "-o", "out.bmp"]).contains(".png"));
+    assert!(bad(&["render", "seed_demo", "-o", "x.png", "--size", "9x9"]).contains("1280x720"));
+    assert!(bad(&["render", "seed_demo", "--steps", "1", "-o", "no/dir/x.png"]).contains("no/dir"));
+}
+
+#[test]
+fn a_broken_scene_file_is_named_with_its_line() {
+    let path = scratch("broken.json");
+    std::fs::write(&path, "{\n  \"version\": 1,\n  \"name\": 5\n}\n").unwrap();
+    let error = bad(&["run", path.to_str().unwrap()]);
+    assert!(
+        error.contains("broken.json") && error.contains("name") && error.contains('3'),
+        "{error}"
+    );
+}
+
+#[test]
+fn pictures_and_animations_are_what_they_should_be() {
+    let png = scratch("picture.png");
+    good(&[
+        "render",
+        "seed_demo",
+        "--steps",
+        "60",
+        "-o",
+        png.to_str().unwrap(),
+        "--size",
+        "320x200",
+    ]);
+    assert!(std::fs::read(&png).unwrap().starts_with(b"\x89PNG"));
+    let gif = scratch("film.gif");
+    let gif_text = gif.to_str().unwrap();
+    let arguments = [
+        "render",
+        "seed_demo",
+        "--steps",
+        "20",
+        "--every",
+        "5",
+        "-o",
+        gif_text,
+        "--size",
+        "320x200",
+    ];
+    assert!(good(&arguments).contains("5 frames"));
+    assert!(std::fs::read(&gif).unwrap().starts_with(b"GIF89a"));
+    let series = scratch("series.png");
+    let series_text = series.to_str().unwrap();
+    good(&["render", "seed_demo", "--steps", "4", "--every", "2", "-o", series_text]);
+    for step in [0, 2, 4] {
+        assert!(scratch(&format!("series_{step:05}.png")).exists());
+    }
+}
+
+#[test]
+fn without_a_display_view_says_so() {
+    if cfg!(all(unix, not(target_os = "macos"))) {
+        let error = bad(&["view", "seed_demo"]);
+        assert!(error.contains("display") && error.contains("render"), "{error}");
+    }
+}

@@ -1,0 +1,394 @@
+//! Joint data in blocks of lanes: structure of arrays, sixteen joints of one class a block.
+//!
+//! A block is put together from parts that several classes share: the two anchors, softness, what
+//! acts along a free coordinate. Lanes past the end of a bucket point to body 0 and keep nothing
+//! from moving, so kernels need no tail code.
+//!
+//! The lanes of a joint are of three sorts: what follows from its description and the substep length
+//! (written when the block is stale), what follows from the poses (written every step), and
+//! accumulated impulses (which live on, and move to the record while the joint sleeps).
+
+use crate::describe::JointKind;
+use crate::simd::BLOCK;
+
+/// Most impulses that a joint accumulates.
+pub(crate) const IMPULSES: usize = 6;
+
+/// A limit that is never reached, metres or radians.
+pub(crate) const UNLIMITED: f32 = 1.0e18;
+
+/// Accumulated impulses of a joint without lanes, in the order in which its block declares them.
+pub(crate) type Impulses = [f32; IMPULSES];
+
+/// Which kernel solves a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum JointClass {
+    Distance,
+    Revolute,
+    Prismatic,
+    Weld,
+    Wheel,
+    /// Motor and mouse joints.
+    Drive,
+    Pulley,
+    Gear,
+}
+
+impl JointClass {
+    /// The class of a kind; `None` for joints without anything to solve.
+    pub(crate) fn of(kind: &JointKind) -> Option<Self> {
+        Some(match kind {
+            JointKind::Distance { .. } => Self::Distance,
+            JointKind::Revolute { .. } => Self::Revolute,
+            JointKind::Prismatic { .. } => Self::Prismatic,
+            JointKind::Weld { .. } => Self::Weld,
+            JointKind::Wheel { .. } => Self::Wheel,
+            JointKind::Motor { .. } | JointKind::Mouse { .. } => Self::Drive,
+            JointKind::Pulley { .. } => Self::Pulley,
+            JointKind::Gear { .. } => Self::Gear,
+            JointKind::Filter => return None,
+        })
+    }
+}
+
+/// Lanes, or parts made of lanes.
+pub(crate) trait LaneData: Copy {
+    /// All lanes empty.
+    const NULL: Self;
+    /// Number of accumulated impulses.
+    const IMPULSES: usize;
+    /// Copies one lane.
+    fn copy_lane(&mut self, to: usize, source: &Self, from: usize);
+    /// The impulses of a lane, into the first places of a slice.
+    fn save(&self, lane: usize, impulses: &mut [f32]);
+    /// The other way round.
+    fn restore(&mut self, lane: usize, impulses: &[f32]);
+}
+
+/// Declares a part: one array for each value of a joint; those after `impulses` are accumulated
+/// impulses.
+macro_rules! joint_lanes {
+    ($(#[$meta:meta])* $name:ident {
+        $($(#[$field_meta:meta])* $field:ident : $type:ty = $null:expr,)*
+        $(; impulses $($(#[$impulse_meta:meta])* $impulse:ident,)*)?
+    }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[repr(C, align(64))]
+        pub(crate) struct $name {
+            $($(#[$field_meta])* pub(crate) $field: [$type; BLOCK],)*
+            $($($(#[$impulse_meta])* pub(crate) $impulse: [f32; BLOCK],)*)?
+        }
+
+        #[allow(unused_variables, unused_mut, unused_assignments, reason = "parts without impulses")]
+        impl LaneData for $name {
+            const NULL: Self = Self {
+                $($field: [$null; BLOCK],)*
+                $($($impulse: [0.0; BLOCK],)*)?
+            };
+            const IMPULSES: usize = 0 $($(+ { let _ = stringify!($impulse); 1 })*)?;
+
+            fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
+                $(self.$field[to] = source.$field[from];)*
+                $($(self.$impulse[to] = source.$impulse[from];)*)?
+            }
+            fn save(&self, lane: usize, impulses: &mut [f32]) {
+                let mut places = impulses.iter_mut();
+                $($(if let Some(place) = places.next() { *place = self.$impulse[lane]; })*)?
+            }
+            fn restore(&mut self, lane: usize, impulses: &[f32]) {
+                let mut places = impulses.iter();
+                $($(if let Some(place) = places.next() { self.$impulse[lane] = *place; })*)?
+            }
+        }
+    };
+}
+
+/// Declares a block: the bodies' indices and parts.
+macro_rules! joint_block {
+    ($(#[$meta:meta])* $name:ident { $($(#[$field_meta:meta])* $part:ident : $type:ty,)* }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[repr(C, align(64))]
+        pub(crate) struct $name {
+            pub(crate) frame: FrameLanes,
+            $($(#[$field_meta])* pub(crate) $part: $type,)*
+        }
+
+        impl LaneData for $name {
+            const NULL: Self = Self { frame: FrameLanes::NULL, $($part: <$type>::NULL,)* };
+            const IMPULSES: usize = 0 $(+ <$type>::IMPULSES)*;
+
+            fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
+                self.frame.copy_lane(to, &source.frame, from);
+                $(self.$part.copy_lane(to, &source.$part, from);)*
+            }
+            #[allow(unused_assignments, reason = "after the last part")]
+            fn save(&self, lane: usize, impulses: &mut [f32]) {
+                let mut at = 0;
+                $(self.$part.save(lane, &mut impulses[at..at + <$type>::IMPULSES]);
+                at += <$type>::IMPULSES;)*
+            }
+            #[allow(unused_assignments, reason = "after the last part")]
+            fn restore(&mut self, lane: usize, impulses: &[f32]) {
+                let mut at = 0;
+                $(self.$part.restore(lane, &impulses[at..at + <$type>::IMPULSES]);
+                at += <$type>::IMPULSES;)*
+            }
+        }
+
+        impl JointLanes for $name {
+            fn frame(&mut self) -> &mut FrameLanes {
+                &mut self.frame
+            }
+        }
+
+        const _: () = assert!(<$name as LaneData>::IMPULSES <= IMPULSES);
+    };
+}
+
+/// A block of one class of joints.
+pub(crate) trait JointLanes: LaneData {
+    /// The part that all classes have.
+    fn frame(&mut self) -> &mut FrameLanes;
+}
+
+joint_lanes! {
+    /// Bodies, and anchors relative to their centres of mass, metres.
+    FrameLanes {
+        body_a: u32 = 0,
+        body_b: u32 = 0,
+        /// In the axes of the bodies.
+        local_a_x: f32 = 0.0,
+        local_a_y: f32 = 0.0,
+        local_b_x: f32 = 0.0,
+        local_b_y: f32 = 0.0,
+        /// In the world's axes at the start of the step.
+        a_x: f32 = 0.0,
+        a_y: f32 = 0.0,
+        b_x: f32 = 0.0,
+        b_y: f32 = 0.0,
+        /// From the centre of mass of A to that of B at the start of the step.
+        between_x: f32 = 0.0,
+        between_y: f32 = 0.0,
+    }
+}
+
+joint_lanes! {
+    /// A soft constraint: position error times `push`, velocity times `mass_scale`, accumulated
+    /// impulse times `impulse_scale` make the impulse.
+    SoftLanes {
+        push: f32 = 0.0,
+        mass_scale: f32 = 0.0,
+        impulse_scale: f32 = 0.0,
+        /// 1 where the constraint is rigid (and takes part in the relax pass), 0 where it is a spring.
+        rigid: f32 = 0.0,
+    }
+}
+
+joint_lanes! {
+    /// Impulses along x and y (or across the axis, and angular), newton seconds.
+    PointLanes2 {
+        ; impulses
+        impulse_x,
+        impulse_y,
+    }
+}
+
+joint_lanes! {
+    /// An impulse along the joint's one rigid direction.
+    RodLanes {
+        ; impulses
+        impulse,
+    }
+}
+
+joint_lanes! {
+    /// An angle between the bodies, radians.
+    AngleLanes {
+        /// Cosine and sine of what the description adds to the angle.
+        turn_c: f32 = 1.0,
+        turn_s: f32 = 0.0,
+        /// At the start of the step.
+        start: f32 = 0.0,
+    }
+}
+
+joint_lanes! {
+    /// A direction that turns with body A.
+    DirectionLanes {
+        /// In the axes of A.
+        local_x: f32 = 1.0,
+        local_y: f32 = 0.0,
+        /// In the world's axes at the start of the step.
+        x: f32 = 1.0,
+        y: f32 = 0.0,
+        /// In the world's axes as of the last relax pass.
+        now_x: f32 = 1.0,
+        now_y: f32 = 0.0,
+    }
+}
+
+joint_lanes! {
+    /// What acts along a joint's free coordinate: spring, motor, limits.
+    AxisLanes {
+        /// 1 where there is any of them; blocks of zeros skip this part.
+        used: f32 = 0.0,
+        /// Coefficients of the spring, as in [`SoftLanes`]; zeros for none.
+        push: f32 = 0.0,
+        mass_scale: f32 = 0.0,
+        impulse_scale: f32 = 0.0,
+        /// Where the spring rests; for angles, seen from the coordinate at the start of the step.
+        rest: f32 = 0.0,
+        target: f32 = 0.0,
+        motor_speed: f32 = 0.0,
+        /// Greatest impulse of the motor in a substep.
+        motor_max: f32 = 0.0,
+        lower: f32 = -UNLIMITED,
+        upper: f32 = UNLIMITED,
+        ; impulses
+        spring,
+        motor,
+        lower_impulse,
+        upper_impulse,
+    }
+}
+
+joint_lanes! {
+    /// A motor of its own.
+    MotorLanes {
+        speed: f32 = 0.0,
+        /// Greatest impulse in a substep.
+        max: f32 = 0.0,
+        ; impulses
+        impulse,
+    }
+}
+
+joint_block! {
+    DistanceBlock { soft: SoftLanes, rod: RodLanes, axis: AxisLanes, length: LengthLanes, }
+}
+
+joint_lanes! {
+    /// A distance and its direction.
+    LengthLanes {
+        length: f32 = 0.0,
+        /// From A to B as of the last relax pass.
+        now_x: f32 = 1.0,
+        now_y: f32 = 0.0,
+    }
+}
+
+joint_block! {
+    RevoluteBlock { soft: SoftLanes, point: PointLanes2, angle: AngleLanes, axis: AxisLanes, }
+}
+
+joint_block! {
+    PrismaticBlock {
+        soft: SoftLanes,
+        /// Impulse across the axis, and angular.
+        rigid: PointLanes2,
+        angle: AngleLanes,
+        direction: DirectionLanes,
+        axis: AxisLanes,
+    }
+}
+
+joint_block! {
+    WeldBlock {
+        linear: SoftLanes,
+        angular: SoftLanes,
+        point: PointLanes2,
+        twist: RodLanes,
+        angle: AngleLanes,
+    }
+}
+
+joint_block! {
+    WheelBlock {
+        soft: SoftLanes,
+        rod: RodLanes,
+        direction: DirectionLanes,
+        motor: MotorLanes,
+        axis: AxisLanes,
+    }
+}
+
+joint_lanes! {
+    /// Drives of a motor or mouse joint; maxima are impulses of a substep.
+    DriveLanes {
+        /// Where anchor B is pulled, for mouse joints: metres in the world.
+        target_x: f64 = 0.0,
+        target_y: f64 = 0.0,
+        /// 1 for mouse joints.
+        mouse: f32 = 0.0,
+        velocity_x: f32 = 0.0,
+        velocity_y: f32 = 0.0,
+        velocity_max: f32 = 0.0,
+        spring_max: f32 = 0.0,
+        angular_velocity: f32 = 0.0,
+        angular_max: f32 = 0.0,
+        twist_max: f32 = 0.0,
+        ; impulses
+        velocity_impulse_x,
+        velocity_impulse_y,
+        angular_impulse,
+    }
+}
+
+joint_block! {
+    DriveBlock {
+        linear: SoftLanes,
+        angular: SoftLanes,
+        point: PointLanes2,
+        twist: RodLanes,
+        angle: AngleLanes,
+        drive: DriveLanes,
+    }
+}
+
+joint_lanes! {
+    /// The fixed points of a pulley.
+    RopeLanes {
+        /// Metres in the world.
+        ground_a_x: f64 = 0.0,
+        ground_a_y: f64 = 0.0,
+        ground_b_x: f64 = 0.0,
+        ground_b_y: f64 = 0.0,
+        /// From the fixed point to the centre of mass at the start of the step.
+        arm_a_x: f32 = 0.0,
+        arm_a_y: f32 = 0.0,
+        arm_b_x: f32 = 0.0,
+        arm_b_y: f32 = 0.0,
+        ratio: f32 = 1.0,
+        length: f32 = 0.0,
+        /// From the fixed point of B to its anchor as of the last relax pass.
+        now_x: f32 = 1.0,
+        now_y: f32 = 0.0,
+    }
+}
+
+joint_block! {
+    PulleyBlock { soft: SoftLanes, rod: RodLanes, rope: RopeLanes, }
+}
+
+joint_lanes! {
+    /// The coupled coordinates of a gear: direction of sliding, or 1 as spin.
+    GearLanes {
+        slide_a_x: f32 = 0.0,
+        slide_a_y: f32 = 0.0,
+        spin_a: f32 = 0.0,
+        /// B's are multiplied with the ratio.
+        slide_b_x: f32 = 0.0,
+        slide_b_y: f32 = 0.0,
+        spin_b: f32 = 0.0,
+        ; impulses
+        impulse,
+        /// Not an impulse, but kept like one: sum of both changes since the joint was added.
+        error,
+    }
+}
+
+joint_block! {
+    GearBlock { soft: SoftLanes, gear: GearLanes, }
+}

@@ -1,0 +1,436 @@
+//! The constraint graph of joints: colours as in that of contacts, buckets by class.
+//!
+//! A joint keeps its colour while its bodies are awake; colours are given first-fit in the order in
+//! which joints come in. Between two dynamic bodies the lowest free colour, else the highest: joints
+//! to the ground are solved last. What finds no colour goes to the overflow.
+
+use super::bodies::Bodies;
+use super::joint_blocks::{
+    DistanceBlock, DriveBlock, GearBlock, Impulses, JointClass, JointLanes, PrismaticBlock,
+    PulleyBlock, RevoluteBlock, WeldBlock, WheelBlock,
+};
+use super::joints::{JointPlace, JointRecord, Joints};
+use crate::simd::BLOCK;
+use crate::threads::Team;
+
+/// Number of colours of joints.
+pub(crate) const JOINT_COLOURS: usize = 24;
+/// Index of the overflow among the colours.
+pub(crate) const JOINT_OVERFLOW: usize = JOINT_COLOURS;
+
+/// Joints of one colour and class.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct JointBucket<B> {
+    /// Joint index of each slot.
+    pub(crate) joints: Vec<u32>,
+    pub(crate) blocks: Vec<B>,
+    /// Blocks whose lanes have to be written from the joints' descriptions again.
+    pub(crate) stale: Vec<bool>,
+}
+
+impl<B> Default for JointBucket<B> {
+    fn default() -> Self {
+        Self { joints: Vec::new(), blocks: Vec::new(), stale: Vec::new() }
+    }
+}
+
+impl<B: JointLanes> JointBucket<B> {
+    /// Appends a joint and gives its slot.
+    fn push(&mut self, index: u32, bodies: [u32; 2], impulses: &Impulses) -> u32 {
+        let slot = self.joints.len();
+        let (block, lane) = (slot / BLOCK, slot % BLOCK);
+        self.joints.push(index);
+        if lane == 0 {
+            self.blocks.push(B::NULL);
+            self.stale.push(true);
+        }
+        self.stale[block] = true;
+        let lanes = &mut self.blocks[block];
+        lanes.frame().body_a[lane] = bodies[0];
+        lanes.frame().body_b[lane] = bodies[1];
+        lanes.restore(lane, impulses);
+        slot as u32
+    }
+
+    /// Takes a slot out; the last one moves into it. Gives the joint that moved, if one did.
+    fn swap_remove(&mut self, slot: u32) -> Option<u32> {
+        let last = self.joints.len() - 1;
+        let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
+        let (last_block, last_lane) = (last / BLOCK, last % BLOCK);
+        self.joints.swap_remove(slot as usize);
+        let source = self.blocks[last_block];
+        self.blocks[block].copy_lane(lane, &source, last_lane);
+        self.blocks[last_block].copy_lane(last_lane, &B::NULL, 0);
+        self.stale[block] |= self.stale[last_block];
+        if last_lane == 0 {
+            self.blocks.pop();
+            self.stale.pop();
+        }
+        self.joints.get(slot as usize).copied()
+    }
+
+    /// The impulses of a slot.
+    fn saved(&self, slot: u32) -> Impulses {
+        let mut impulses = Impulses::default();
+        self.blocks[slot as usize / BLOCK].save(slot as usize % BLOCK, &mut impulses);
+        impulses
+    }
+
+    fn mark_stale(&mut self, slot: u32) {
+        self.stale[slot as usize / BLOCK] = true;
+    }
+}
+
+/// All joints of one colour.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub(crate) struct JointColour {
+    pub(crate) distance: JointBucket<DistanceBlock>,
+    pub(crate) revolute: JointBucket<RevoluteBlock>,
+    pub(crate) prismatic: JointBucket<PrismaticBlock>,
+    pub(crate) weld: JointBucket<WeldBlock>,
+    pub(crate) wheel: JointBucket<WheelBlock>,
+    pub(crate) drive: JointBucket<DriveBlock>,
+    pub(crate) pulley: JointBucket<PulleyBlock>,
+    pub(crate) gear: JointBucket<GearBlock>,
+}
+
+/// Does something with the bucket of a class.
+macro_rules! with_bucket {
+    ([$($borrow:tt)+] $colour:expr, $class:expr, $bucket:ident => $body:expr) => {
+        match $class {
+            JointClass::Distance => {
+                let $bucket = $($borrow)+ $colour.distance;
+                $body
+            }
+            JointClass::Revolute => {
+                let $bucket = $($borrow)+ $colour.revolute;
+                $body
+            }
+            JointClass::Prismatic => {
+                let $bucket = $($borrow)+ $colour.prismatic;
+                $body
+            }
+            JointClass::Weld => {
+                let $bucket = $($borrow)+ $colour.weld;
+                $body
+            }
+            JointClass::Wheel => {
+                let $bucket = $($borrow)+ $colour.wheel;
+                $body
+            }
+            JointClass::Drive => {
+                let $bucket = $($borrow)+ $colour.drive;
+                $body
+            }
+            JointClass::Pulley => {
+                let $bucket = $($borrow)+ $colour.pulley;
+                $body
+            }
+            JointClass::Gear => {
+                let $bucket = $($borrow)+ $colour.gear;
+                $body
+            }
+        }
+    };
+}
+
+/// A run of blocks of one colour and class.
+pub(crate) enum JointBlocks<'a> {
+    Distance(&'a mut [DistanceBlock]),
+    Revolute(&'a mut [RevoluteBlock]),
+    Prismatic(&'a mut [PrismaticBlock]),
+    Weld(&'a mut [WeldBlock]),
+    Wheel(&'a mut [WheelBlock]),
+    Drive(&'a mut [DriveBlock]),
+    Pulley(&'a mut [PulleyBlock]),
+    Gear(&'a mut [GearBlock]),
+}
+
+impl JointColour {
+    /// Number of joints.
+    pub(crate) fn count(&self) -> usize {
+        self.distance.joints.len()
+            + self.revolute.joints.len()
+            + self.prismatic.joints.len()
+            + self.weld.joints.len()
+            + self.wheel.joints.len()
+            + self.drive.joints.len()
+            + self.pulley.joints.len()
+            + self.gear.joints.len()
+    }
+
+    /// Works on all blocks in runs, spread over the team.
+    pub(crate) fn for_each_run(&mut self, team: &Team, work: impl Fn(JointBlocks<'_>) + Sync) {
+        /// Blocks that one member of the team works on at a time.
+        const RUN: usize = 4;
+        if team.member_count() == 1 || self.count() <= RUN * BLOCK {
+            self.runs(usize::MAX).for_each(work);
+        } else {
+            let mut runs: Vec<_> = self.runs(RUN).map(Some).collect();
+            team.for_each_chunk_mut(&mut runs, 1, |_, runs| {
+                runs.iter_mut().filter_map(Option::take).for_each(&work);
+            });
+        }
+    }
+
+    /// Its blocks in runs of at most `length` blocks, always in the same order. Runs may be worked on
+    /// at once, except in the overflow.
+    pub(crate) fn runs(&mut self, length: usize) -> impl Iterator<Item = JointBlocks<'_>> {
+        let distance = self.distance.blocks.chunks_mut(length).map(JointBlocks::Distance);
+        let revolute = self.revolute.blocks.chunks_mut(length).map(JointBlocks::Revolute);
+        let prismatic = self.prismatic.blocks.chunks_mut(length).map(JointBlocks::Prismatic);
+        let weld = self.weld.blocks.chunks_mut(length).map(JointBlocks::Weld);
+        let wheel = self.wheel.blocks.chunks_mut(length).map(JointBlocks::Wheel);
+        let drive = self.drive.blocks.chunks_mut(length).map(JointBlocks::Drive);
+        let pulley = self.pulley.blocks.chunks_mut(length).map(JointBlocks::Pulley);
+        let gear = self.gear.blocks.chunks_mut(length).map(JointBlocks::Gear);
+        distance
+            .chain(revolute)
+            .chain(prismatic)
+            .chain(weld)
+            .chain(wheel)
+            .chain(drive)
+            .chain(pulley)
+            .chain(gear)
+    }
+}
+
+/// All colours and the overflow.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct JointGraph {
+    /// Colours, then the overflow.
+    pub(crate) colours: Vec<JointColour>,
+    /// Substep length that the lanes were described for, seconds.
+    pub(crate) described_h: f32,
+    /// Some block is stale.
+    pub(crate) any_stale: bool,
+    count: usize,
+}
+
+impl JointGraph {
+    pub(crate) fn new() -> Self {
+        Self {
+            colours: (0..=JOINT_OVERFLOW).map(|_| JointColour::default()).collect(),
+            described_h: 0.0,
+            any_stale: false,
+            count: 0,
+        }
+    }
+
+    /// Joints that are awake and have something to solve.
+    pub(crate) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Puts a joint into the graph with the impulses of its record. Does nothing where it is there
+    /// already or has nothing to solve.
+    pub(crate) fn insert(&mut self, bodies: &mut Bodies, joints: &mut Joints, index: u32) {
+        let record = &mut joints.records[index as usize];
+        let Some(class) = record.class() else { return };
+        if record.place != JointPlace::Asleep {
+            return;
+        }
+        let colour = take_colour(bodies, record.body_a, record.body_b);
+        let ends = [record.body_a, record.body_b];
+        let slot = with_bucket!([&mut] self.colours[colour], class, bucket => {
+            bucket.push(index, ends, &record.saved)
+        });
+        record.place = JointPlace::Graph { colour: colour as u8, slot };
+        self.any_stale = true;
+        self.count += 1;
+    }
+
+    /// Takes a joint out of the graph, if it is there, and saves its impulses in the record. Call it
+    /// before the description of the joint changes its kind, or a body its type.
+    pub(crate) fn remove(&mut self, bodies: &mut Bodies, joints: &mut Joints, index: u32) {
+        let record = &mut joints.records[index as usize];
+        let JointPlace::Graph { colour, slot } = record.place else { return };
+        let Some(class) = record.class() else { return };
+        record.place = JointPlace::Asleep;
+        let ends = [record.body_a, record.body_b];
+        let moved = with_bucket!([&mut] self.colours[usize::from(colour)], class, bucket => {
+            record.saved = bucket.saved(slot);
+            bucket.swap_remove(slot)
+        });
+        if let Some(moved) = moved {
+            joints.records[moved as usize].place = JointPlace::Graph { colour, slot };
+        }
+        give_colour_back(bodies, ends, usize::from(colour));
+        self.count -= 1;
+    }
+
+    /// The impulses of a joint, wherever they are kept.
+    pub(crate) fn impulses(&self, record: &JointRecord) -> Impulses {
+        match (record.place, record.class()) {
+            (JointPlace::Graph { colour, slot }, Some(class)) => {
+                with_bucket!([&] self.colours[usize::from(colour)], class, bucket => bucket.saved(slot))
+            }
+            _ => record.saved,
+        }
+    }
+
+    /// Gives a joint another description, also while it is in the graph. Impulses live on unless the
+    /// kind is another. The description has been validated. A joint that had nothing to solve before is
+    /// not in the graph yet afterwards: [`Self::insert`] it where its bodies are awake.
+    pub(crate) fn update(
+        &mut self,
+        bodies: &mut Bodies,
+        joints: &mut Joints,
+        index: u32,
+        def: &crate::describe::JointDef,
+    ) {
+        let record = &joints.records[index as usize];
+        let same = core::mem::discriminant(&record.def.kind) == core::mem::discriminant(&def.kind);
+        if same {
+            joints.records[index as usize].def = *def;
+            self.refresh(joints, index);
+        } else {
+            let placed = record.place != JointPlace::Asleep;
+            self.remove(bodies, joints, index);
+            let record = &mut joints.records[index as usize];
+            record.def = *def;
+            record.saved = Impulses::default();
+            if placed {
+                self.insert(bodies, joints, index);
+            }
+        }
+        joints.note_breakable(index);
+    }
+
+    /// Notes that the lanes of a joint no longer follow from its description: that has changed, or the
+    /// centre of mass of a body has.
+    pub(crate) fn refresh(&mut self, joints: &Joints, index: u32) {
+        let record = &joints.records[index as usize];
+        let (JointPlace::Graph { colour, slot }, Some(class)) = (record.place, record.class())
+        else {
+            return;
+        };
+        with_bucket!([&mut] self.colours[usize::from(colour)], class, bucket => bucket.mark_stale(slot));
+        self.any_stale = true;
+    }
+}
+
+/// Finds a colour that neither dynamic body uses and marks it used.
+fn take_colour(bodies: &mut Bodies, a: u32, b: u32) -> usize {
+    const ALL: u32 = (1 << JOINT_COLOURS) - 1;
+    let (dynamic_a, dynamic_b) = (bodies.is_dynamic(a), bodies.is_dynamic(b));
+    let used =
+        |dynamic: bool, i: u32| if dynamic { bodies.infos[i as usize].joint_colours } else { 0 };
+    let free = !(used(dynamic_a, a) | used(dynamic_b, b)) & ALL;
+    if free == 0 {
+        return JOINT_OVERFLOW;
+    }
+    let colour = if dynamic_a && dynamic_b {
+        free.trailing_zeros()
+    } else {
+        u32::BITS - 1 - free.leading_zeros()
+    };
+    for (dynamic, i) in [(dynamic_a, a), (dynamic_b, b)] {
+        if dynamic {
+            bodies.infos[i as usize].joint_colours |= 1 << colour;
+        }
+    }
+    colour as usize
+}
+
+fn give_colour_back(bodies: &mut Bodies, ends: [u32; 2], colour: usize) {
+    if colour == JOINT_OVERFLOW {
+        return;
+    }
+    for i in ends {
+        if bodies.is_dynamic(i) {
+            bodies.infos[i as usize].joint_colours &= !(1 << colour);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::describe::{BodyKind, JointDef};
+    use crate::dynamics::{BodyInfo, JointRecord};
+    use crate::math::{DVec2, Pose, Vec2};
+
+    fn kinds() -> [JointDef; 9] {
+        let x = Vec2::new(1.0, 0.0);
+        [
+            JointDef::distance(1.0),
+            JointDef::revolute(),
+            JointDef::prismatic(x),
+            JointDef::weld(),
+            JointDef::wheel(x),
+            JointDef::friction(1.0, 1.0),
+            JointDef::filter(),
+            JointDef::pulley(DVec2::ZERO, DVec2::ZERO, 1.0),
+            JointDef::gear(1.0),
+        ]
+    }
+
+    /// Random insertions, removals and changes of kind; colours and places stay consistent.
+    #[test]
+    fn graph_stays_consistent() {
+        let mut bodies = Bodies::new();
+        for i in 0..12 {
+            let kind = if i < 3 { BodyKind::Static } else { BodyKind::Dynamic };
+            bodies.insert(BodyInfo { kind, ..BodyInfo::default() }, Pose::default());
+        }
+        let mut joints = Joints::default();
+        let mut graph = JointGraph::new();
+        let mut state = 3_u32;
+        let mut random = |below: usize| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 16) as usize % below
+        };
+        for _ in 0..100 {
+            let a = random(13) as u32;
+            let b = (a + 1 + random(12) as u32) % 13;
+            let mut record = JointRecord::new(a, b, kinds()[random(9)]);
+            record.saved = [a as f32; 6];
+            joints.insert(&mut bodies, record);
+        }
+        for _ in 0..3000 {
+            let index = random(100) as u32;
+            match random(5) {
+                0 => graph.remove(&mut bodies, &mut joints, index),
+                1 => graph.update(&mut bodies, &mut joints, index, &kinds()[random(9)]),
+                _ => graph.insert(&mut bodies, &mut joints, index),
+            }
+        }
+        check(&bodies, &joints, &mut graph);
+        for index in 0..100 {
+            graph.remove(&mut bodies, &mut joints, index);
+        }
+        assert_eq!(graph.count(), 0);
+        assert!(bodies.infos.iter().all(|info| info.joint_colours == 0));
+        assert!(graph.colours.iter().all(|colour| colour.count() == 0));
+    }
+
+    fn check(bodies: &Bodies, joints: &Joints, graph: &mut JointGraph) {
+        let mut used = vec![0_u32; bodies.infos.len()];
+        let mut placed = 0;
+        for index in joints.indices() {
+            let record = &joints.records[index as usize];
+            let JointPlace::Graph { colour, slot } = record.place else { continue };
+            placed += 1;
+            let ends = [record.body_a, record.body_b];
+            let class = record.class().expect("a joint in the graph has a class");
+            with_bucket!([&mut] graph.colours[usize::from(colour)], class, bucket => {
+                assert_eq!(bucket.joints[slot as usize], index);
+                let frame = bucket.blocks[slot as usize / BLOCK].frame();
+                assert_eq!(frame.body_a[slot as usize % BLOCK], ends[0]);
+                assert_eq!(frame.body_b[slot as usize % BLOCK], ends[1]);
+            });
+            if usize::from(colour) == JOINT_OVERFLOW {
+                continue;
+            }
+            for end in ends.into_iter().filter(|&end| bodies.is_dynamic(end)) {
+                assert_eq!(used[end as usize] >> colour & 1, 0, "a colour twice on body {end}");
+                used[end as usize] |= 1 << colour;
+            }
+        }
+        assert_eq!(placed, graph.count());
+        for (used, info) in used.iter().zip(&bodies.infos) {
+            assert_eq!(*used, info.joint_colours);
+        }
+    }
+}

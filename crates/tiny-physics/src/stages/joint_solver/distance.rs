@@ -1,0 +1,102 @@
+//! Distance: the length between the anchors.
+//!
+//! ```text
+//! u = d / |d|,   J v = u . (vB + wB x rB - vA - wA x rA),   C = |d| - length
+//! ```
+//!
+//! A rod holds C = 0; otherwise spring, motor and limits act along the length.
+
+use super::JointKernel;
+use super::axis::{AxisDef, Coordinate};
+use super::parts::{Pair, Row, Soft, Start, Stride, cross, dot, scale};
+use super::spring::Rates;
+use crate::describe::{JointDef, JointKind};
+use crate::dynamics::{DistanceBlock, FrameLanes};
+use crate::math::{Pose, Vec2};
+use crate::simd::Lanes;
+use crate::threads::SharedRows;
+
+/// Length and unit vector; (1, 0) for the zero vector.
+#[inline(always)]
+pub(super) fn length_and_direction<L: Lanes>(stride: &Stride<L>, v: [L; 2]) -> (L, [L; 2]) {
+    let length = dot(v, v).sqrt();
+    let some = length.gt(stride.splat(1.0e-9));
+    let inv = stride.one / L::select(some, length, stride.one);
+    let unit = scale(v, inv);
+    let x = L::select(some, unit[0], stride.one);
+    (length, [x, L::select(some, unit[1], stride.zero)])
+}
+
+/// Length and Jacobian of it.
+#[inline(always)]
+fn length_row<L: Lanes>(stride: &Stride<L>, pair: &Pair<L>, frame: &FrameLanes) -> (L, Row<L>) {
+    let (length, direction) = length_and_direction(stride, pair.gap(stride, frame));
+    let arm_a = cross(pair.anchor_a, direction);
+    let arm_b = cross(pair.anchor_b, direction);
+    (length, Row { direction, arm_a, arm_b })
+}
+
+impl JointKernel for DistanceBlock {
+    fn describe(&mut self, lane: usize, def: &JointDef, rates: &Rates) {
+        let JointKind::Distance { length, spring, limits, motor } = def.kind else { return };
+        let rod = spring.is_none() && limits.is_none() && motor.is_none();
+        rates.write(def, None, &mut self.soft, lane);
+        self.soft.rigid[lane] = if rod { 1.0 } else { 0.0 };
+        if !rod {
+            self.rod.impulse[lane] = 0.0;
+        }
+        self.length.length[lane] = length;
+        AxisDef { spring, target: length, limits, motor }.write(&mut self.axis, lane, rates);
+    }
+
+    #[inline(always)]
+    fn prepare<L: Lanes>(&mut self, _: &Stride<L>, _: &Start<L>, _: &[Pose]) {}
+
+    #[inline(always)]
+    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, rows: SharedRows<'_>) {
+        let mut pair = Pair::load(stride, rows, &self.frame);
+        let (_, row) = length_row(stride, &pair, &self.frame);
+        pair.apply_along(&row, stride.load(&self.rod.impulse) + self.axis.total(stride));
+        pair.store(stride, rows, &self.frame);
+    }
+
+    #[inline(always)]
+    fn has_extras(&self) -> bool {
+        self.axis.any_used()
+    }
+
+    #[inline(always)]
+    fn solve<L: Lanes, const BIAS: bool>(
+        &mut self,
+        stride: &Stride<L>,
+        rows: SharedRows<'_>,
+        extras: bool,
+    ) {
+        let mut pair = Pair::load(stride, rows, &self.frame);
+        let (value, row) = length_row(stride, &pair, &self.frame);
+        let soft = Soft::load::<BIAS>(stride, &self.soft);
+        let rigid = stride.load(&self.soft.rigid);
+        let inv_mass = pair.inv_mass_along(&row);
+        let mut velocity = pair.velocity_along(&row);
+        let mut change = stride.zero;
+        if extras {
+            change =
+                self.axis.solve::<L, BIAS>(stride, &soft, Coordinate { value, velocity, inv_mass });
+            velocity = velocity + inv_mass * change;
+        }
+        let old = stride.load(&self.rod.impulse);
+        let demand = soft.demand(velocity, value - stride.load(&self.length.length));
+        let rod = -(stride.invert(inv_mass) * rigid * demand) - soft.impulse_scale * old;
+        stride.store(old + rod, &mut self.rod.impulse);
+        pair.apply_along(&row, change + rod);
+        pair.store(stride, rows, &self.frame);
+        if !BIAS {
+            stride.store2(row.direction, &mut self.length.now_x, &mut self.length.now_y);
+        }
+    }
+
+    fn impulse(&self, lane: usize) -> (Vec2, f32) {
+        let direction = Vec2::new(self.length.now_x[lane], self.length.now_y[lane]);
+        (direction * (self.rod.impulse[lane] + self.axis.total_of(lane)), 0.0)
+    }
+}

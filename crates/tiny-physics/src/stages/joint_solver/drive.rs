@@ -1,0 +1,209 @@
+//! Drive: motor and mouse joints. Bounded springs and velocity motors at the anchors and on the angle.
+//!
+//! ```text
+//! J v = (vB + wB x rB - vA - wA x rA, wB - wA)
+//! springs: C = (xB + rB - xA - rA, aB - aA),  |p| <= max      motors: J v = target,  |p| <= max
+//! ```
+//!
+//! A mouse joint has a point of the world in the place of A: its lanes name body 0 and the gap is
+//! taken from the point in 64 bits.
+
+use super::JointKernel;
+use super::parts::{Pair, Soft, Start, Stride, Symmetric, add, dot, scale, sub};
+use super::revolute::describe_angle;
+use super::spring::Rates;
+use crate::describe::{JointDef, JointKind, Spring};
+use crate::dynamics::DriveBlock;
+use crate::math::{DVec2, Pose, Vec2};
+use crate::simd::Lanes;
+use crate::threads::SharedRows;
+
+/// An impulse shortened to a length.
+#[inline(always)]
+fn shorten<L: Lanes>(stride: &Stride<L>, impulse: [L; 2], max: L) -> [L; 2] {
+    let length_sq = dot(impulse, impulse);
+    let long = length_sq.gt(max * max);
+    let factor = max / L::select(long, length_sq, stride.one).sqrt();
+    scale(impulse, L::select(long, factor, stride.one))
+}
+
+impl DriveBlock {
+    fn describe_springs(
+        &mut self,
+        lane: usize,
+        rates: &Rates,
+        linear: Option<Spring>,
+        angular: Option<Spring>,
+    ) {
+        for (spring, soft) in [(linear, &mut self.linear), (angular, &mut self.angular)] {
+            let [push, mass_scale, impulse_scale] = rates.spring(spring);
+            soft.push[lane] = push;
+            soft.mass_scale[lane] = mass_scale;
+            soft.impulse_scale[lane] = impulse_scale;
+        }
+    }
+
+    fn describe_mouse(&mut self, lane: usize, target: DVec2) {
+        self.drive.mouse[lane] = 1.0;
+        self.drive.target_x[lane] = target.x;
+        self.drive.target_y[lane] = target.y;
+        self.frame.body_a[lane] = 0;
+        self.frame.local_a_x[lane] = 0.0;
+        self.frame.local_a_y[lane] = 0.0;
+    }
+
+    /// Change of the angular impulses.
+    #[inline(always)]
+    fn solve_angle<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &Pair<L>) -> L {
+        let inv_mass = pair.inv_inertia();
+        let mass = stride.invert(inv_mass);
+        let mut velocity = pair.spin();
+        let mut total = stride.zero;
+        if BIAS {
+            let soft = Soft::load::<BIAS>(stride, &self.angular);
+            let old = stride.load(&self.twist.impulse);
+            let max = stride.load(&self.drive.twist_max);
+            let error = stride.load(&self.angle.start) + pair.turned();
+            let change = -(mass * soft.demand(velocity, error)) - soft.impulse_scale * old;
+            let impulse = (old + change).clamp(-max, max);
+            stride.store(impulse, &mut self.twist.impulse);
+            total = impulse - old;
+            velocity = velocity + inv_mass * total;
+        }
+        let old = stride.load(&self.drive.angular_impulse);
+        let max = stride.load(&self.drive.angular_max);
+        let missing = stride.load(&self.drive.angular_velocity) - velocity;
+        let impulse = (old + mass * missing).clamp(-max, max);
+        stride.store(impulse, &mut self.drive.angular_impulse);
+        total + (impulse - old)
+    }
+
+    #[inline(always)]
+    fn solve_spring<L: Lanes>(
+        &mut self,
+        stride: &Stride<L>,
+        pair: &Pair<L>,
+        inverse: &Symmetric<L>,
+    ) -> [L; 2] {
+        let soft = Soft::load::<true>(stride, &self.linear);
+        let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
+        let demand = soft.demand2(pair.anchor_velocity(), pair.gap(stride, &self.frame));
+        let kept = sub(old, scale(old, soft.impulse_scale));
+        let impulse = sub(kept, inverse.apply(demand));
+        let impulse = shorten(stride, impulse, stride.load(&self.drive.spring_max));
+        stride.store2(impulse, &mut self.point.impulse_x, &mut self.point.impulse_y);
+        sub(impulse, old)
+    }
+
+    #[inline(always)]
+    fn solve_velocity<L: Lanes>(
+        &mut self,
+        stride: &Stride<L>,
+        pair: &Pair<L>,
+        inverse: &Symmetric<L>,
+    ) -> [L; 2] {
+        let drive = &mut self.drive;
+        let old = stride.load2(&drive.velocity_impulse_x, &drive.velocity_impulse_y);
+        let target = stride.load2(&drive.velocity_x, &drive.velocity_y);
+        let missing = sub(target, pair.anchor_velocity());
+        let impulse = add(old, inverse.apply(missing));
+        let impulse = shorten(stride, impulse, stride.load(&drive.velocity_max));
+        stride.store2(impulse, &mut drive.velocity_impulse_x, &mut drive.velocity_impulse_y);
+        sub(impulse, old)
+    }
+}
+
+impl JointKernel for DriveBlock {
+    fn describe(&mut self, lane: usize, def: &JointDef, rates: &Rates) {
+        describe_angle(&mut self.angle, lane, def);
+        match def.kind {
+            JointKind::Motor {
+                velocity,
+                max_force,
+                angular_velocity,
+                max_torque,
+                linear_spring,
+                max_spring_force,
+                angular_spring,
+                max_spring_torque,
+            } => {
+                self.describe_springs(lane, rates, linear_spring, angular_spring);
+                let drive = &mut self.drive;
+                drive.mouse[lane] = 0.0;
+                drive.velocity_x[lane] = velocity.x;
+                drive.velocity_y[lane] = velocity.y;
+                drive.velocity_max[lane] = max_force * rates.h;
+                drive.angular_velocity[lane] = angular_velocity;
+                drive.angular_max[lane] = max_torque * rates.h;
+                drive.spring_max[lane] =
+                    if linear_spring.is_some() { max_spring_force * rates.h } else { 0.0 };
+                drive.twist_max[lane] =
+                    if angular_spring.is_some() { max_spring_torque * rates.h } else { 0.0 };
+            }
+            JointKind::Mouse { target, spring, max_force } => {
+                self.describe_springs(lane, rates, Some(spring), None);
+                self.describe_mouse(lane, target);
+                let drive = &mut self.drive;
+                drive.velocity_max[lane] = 0.0;
+                drive.angular_max[lane] = 0.0;
+                drive.twist_max[lane] = 0.0;
+                drive.spring_max[lane] = max_force * rates.h;
+            }
+            _ => {}
+        }
+    }
+
+    #[inline(always)]
+    fn prepare<L: Lanes>(&mut self, stride: &Stride<L>, start: &Start<L>, poses: &[Pose]) {
+        let angle = start.angle(stride, stride.load2(&self.angle.turn_c, &self.angle.turn_s));
+        stride.store(angle, &mut self.angle.start);
+        for i in stride.at..stride.at + L::WIDTH {
+            if self.drive.mouse[i] != 0.0 {
+                let target = DVec2::new(self.drive.target_x[i], self.drive.target_y[i]);
+                let between = poses[self.frame.body_b[i] as usize].p.relative_to(target);
+                self.frame.between_x[i] = between.x;
+                self.frame.between_y[i] = between.y;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, rows: SharedRows<'_>) {
+        let mut pair = Pair::load(stride, rows, &self.frame);
+        let drive = &self.drive;
+        let impulse = add(
+            stride.load2(&self.point.impulse_x, &self.point.impulse_y),
+            stride.load2(&drive.velocity_impulse_x, &drive.velocity_impulse_y),
+        );
+        let angular = stride.load(&self.twist.impulse) + stride.load(&drive.angular_impulse);
+        pair.apply_at_anchors(impulse, angular);
+        pair.store(stride, rows, &self.frame);
+    }
+
+    #[inline(always)]
+    fn solve<L: Lanes, const BIAS: bool>(
+        &mut self,
+        stride: &Stride<L>,
+        rows: SharedRows<'_>,
+        _: bool,
+    ) {
+        let mut pair = Pair::load(stride, rows, &self.frame);
+        let angular = self.solve_angle::<L, BIAS>(stride, &pair);
+        pair.apply([stride.zero; 2], angular, angular);
+        let inverse = pair.point_mass(stride);
+        if BIAS {
+            let change = self.solve_spring(stride, &pair, &inverse);
+            pair.apply_at_anchors(change, stride.zero);
+        }
+        let change = self.solve_velocity(stride, &pair, &inverse);
+        pair.apply_at_anchors(change, stride.zero);
+        pair.store(stride, rows, &self.frame);
+    }
+
+    fn impulse(&self, lane: usize) -> (Vec2, f32) {
+        let drive = &self.drive;
+        let spring = Vec2::new(self.point.impulse_x[lane], self.point.impulse_y[lane]);
+        let motor = Vec2::new(drive.velocity_impulse_x[lane], drive.velocity_impulse_y[lane]);
+        (spring + motor, self.twist.impulse[lane] + drive.angular_impulse[lane])
+    }
+}

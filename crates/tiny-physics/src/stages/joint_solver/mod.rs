@@ -1,0 +1,250 @@
+//! The joint solver: soft-step sequential impulses over blocks of joints of one colour and class.
+//!
+//! Each step [`describe`] writes what follows from new or changed descriptions, [`prepare`] what
+//! follows from the poses. Each substep runs the passes: warm start, solve, relax. [`Pass::Finish`]
+//! ends the step, before positions are taken over; then [`load`] and [`broken`] read the joints back.
+//!
+//! What a joint holds rigid is a soft constraint of high frequency (see
+//! [`Softness`](super::contact_solver::Softness)) in the solve pass and exact in the relax pass. With
+//! Jacobian J, effective mass M = (J m^-1 J^T)^-1, position error C and accumulated impulse p:
+//!
+//! ```text
+//! dp = -M (mass_scale * J v + push * C) - impulse_scale * p
+//! ```
+//!
+//! Springs act in the solve pass alone, by the same formula with the coefficients of
+//! [`spring::coefficients`]. Where a joint has a free coordinate (the angle of a hinge, the place of a
+//! slider), spring, motor and limits along it and the rigid part are solved as one block by Schur's
+//! complement: the coordinate's effective mass is that of the bodies as the rigid part ties them, so
+//! that a single joint is solved exactly in one iteration and a spring swings at its frequency.
+//!
+//! Unlike those of contacts, the anchors and axes of joints turn with the bodies in every substep:
+//! pendulums keep their period.
+
+mod axis;
+mod distance;
+mod drive;
+mod gear;
+mod parts;
+mod prismatic;
+mod pulley;
+mod revolute;
+mod spring;
+mod weld;
+mod wheel;
+
+#[cfg(test)]
+mod tests;
+
+use crate::describe::JointDef;
+use crate::dynamics::{
+    BodyInfo, JointBlocks, JointBucket, JointClass, JointGraph, JointLanes, JointLoad, JointPlace,
+    Joints,
+};
+use crate::math::{Pose, Vec2};
+use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
+use crate::threads::SharedRows;
+use parts::{Start, Stride};
+use spring::Rates;
+
+/// One of the passes of a substep, or the last of the step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Pass {
+    WarmStart,
+    Solve,
+    Relax,
+    /// Once, after the last substep.
+    Finish,
+}
+
+/// What the solver does with a class of joints.
+trait JointKernel: JointLanes {
+    /// Writes what follows from a joint's description. The anchors are there already.
+    fn describe(&mut self, lane: usize, def: &JointDef, rates: &Rates);
+    /// Writes what follows from the poses. The anchors are there already.
+    fn prepare<L: Lanes>(&mut self, stride: &Stride<L>, start: &Start<L>, poses: &[Pose]);
+    /// Applies the impulses of the substep before.
+    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, rows: SharedRows<'_>);
+    /// Is the part used that joints of the class rarely have? Asked once a block and pass.
+    fn has_extras(&self) -> bool {
+        false
+    }
+    /// Corrects the velocities, with bias or (relax) without.
+    fn solve<L: Lanes, const BIAS: bool>(
+        &mut self,
+        stride: &Stride<L>,
+        rows: SharedRows<'_>,
+        extras: bool,
+    );
+    /// Takes the motion of the step over.
+    fn finish<L: Lanes>(&mut self, _stride: &Stride<L>, _rows: SharedRows<'_>) {}
+    /// Impulse and angular impulse on B in the last substep.
+    fn impulse(&self, lane: usize) -> (Vec2, f32);
+}
+
+/// Does something with typed blocks.
+macro_rules! with_blocks {
+    ($blocks:expr, $typed:ident => $body:expr) => {
+        match $blocks {
+            JointBlocks::Distance($typed) => $body,
+            JointBlocks::Revolute($typed) => $body,
+            JointBlocks::Prismatic($typed) => $body,
+            JointBlocks::Weld($typed) => $body,
+            JointBlocks::Wheel($typed) => $body,
+            JointBlocks::Drive($typed) => $body,
+            JointBlocks::Pulley($typed) => $body,
+            JointBlocks::Gear($typed) => $body,
+        }
+    };
+}
+
+/// Brings the lanes in line with the descriptions of the joints: nothing to do in most steps. `h` is
+/// the substep length, seconds.
+pub(crate) fn describe(graph: &mut JointGraph, joints: &Joints, infos: &[BodyInfo], h: f32) {
+    let all = graph.described_h != h;
+    if !all && !graph.any_stale {
+        return;
+    }
+    let rates = Rates::new(h);
+    for colour in &mut graph.colours {
+        describe_bucket(&mut colour.distance, joints, infos, &rates, all);
+        describe_bucket(&mut colour.revolute, joints, infos, &rates, all);
+        describe_bucket(&mut colour.prismatic, joints, infos, &rates, all);
+        describe_bucket(&mut colour.weld, joints, infos, &rates, all);
+        describe_bucket(&mut colour.wheel, joints, infos, &rates, all);
+        describe_bucket(&mut colour.drive, joints, infos, &rates, all);
+        describe_bucket(&mut colour.pulley, joints, infos, &rates, all);
+        describe_bucket(&mut colour.gear, joints, infos, &rates, all);
+    }
+    graph.described_h = h;
+    graph.any_stale = false;
+}
+
+fn describe_bucket<B: JointKernel>(
+    bucket: &mut JointBucket<B>,
+    joints: &Joints,
+    infos: &[BodyInfo],
+    rates: &Rates,
+    all: bool,
+) {
+    let JointBucket { joints: indices, blocks, stale } = bucket;
+    for ((block, indices), stale) in blocks.iter_mut().zip(indices.chunks(BLOCK)).zip(stale) {
+        if !core::mem::take(stale) && !all {
+            continue;
+        }
+        for (lane, &index) in indices.iter().enumerate() {
+            let record = &joints.records[index as usize];
+            let def = &record.def;
+            let frame = block.frame();
+            let a = def.anchor_a - infos[record.body_a as usize].local_center;
+            let b = def.anchor_b - infos[record.body_b as usize].local_center;
+            (frame.local_a_x[lane], frame.local_a_y[lane]) = (a.x, a.y);
+            (frame.local_b_x[lane], frame.local_b_y[lane]) = (b.x, b.y);
+            block.describe(lane, def, rates);
+        }
+    }
+}
+
+/// Writes what follows from the poses (of the centres of mass) at the start of the step. `h` is the
+/// substep length, seconds.
+pub(crate) fn prepare(level: SimdLevel, poses: &[Pose], h: f32, blocks: JointBlocks<'_>) {
+    let inv_h = 1.0 / h;
+    with_blocks!(blocks, blocks => dispatch(level, Prepare { poses, inv_h, blocks }));
+}
+
+struct Prepare<'a, B> {
+    poses: &'a [Pose],
+    inv_h: f32,
+    blocks: &'a mut [B],
+}
+
+impl<B: JointKernel> LaneKernel for Prepare<'_, B> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, token: L::Token) {
+        for block in self.blocks {
+            for at in (0..BLOCK).step_by(L::WIDTH) {
+                let stride = Stride::<L>::new(token, at, self.inv_h);
+                let start = Start::prepare(&stride, block.frame(), self.poses);
+                block.prepare(&stride, &start, self.poses);
+            }
+        }
+    }
+}
+
+/// Runs a pass over blocks of one colour, in lanes. `inv_h` is 1 / substep length.
+pub(crate) fn run(
+    level: SimdLevel,
+    pass: Pass,
+    inv_h: f32,
+    rows: SharedRows<'_>,
+    blocks: JointBlocks<'_>,
+) {
+    with_blocks!(blocks, blocks => dispatch(level, RunPass { pass, inv_h, rows, blocks }));
+}
+
+/// Runs a pass over blocks of the overflow: the one-lane instance, in order.
+pub(crate) fn run_in_order(pass: Pass, inv_h: f32, rows: SharedRows<'_>, blocks: JointBlocks<'_>) {
+    run(SimdLevel::Scalar, pass, inv_h, rows, blocks);
+}
+
+struct RunPass<'a, B> {
+    pass: Pass,
+    inv_h: f32,
+    rows: SharedRows<'a>,
+    blocks: &'a mut [B],
+}
+
+impl<B: JointKernel> LaneKernel for RunPass<'_, B> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, token: L::Token) {
+        let Self { pass, inv_h, rows, blocks } = self;
+        for block in blocks {
+            let extras = block.has_extras();
+            for at in (0..BLOCK).step_by(L::WIDTH) {
+                let stride = Stride::<L>::new(token, at, inv_h);
+                match pass {
+                    Pass::WarmStart => block.warm_start(&stride, rows),
+                    Pass::Solve => block.solve::<L, true>(&stride, rows, extras),
+                    Pass::Relax => block.solve::<L, false>(&stride, rows, extras),
+                    Pass::Finish => block.finish(&stride, rows),
+                }
+            }
+        }
+    }
+}
+
+/// What a joint does to its body B as of the last substep; nothing while it sleeps.
+pub(crate) fn load(graph: &JointGraph, joints: &Joints, index: u32, inv_h: f32) -> JointLoad {
+    let record = &joints.records[index as usize];
+    let (JointPlace::Graph { colour, slot }, Some(class)) = (record.place, record.class()) else {
+        return JointLoad::default();
+    };
+    let colour = &graph.colours[usize::from(colour)];
+    let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
+    let (force, torque) = match class {
+        JointClass::Distance => colour.distance.blocks[block].impulse(lane),
+        JointClass::Revolute => colour.revolute.blocks[block].impulse(lane),
+        JointClass::Prismatic => colour.prismatic.blocks[block].impulse(lane),
+        JointClass::Weld => colour.weld.blocks[block].impulse(lane),
+        JointClass::Wheel => colour.wheel.blocks[block].impulse(lane),
+        JointClass::Drive => colour.drive.blocks[block].impulse(lane),
+        JointClass::Pulley => colour.pulley.blocks[block].impulse(lane),
+        JointClass::Gear => colour.gear.blocks[block].impulse(lane),
+    };
+    JointLoad { force: force * inv_h, torque: torque * inv_h }
+}
+
+/// Lists the joints whose load is beyond what they bear, ascending.
+pub(crate) fn broken(graph: &JointGraph, joints: &Joints, inv_h: f32, found: &mut Vec<u32>) {
+    for &index in &joints.breakable {
+        let Some(limit) = joints.records[index as usize].def.break_at else { continue };
+        let load = load(graph, joints, index, inv_h);
+        if load.force.length() > limit.force || load.torque.abs() > limit.torque {
+            found.push(index);
+        }
+    }
+}

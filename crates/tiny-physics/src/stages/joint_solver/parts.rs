@@ -1,0 +1,421 @@
+//! What the kernels of all joints share: lanes of a stride, pairs of bodies, small linear systems.
+
+use crate::dynamics::{DirectionLanes, FrameLanes, Slot, SoftLanes};
+use crate::math::Pose;
+use crate::simd::{BLOCK, Lanes};
+use crate::threads::SharedRows;
+
+/// Where in a block a kernel works, and constants in lanes.
+pub(super) struct Stride<L: Lanes> {
+    pub(super) token: L::Token,
+    pub(super) at: usize,
+    pub(super) zero: L,
+    pub(super) one: L,
+    pub(super) inv_h: L,
+}
+
+impl<L: Lanes> Stride<L> {
+    #[inline(always)]
+    pub(super) fn new(token: L::Token, at: usize, inv_h: f32) -> Self {
+        let (zero, one) = (L::splat(token, 0.0), L::splat(token, 1.0));
+        Self { token, at, zero, one, inv_h: L::splat(token, inv_h) }
+    }
+
+    #[inline(always)]
+    pub(super) fn splat(&self, value: f32) -> L {
+        L::splat(self.token, value)
+    }
+
+    #[inline(always)]
+    pub(super) fn load(&self, lanes: &[f32; BLOCK]) -> L {
+        L::load(self.token, &lanes[self.at..])
+    }
+
+    #[inline(always)]
+    pub(super) fn load2(&self, x: &[f32; BLOCK], y: &[f32; BLOCK]) -> [L; 2] {
+        [self.load(x), self.load(y)]
+    }
+
+    #[inline(always)]
+    pub(super) fn store(&self, value: L, lanes: &mut [f32; BLOCK]) {
+        value.store(&mut lanes[self.at..]);
+    }
+
+    #[inline(always)]
+    pub(super) fn store2(&self, value: [L; 2], x: &mut [f32; BLOCK], y: &mut [f32; BLOCK]) {
+        self.store(value[0], x);
+        self.store(value[1], y);
+    }
+
+    /// 1 / value; 0 where the value is not above 0.
+    #[inline(always)]
+    pub(super) fn invert(&self, value: L) -> L {
+        L::select(value.gt(self.zero), self.one / value, self.zero)
+    }
+}
+
+#[inline(always)]
+pub(super) fn dot<L: Lanes>(a: [L; 2], b: [L; 2]) -> L {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+#[inline(always)]
+pub(super) fn cross<L: Lanes>(a: [L; 2], b: [L; 2]) -> L {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+#[inline(always)]
+pub(super) fn add<L: Lanes>(a: [L; 2], b: [L; 2]) -> [L; 2] {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+#[inline(always)]
+pub(super) fn sub<L: Lanes>(a: [L; 2], b: [L; 2]) -> [L; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+#[inline(always)]
+pub(super) fn scale<L: Lanes>(a: [L; 2], factor: L) -> [L; 2] {
+    [a[0] * factor, a[1] * factor]
+}
+
+#[inline(always)]
+pub(super) fn rotate<L: Lanes>(q: [L; 2], v: [L; 2]) -> [L; 2] {
+    [q[0] * v[0] - q[1] * v[1], q[1] * v[0] + q[0] * v[1]]
+}
+
+/// Turned anticlockwise by a quarter.
+#[inline(always)]
+pub(super) fn perp<L: Lanes>(v: [L; 2]) -> [L; 2] {
+    [-v[1], v[0]]
+}
+
+/// Cosine and sine of a body's turn since the start of the step: the same formula as
+/// [`Rot::integrate`](crate::math::Rot::integrate), so that joints see the pose that the body will have.
+#[inline(always)]
+fn turn<L: Lanes>(stride: &Stride<L>, angle: L) -> [L; 2] {
+    let half = stride.splat(0.5) * angle;
+    let t = half + half * half * half * stride.splat(1.0 / 3.0);
+    let t_sq = t * t;
+    let inv = stride.one / (stride.one + t_sq);
+    [(stride.one - t_sq) * inv, (t + t) * inv]
+}
+
+/// Rotations of a joint's bodies at the start of the step.
+pub(super) struct Start<L> {
+    pub(super) turn_a: [L; 2],
+    pub(super) turn_b: [L; 2],
+}
+
+impl<L: Lanes> Start<L> {
+    /// Gathers poses, and writes what all joints take from them.
+    #[inline(always)]
+    pub(super) fn prepare(stride: &Stride<L>, frame: &mut FrameLanes, poses: &[Pose]) -> Self {
+        let mut lanes = [[0.0; BLOCK]; 4];
+        for i in stride.at..stride.at + L::WIDTH {
+            let a = poses[frame.body_a[i] as usize];
+            let b = poses[frame.body_b[i] as usize];
+            let between = b.p.relative_to(a.p);
+            frame.between_x[i] = between.x;
+            frame.between_y[i] = between.y;
+            for (lane, value) in lanes.iter_mut().zip([a.q.c, a.q.s, b.q.c, b.q.s]) {
+                lane[i] = value;
+            }
+        }
+        let start = Self {
+            turn_a: stride.load2(&lanes[0], &lanes[1]),
+            turn_b: stride.load2(&lanes[2], &lanes[3]),
+        };
+        let local_a = stride.load2(&frame.local_a_x, &frame.local_a_y);
+        let local_b = stride.load2(&frame.local_b_x, &frame.local_b_y);
+        stride.store2(rotate(start.turn_a, local_a), &mut frame.a_x, &mut frame.a_y);
+        stride.store2(rotate(start.turn_b, local_b), &mut frame.b_x, &mut frame.b_y);
+        start
+    }
+
+    /// Angle of B against A in [-pi, pi], plus the turn of the description.
+    #[inline(always)]
+    pub(super) fn angle(&self, stride: &Stride<L>, description: [L; 2]) -> L {
+        let back = [self.turn_a[0], -self.turn_a[1]];
+        let [c, s] = rotate(rotate(back, self.turn_b), description);
+        atan2(stride, s, c)
+    }
+}
+
+/// Arc tangent of s / c in lanes, in [-pi, pi], within 3e-7; 0 for the zero vector.
+///
+/// Polynomial 4.4.49 of Abramowitz and Stegun, "Handbook of Mathematical Functions" (1964).
+#[inline(always)]
+pub(super) fn atan2<L: Lanes>(stride: &Stride<L>, s: L, c: L) -> L {
+    const TERMS: [f32; 9] = [
+        0.002_866_225_7,
+        -0.016_165_737,
+        0.042_909_614,
+        -0.075_289_64,
+        0.106_562_64,
+        -0.142_088_99,
+        0.199_935_51,
+        -0.333_331_45,
+        1.0,
+    ];
+    let (ax, ay) = (c.abs(), s.abs());
+    let steep = ay.gt(ax);
+    let small = L::select(steep, ax, ay);
+    let large = L::select(steep, ay, ax);
+    let t = L::select(large.gt(stride.zero), small / large, stride.zero);
+    let z = t * t;
+    let mut sum = stride.zero;
+    for term in TERMS {
+        sum = sum * z + stride.splat(term);
+    }
+    let angle = t * sum;
+    let angle = L::select(steep, stride.splat(core::f32::consts::FRAC_PI_2) - angle, angle);
+    let angle = L::select(c.lt(stride.zero), stride.splat(core::f32::consts::PI) - angle, angle);
+    L::select(s.lt(stride.zero), -angle, angle)
+}
+
+/// An angle in [-3 pi, 3 pi] brought into [-pi, pi] by a whole turn.
+#[inline(always)]
+pub(super) fn wrap<L: Lanes>(stride: &Stride<L>, angle: L) -> L {
+    let (pi, tau) = (stride.splat(core::f32::consts::PI), stride.splat(core::f32::consts::TAU));
+    let angle = L::select(angle.gt(pi), angle - tau, angle);
+    L::select(angle.lt(-pi), angle + tau, angle)
+}
+
+/// The coefficients of a soft constraint in the pass at hand.
+#[derive(Clone, Copy)]
+pub(super) struct Soft<L> {
+    pub(super) push: L,
+    pub(super) mass_scale: L,
+    pub(super) impulse_scale: L,
+}
+
+impl<L: Lanes> Soft<L> {
+    /// As described in the solve pass; in the relax pass exact and without bias, and nothing at all
+    /// for springs.
+    #[inline(always)]
+    pub(super) fn load<const BIAS: bool>(stride: &Stride<L>, lanes: &SoftLanes) -> Self {
+        if BIAS {
+            Self {
+                push: stride.load(&lanes.push),
+                mass_scale: stride.load(&lanes.mass_scale),
+                impulse_scale: stride.load(&lanes.impulse_scale),
+            }
+        } else {
+            let (push, impulse_scale) = (stride.zero, stride.zero);
+            Self { push, mass_scale: stride.load(&lanes.rigid), impulse_scale }
+        }
+    }
+
+    /// The velocity that the constraint takes away.
+    #[inline(always)]
+    pub(super) fn demand(&self, velocity: L, error: L) -> L {
+        self.mass_scale * velocity + self.push * error
+    }
+
+    /// The same for two directions.
+    #[inline(always)]
+    pub(super) fn demand2(&self, velocity: [L; 2], error: [L; 2]) -> [L; 2] {
+        [self.demand(velocity[0], error[0]), self.demand(velocity[1], error[1])]
+    }
+}
+
+/// The two bodies of each lane's joint, and its anchors as they are now.
+pub(super) struct Pair<L: Lanes> {
+    pub(super) a: [L; 8],
+    pub(super) b: [L; 8],
+    /// Turn of A since the start of the step.
+    pub(super) turn_a: [L; 2],
+    /// Anchors relative to the centres of mass, world axes.
+    pub(super) anchor_a: [L; 2],
+    pub(super) anchor_b: [L; 2],
+}
+
+impl<L: Lanes> Pair<L> {
+    #[inline(always)]
+    pub(super) fn load(stride: &Stride<L>, rows: SharedRows<'_>, frame: &FrameLanes) -> Self {
+        let a = L::gather(stride.token, rows, &frame.body_a[stride.at..]);
+        let b = L::gather(stride.token, rows, &frame.body_b[stride.at..]);
+        let (turn_a, turn_b) = (turn(stride, a[Slot::DA]), turn(stride, b[Slot::DA]));
+        Self {
+            turn_a,
+            anchor_a: rotate(turn_a, stride.load2(&frame.a_x, &frame.a_y)),
+            anchor_b: rotate(turn_b, stride.load2(&frame.b_x, &frame.b_y)),
+            a,
+            b,
+        }
+    }
+
+    /// Writes the velocities back, except to bodies that nothing moves.
+    #[inline(always)]
+    pub(super) fn store(self, stride: &Stride<L>, rows: SharedRows<'_>, frame: &FrameLanes) {
+        let mask =
+            |body: &[L; 8]| L::bits(stride.zero.lt(body[Slot::INV_MASS] + body[Slot::INV_INERTIA]));
+        let (write_a, write_b) = (mask(&self.a), mask(&self.b));
+        let half = |body: [L; 8]| [body[0], body[1], body[2], body[3]];
+        L::scatter(half(self.a), rows, &frame.body_a[stride.at..], write_a);
+        L::scatter(half(self.b), rows, &frame.body_b[stride.at..], write_b);
+    }
+
+    /// Sum of the inverse masses.
+    #[inline(always)]
+    pub(super) fn inv_mass(&self) -> L {
+        self.a[Slot::INV_MASS] + self.b[Slot::INV_MASS]
+    }
+
+    /// Sum of the inverse moments of inertia.
+    #[inline(always)]
+    pub(super) fn inv_inertia(&self) -> L {
+        self.a[Slot::INV_INERTIA] + self.b[Slot::INV_INERTIA]
+    }
+
+    /// From anchor A to anchor B.
+    #[inline(always)]
+    pub(super) fn gap(&self, stride: &Stride<L>, frame: &FrameLanes) -> [L; 2] {
+        let between = stride.load2(&frame.between_x, &frame.between_y);
+        let moved = [self.b[Slot::DX] - self.a[Slot::DX], self.b[Slot::DY] - self.a[Slot::DY]];
+        add(add(between, moved), sub(self.anchor_b, self.anchor_a))
+    }
+
+    /// Turn of B against A since the start of the step.
+    #[inline(always)]
+    pub(super) fn turned(&self) -> L {
+        self.b[Slot::DA] - self.a[Slot::DA]
+    }
+
+    /// Angular velocity of B against A.
+    #[inline(always)]
+    pub(super) fn spin(&self) -> L {
+        self.b[Slot::W] - self.a[Slot::W]
+    }
+
+    /// Velocity of anchor B against anchor A.
+    #[inline(always)]
+    pub(super) fn anchor_velocity(&self) -> [L; 2] {
+        let (a, b) = (&self.a, &self.b);
+        [
+            (b[Slot::VX] - b[Slot::W] * self.anchor_b[1])
+                - (a[Slot::VX] - a[Slot::W] * self.anchor_a[1]),
+            (b[Slot::VY] + b[Slot::W] * self.anchor_b[0])
+                - (a[Slot::VY] + a[Slot::W] * self.anchor_a[0]),
+        ]
+    }
+
+    /// Velocity along a direction with lever arms on A and B.
+    #[inline(always)]
+    pub(super) fn velocity_along(&self, row: &Row<L>) -> L {
+        let (a, b) = (&self.a, &self.b);
+        row.direction[0] * (b[Slot::VX] - a[Slot::VX])
+            + row.direction[1] * (b[Slot::VY] - a[Slot::VY])
+            + (row.arm_b * b[Slot::W] - row.arm_a * a[Slot::W])
+    }
+
+    /// Inverse effective mass along a direction.
+    #[inline(always)]
+    pub(super) fn inv_mass_along(&self, row: &Row<L>) -> L {
+        self.inv_mass()
+            + self.a[Slot::INV_INERTIA] * row.arm_a * row.arm_a
+            + self.b[Slot::INV_INERTIA] * row.arm_b * row.arm_b
+    }
+
+    /// Applies an impulse on B (the opposite on A), and angular impulses on both as the lever arms
+    /// make them.
+    #[inline(always)]
+    pub(super) fn apply(&mut self, impulse: [L; 2], angular_a: L, angular_b: L) {
+        let (a, b) = (&mut self.a, &mut self.b);
+        a[Slot::VX] = a[Slot::VX] - a[Slot::INV_MASS] * impulse[0];
+        a[Slot::VY] = a[Slot::VY] - a[Slot::INV_MASS] * impulse[1];
+        a[Slot::W] = a[Slot::W] - a[Slot::INV_INERTIA] * angular_a;
+        b[Slot::VX] = b[Slot::VX] + b[Slot::INV_MASS] * impulse[0];
+        b[Slot::VY] = b[Slot::VY] + b[Slot::INV_MASS] * impulse[1];
+        b[Slot::W] = b[Slot::W] + b[Slot::INV_INERTIA] * angular_b;
+    }
+
+    /// Applies an impulse at the anchors and an angular impulse.
+    #[inline(always)]
+    pub(super) fn apply_at_anchors(&mut self, impulse: [L; 2], angular: L) {
+        let angular_a = cross(self.anchor_a, impulse) + angular;
+        let angular_b = cross(self.anchor_b, impulse) + angular;
+        self.apply(impulse, angular_a, angular_b);
+    }
+
+    /// Applies an impulse along a direction.
+    #[inline(always)]
+    pub(super) fn apply_along(&mut self, row: &Row<L>, impulse: L) {
+        self.apply(scale(row.direction, impulse), row.arm_a * impulse, row.arm_b * impulse);
+    }
+
+    /// Response of the anchors' velocity to an impulse there, inverted:
+    ///
+    /// ```text
+    /// K = (mA + mB) 1 + iA [ay^2 -ax ay; -ax ay ax^2] + iB [by^2 -bx by; -bx by bx^2]
+    /// ```
+    #[inline(always)]
+    pub(super) fn point_mass(&self, stride: &Stride<L>) -> Symmetric<L> {
+        let (ia, ib, m) = (self.a[Slot::INV_INERTIA], self.b[Slot::INV_INERTIA], self.inv_mass());
+        let ([ax, ay], [bx, by]) = (self.anchor_a, self.anchor_b);
+        Symmetric::invert(
+            stride,
+            m + ia * ay * ay + ib * by * by,
+            -(ia * ax * ay) - ib * bx * by,
+            m + ia * ax * ax + ib * bx * bx,
+        )
+    }
+
+    /// Response of the angular velocity to an impulse at the anchors.
+    #[inline(always)]
+    pub(super) fn twist(&self) -> [L; 2] {
+        let (ia, ib) = (self.a[Slot::INV_INERTIA], self.b[Slot::INV_INERTIA]);
+        [
+            -(ia * self.anchor_a[1]) - ib * self.anchor_b[1],
+            ia * self.anchor_a[0] + ib * self.anchor_b[0],
+        ]
+    }
+
+    /// A joint's direction as it is now.
+    #[inline(always)]
+    pub(super) fn direction(&self, stride: &Stride<L>, lanes: &DirectionLanes) -> [L; 2] {
+        rotate(self.turn_a, stride.load2(&lanes.x, &lanes.y))
+    }
+
+    /// The Jacobian of the gap along a direction that turns with A.
+    #[inline(always)]
+    pub(super) fn row_on_a(&self, direction: [L; 2], gap: [L; 2]) -> Row<L> {
+        Row {
+            direction,
+            arm_a: cross(add(gap, self.anchor_a), direction),
+            arm_b: cross(self.anchor_b, direction),
+        }
+    }
+}
+
+/// The Jacobian of one coordinate: linear part on B (the opposite on A), angular parts.
+pub(super) struct Row<L> {
+    pub(super) direction: [L; 2],
+    pub(super) arm_a: L,
+    pub(super) arm_b: L,
+}
+
+/// A symmetric 2 x 2 matrix.
+pub(super) struct Symmetric<L> {
+    xx: L,
+    xy: L,
+    yy: L,
+}
+
+impl<L: Lanes> Symmetric<L> {
+    /// The inverse of a matrix; zero where it has none.
+    #[inline(always)]
+    pub(super) fn invert(stride: &Stride<L>, xx: L, xy: L, yy: L) -> Self {
+        let inv = stride.invert(xx * yy - xy * xy);
+        Self { xx: yy * inv, xy: -(xy * inv), yy: xx * inv }
+    }
+
+    #[inline(always)]
+    pub(super) fn apply(&self, v: [L; 2]) -> [L; 2] {
+        [self.xx * v[0] + self.xy * v[1], self.xy * v[0] + self.yy * v[1]]
+    }
+}
+
+/// Least part of an inverse mass that Schur's complement may leave: below is rounding.
+pub(super) const LEAST_COMPLEMENT: f32 = 1.0e-4;

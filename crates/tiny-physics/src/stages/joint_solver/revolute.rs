@@ -1,0 +1,152 @@
+//! Revolute: the anchors coincide; spring, motor and limits on the angle.
+//!
+//! ```text
+//! C = xB + rB - xA - rA,     J v = vB + wB x rB - vA - wA x rA     (two rows, rigid)
+//! angle = aB - aA,           J v = wB - wA                         (free coordinate)
+//! ```
+//!
+//! With K the point's response and k that of the angular velocity to an impulse at the anchors, the
+//! angle's inverse mass given the point is `iA + iB - k . K^-1 k` (Schur's complement). An angular
+//! impulse j goes with the impulse `-K^-1 k j` at the anchors, which keeps their velocities.
+
+use super::JointKernel;
+use super::axis::{AxisDef, Coordinate};
+use super::parts::{
+    LEAST_COMPLEMENT, Pair, Soft, Start, Stride, Symmetric, add, dot, scale, sub, wrap,
+};
+use super::spring::Rates;
+use crate::describe::{JointDef, JointKind, Limits};
+use crate::dynamics::{AngleLanes, RevoluteBlock};
+use crate::math::{Pose, Rot, Vec2};
+use crate::simd::Lanes;
+use crate::threads::SharedRows;
+
+/// Writes what a description adds to the angle.
+pub(super) fn describe_angle(angle: &mut AngleLanes, lane: usize, def: &JointDef) {
+    let turn = Rot::from_angle(def.angle_b).relative_to(Rot::from_angle(def.angle_a));
+    angle.turn_c[lane] = turn.c;
+    angle.turn_s[lane] = turn.s;
+}
+
+/// The change of the point impulse, and how it answers to the angular one.
+pub(super) struct Point<L> {
+    /// Impulse change if there were no angular impulse.
+    alone: [L; 2],
+    /// Impulse change per angular impulse, negative.
+    per_angular: [L; 2],
+    /// Angular velocity after `alone`.
+    pub(super) spin: L,
+    /// Inverse mass of the angle given the point.
+    pub(super) inv_mass: L,
+}
+
+impl<L: Lanes> Point<L> {
+    /// `coupled` is 1 where the point is rigid and so carries the angle along, else 0.
+    #[inline(always)]
+    pub(super) fn new(
+        stride: &Stride<L>,
+        pair: &Pair<L>,
+        inverse: &Symmetric<L>,
+        alone: [L; 2],
+        coupled: L,
+    ) -> Self {
+        let twist = pair.twist();
+        let per_angular = scale(inverse.apply(twist), coupled);
+        let inv_inertia = pair.inv_inertia();
+        let least = inv_inertia * stride.splat(LEAST_COMPLEMENT);
+        Self {
+            alone,
+            per_angular,
+            spin: pair.spin() + dot(twist, alone),
+            inv_mass: (inv_inertia - dot(twist, per_angular)).max(least),
+        }
+    }
+
+    /// The whole change of the point impulse, given the angular one.
+    #[inline(always)]
+    pub(super) fn change(&self, angular: L) -> [L; 2] {
+        sub(self.alone, scale(self.per_angular, angular))
+    }
+}
+
+/// Limits shifted by whole turns so that their middle is in [-pi, pi].
+fn near_zero(limits: Limits) -> Limits {
+    const TAU: f32 = core::f32::consts::TAU;
+    let shift = (0.5 * (limits.lower + limits.upper) / TAU).round() * TAU;
+    Limits { lower: limits.lower - shift, upper: limits.upper - shift }
+}
+
+impl JointKernel for RevoluteBlock {
+    fn describe(&mut self, lane: usize, def: &JointDef, rates: &Rates) {
+        let JointKind::Revolute { spring, target_angle, limits, motor } = def.kind else { return };
+        rates.write(def, None, &mut self.soft, lane);
+        describe_angle(&mut self.angle, lane, def);
+        let target = Rot::from_angle(target_angle).angle();
+        let limits = limits.map(near_zero);
+        AxisDef { spring, target, limits, motor }.write(&mut self.axis, lane, rates);
+    }
+
+    /// The angle is the one nearest to the middle of the limits, the spring's rest the one nearest to
+    /// the angle.
+    #[inline(always)]
+    fn prepare<L: Lanes>(&mut self, stride: &Stride<L>, start: &Start<L>, _: &[Pose]) {
+        if !self.axis.any_used() {
+            return;
+        }
+        let angle = start.angle(stride, stride.load2(&self.angle.turn_c, &self.angle.turn_s));
+        let (lower, upper) = (stride.load(&self.axis.lower), stride.load(&self.axis.upper));
+        let middle = (lower + upper) * stride.splat(0.5);
+        let value = middle + wrap(stride, angle - middle);
+        stride.store(value, &mut self.angle.start);
+        let target = stride.load(&self.axis.target);
+        stride.store(value - wrap(stride, angle - target), &mut self.axis.rest);
+    }
+
+    #[inline(always)]
+    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, rows: SharedRows<'_>) {
+        let mut pair = Pair::load(stride, rows, &self.frame);
+        let impulse = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
+        pair.apply_at_anchors(impulse, self.axis.total(stride));
+        pair.store(stride, rows, &self.frame);
+    }
+
+    #[inline(always)]
+    fn has_extras(&self) -> bool {
+        self.axis.any_used()
+    }
+
+    #[inline(always)]
+    fn solve<L: Lanes, const BIAS: bool>(
+        &mut self,
+        stride: &Stride<L>,
+        rows: SharedRows<'_>,
+        extras: bool,
+    ) {
+        let mut pair = Pair::load(stride, rows, &self.frame);
+        let soft = Soft::load::<BIAS>(stride, &self.soft);
+        let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
+        let inverse = pair.point_mass(stride);
+        let demand = soft.demand2(pair.anchor_velocity(), pair.gap(stride, &self.frame));
+        let alone = sub(scale(inverse.apply(demand), -stride.one), scale(old, soft.impulse_scale));
+        let (mut change, mut angular) = (alone, stride.zero);
+        if extras {
+            let point = Point::new(stride, &pair, &inverse, alone, stride.one);
+            let coordinate = Coordinate {
+                value: stride.load(&self.angle.start) + pair.turned(),
+                velocity: point.spin,
+                inv_mass: point.inv_mass,
+            };
+            angular = self.axis.solve::<L, BIAS>(stride, &soft, coordinate);
+            change = point.change(angular);
+        }
+        let impulse = add(old, change);
+        stride.store2(impulse, &mut self.point.impulse_x, &mut self.point.impulse_y);
+        pair.apply_at_anchors(change, angular);
+        pair.store(stride, rows, &self.frame);
+    }
+
+    fn impulse(&self, lane: usize) -> (Vec2, f32) {
+        let point = Vec2::new(self.point.impulse_x[lane], self.point.impulse_y[lane]);
+        (point, self.axis.total_of(lane))
+    }
+}

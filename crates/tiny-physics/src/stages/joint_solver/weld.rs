@@ -1,0 +1,78 @@
+//! Weld: anchors and angles coincide, each rigidly or by a spring.
+//!
+//! ```text
+//! C = (xB + rB - xA - rA, aB - aA),   J v = (vB + wB x rB - vA - wA x rA, wB - wA)
+//! ```
+//!
+//! The angle's mass is Schur's complement of the point where the point is rigid, as in
+//! [`revolute`](super::revolute).
+
+use super::JointKernel;
+use super::parts::{Pair, Soft, Start, Stride, add, scale, sub};
+use super::revolute::{Point, describe_angle};
+use super::spring::Rates;
+use crate::describe::{JointDef, JointKind};
+use crate::dynamics::WeldBlock;
+use crate::math::{Pose, Vec2};
+use crate::simd::Lanes;
+use crate::threads::SharedRows;
+
+impl JointKernel for WeldBlock {
+    fn describe(&mut self, lane: usize, def: &JointDef, rates: &Rates) {
+        let JointKind::Weld { linear, angular } = def.kind else { return };
+        rates.write(def, linear, &mut self.linear, lane);
+        rates.write(def, angular, &mut self.angular, lane);
+        describe_angle(&mut self.angle, lane, def);
+    }
+
+    #[inline(always)]
+    fn prepare<L: Lanes>(&mut self, stride: &Stride<L>, start: &Start<L>, _: &[Pose]) {
+        let angle = start.angle(stride, stride.load2(&self.angle.turn_c, &self.angle.turn_s));
+        stride.store(angle, &mut self.angle.start);
+    }
+
+    #[inline(always)]
+    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, rows: SharedRows<'_>) {
+        let mut pair = Pair::load(stride, rows, &self.frame);
+        let impulse = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
+        pair.apply_at_anchors(impulse, stride.load(&self.twist.impulse));
+        pair.store(stride, rows, &self.frame);
+    }
+
+    #[inline(always)]
+    fn solve<L: Lanes, const BIAS: bool>(
+        &mut self,
+        stride: &Stride<L>,
+        rows: SharedRows<'_>,
+        _: bool,
+    ) {
+        let mut pair = Pair::load(stride, rows, &self.frame);
+        let linear = Soft::load::<BIAS>(stride, &self.linear);
+        let angular = Soft::load::<BIAS>(stride, &self.angular);
+        let inverse = pair.point_mass(stride);
+
+        let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
+        let demand = linear.demand2(pair.anchor_velocity(), pair.gap(stride, &self.frame));
+        let alone =
+            sub(scale(inverse.apply(demand), -stride.one), scale(old, linear.impulse_scale));
+        let coupled = stride.load(&self.linear.rigid);
+        let point = Point::new(stride, &pair, &inverse, alone, coupled);
+
+        let old_twist = stride.load(&self.twist.impulse);
+        let angle = stride.load(&self.angle.start) + pair.turned();
+        let demand = angular.demand(point.spin, angle);
+        let twist = -(stride.invert(point.inv_mass) * demand) - angular.impulse_scale * old_twist;
+        let change = point.change(twist);
+
+        let impulse = add(old, change);
+        stride.store2(impulse, &mut self.point.impulse_x, &mut self.point.impulse_y);
+        stride.store(old_twist + twist, &mut self.twist.impulse);
+        pair.apply_at_anchors(change, twist);
+        pair.store(stride, rows, &self.frame);
+    }
+
+    fn impulse(&self, lane: usize) -> (Vec2, f32) {
+        let point = Vec2::new(self.point.impulse_x[lane], self.point.impulse_y[lane]);
+        (point, self.twist.impulse[lane])
+    }
+}
