@@ -189,7 +189,8 @@ fn hostile_settings_leave_the_world_sound() {
         ("max_speed", |world, value| world.settings.max_speed = value),
         ("time_to_sleep", |world, value| world.settings.time_to_sleep = value),
         ("substeps and iterations", |world, value| {
-            (world.settings.substeps, world.settings.iterations) = (value as u32 % 100, value as u32 % 10);
+            (world.settings.substeps, world.settings.iterations) =
+                (value as u32 % 100, value as u32 % 10);
         }),
     ];
     for (name, change) in changes {

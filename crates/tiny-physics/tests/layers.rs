@@ -10,7 +10,7 @@ const LAYERS: [&[&str]; 8] = [
     &["simd", "threads"],
     &["geometry"],
     &["broad_phase"],
-    &["describe"],
+    &["describe", "debug_draw"],
     &["dynamics"],
     &["stages"],
     &["world", "fixed_step"],

@@ -113,8 +113,8 @@ impl<'a> Body<'a> {
     }
 }
 
-/// A body of the world, to change. Every change wakes it and its island; numbers that are not finite
-/// are refused by doing nothing.
+/// A body of the world, to change. Every change wakes it and its island; numbers that are not finite,
+/// or would make something not finite, are refused by doing nothing.
 pub struct BodyMut<'a> {
     world: &'a mut World,
     index: u32,
@@ -194,23 +194,25 @@ impl BodyMut<'_> {
     pub fn apply_force(&mut self, force: Vec2, point: impl Into<DVec2>) {
         let arm = point.into().relative_to(self.as_ref().center());
         let torque = arm.cross(force);
-        if self.is_dynamic() && self.accept(&[force.x, force.y, torque]) {
-            self.info().force += force;
-            self.info().torque += torque;
-        }
+        self.apply_forces(force, torque);
     }
 
     /// Applies a force in newtons at the centre of mass, during the next step.
     pub fn apply_force_to_center(&mut self, force: Vec2) {
-        if self.is_dynamic() && self.accept(&[force.x, force.y]) {
-            self.info().force += force;
-        }
+        self.apply_forces(force, 0.0);
     }
 
     /// Applies a torque in newton metres during the next step.
     pub fn apply_torque(&mut self, torque: f32) {
-        if self.is_dynamic() && self.accept(&[torque]) {
-            self.info().torque += torque;
+        self.apply_forces(Vec2::ZERO, torque);
+    }
+
+    fn apply_forces(&mut self, force: Vec2, torque: f32) {
+        let info = &self.world.bodies.infos[self.index as usize];
+        let (force, torque) = (info.force + force, info.torque + torque);
+        if self.is_dynamic() && self.accept(&[force.x, force.y, torque]) {
+            let info = self.info();
+            (info.force, info.torque) = (force, torque);
         }
     }
 
@@ -231,14 +233,14 @@ impl BodyMut<'_> {
     }
 
     fn apply_impulses(&mut self, linear: Vec2, angular: f32) {
-        if !self.is_dynamic() || !self.accept(&[linear.x, linear.y, angular]) {
-            return;
-        }
-        let index = self.index;
-        let bodies = &mut self.world.bodies;
+        let (index, bodies) = (self.index, &self.world.bodies);
         let (inv_mass, inv_inertia) = bodies.inverse_masses(index);
-        bodies.set_velocity(index, bodies.velocity(index) + linear * inv_mass);
-        bodies.set_angular_velocity(index, bodies.angular_velocity(index) + angular * inv_inertia);
+        let velocity = bodies.velocity(index) + linear * inv_mass;
+        let turning = bodies.angular_velocity(index) + angular * inv_inertia;
+        if self.is_dynamic() && self.accept(&[velocity.x, velocity.y, turning]) {
+            self.world.bodies.set_velocity(index, velocity);
+            self.world.bodies.set_angular_velocity(index, turning);
+        }
     }
 
     /// Wakes it and its island.
