@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use tiny_physics::{Aabb, BodyKind, FixedStep, RigidBody, Shape, ShapeDef, Vec2, World};
+use tiny_physics::{Aabb, BodyKind, FixedStep, JointDef, RigidBody, Shape, ShapeDef, Vec2, World};
 
 // Vectors, boxes, shapes, bodies.
 
@@ -493,6 +493,80 @@ fn a_fast_small_circle_never_passes_a_thin_wall() {
         }
     }
     assert!(passed.is_empty(), "{} of 1000 passed, first {:?}", passed.len(), passed[0]);
+}
+
+#[test]
+fn fast_shapes_that_turn_never_pass_a_floor() {
+    let shapes =
+        [rect(0.5, 0.5), rect(0.6, 0.1), capsule(0.5, 0.1), upright(0.3, 0.3), circle(0.2)];
+    let mut random = Random::new(3);
+    let mut passed = Vec::new();
+    for shot in 0..500 {
+        let mut world = world_with_floor();
+        let speed = Vec2::new(random.range(-50.0, 50.0), -random.range(50.0, 400.0));
+        let body = RigidBody::dynamic()
+            .position(Vec2::new(0.0, random.range(0.8, 8.0)))
+            .angle(random.range(-3.0, 3.0))
+            .velocity(speed)
+            .angular_velocity(random.range(-180.0, 180.0))
+            .shape(shapes[shot % shapes.len()]);
+        let body = world.add_body(body).unwrap();
+        let went_through = (0..60).any(|_| {
+            world.step(DT);
+            position(&world, body).y < -0.5
+        });
+        if went_through {
+            passed.push(shot);
+        }
+    }
+    assert!(passed.is_empty(), "{} of 500 passed: {passed:?}", passed.len());
+}
+
+// Joints.
+
+#[test]
+fn a_pendulum_keeps_its_length_and_its_period() {
+    let mut world = world();
+    let hook = world.add_body(RigidBody::fixed()).unwrap();
+    let bob = drop_at(&mut world, circle(0.1), 0.2, -2.0);
+    let length = Vec2::new(0.2, -2.0).length();
+    world.add_joint(hook, bob, JointDef::distance(length)).unwrap();
+    let (mut crossings, mut before) = (Vec::new(), 0.2);
+    for step in 1..=1200 {
+        world.step(DT);
+        let place = position(&world, bob);
+        assert!((place.length() - length).abs() < 0.002, "step {step}: {}", place.length());
+        if before > 0.0 && place.x <= 0.0 {
+            crossings.push(step as f32 * DT);
+        }
+        before = place.x;
+    }
+    let period = (crossings[crossings.len() - 1] - crossings[0]) / (crossings.len() - 1) as f32;
+    // 2 pi sqrt(l / g) for small swings.
+    let expected = 2.0 * std::f32::consts::PI * (length / 9.8_f32).sqrt();
+    assert!((period / expected - 1.0).abs() < 0.01, "{period} s instead of {expected} s");
+}
+
+#[test]
+fn a_hinge_holds_its_anchors_together() {
+    let mut world = world();
+    let mut last = world.add_body(RigidBody::fixed()).unwrap();
+    let mut joints = Vec::new();
+    for i in 0..8 {
+        let link = drop_at(&mut world, rect(0.5, 0.1), 0.5 + i as f32, 0.0);
+        let anchor = if i == 0 { Vec2::ZERO } else { Vec2::new(0.5, 0.0) };
+        let hinge = JointDef::revolute().anchors(anchor, Vec2::new(-0.5, 0.0));
+        joints.push(world.add_joint(last, link, hinge).unwrap());
+        last = link;
+    }
+    for step in 0..600 {
+        world.step(DT);
+        for &id in &joints {
+            let (a, b) = world.joint(id).unwrap().anchors();
+            let gap = a.relative_to(b).length();
+            assert!(gap < 0.03, "step {step}, {id}: {gap} m apart");
+        }
+    }
 }
 
 // Coming to rest.

@@ -4,7 +4,7 @@ mod common;
 
 use common::*;
 use proptest::prelude::*;
-use tiny_physics::{BodyId, BodyKind, RigidBody, ShapeDef, Vec2, World};
+use tiny_physics::{BodyId, BodyKind, JointDef, RigidBody, ShapeDef, Vec2, World};
 
 /// One thing a user can do. Handles are picked by a number modulo how many there are, counting those
 /// of bodies that are gone.
@@ -14,6 +14,8 @@ enum Command {
     RemoveBody(usize),
     AddShape { body: usize, shape: u8, size: f32, offset: f32 },
     RemoveShape(usize),
+    AddJoint { a: usize, b: usize, kind: u8, anchor: f32, value: f32 },
+    RemoveJoint(usize),
     Teleport { body: usize, x: f32, y: f32 },
     Turn { body: usize, angle: f32 },
     SetVelocity { body: usize, x: f32, y: f32, turning: f32 },
@@ -50,6 +52,10 @@ fn command() -> impl Strategy<Value = Command> {
             Command::AddShape { body, shape, size, offset }
         }),
         1 => which().prop_map(Command::RemoveShape),
+        3 => (which(), which(), 0..4_u8, n(), n()).prop_map(|(a, b, kind, anchor, value)| {
+            Command::AddJoint { a, b, kind, anchor, value }
+        }),
+        1 => which().prop_map(Command::RemoveJoint),
         2 => (which(), n(), n()).prop_map(|(body, x, y)| Command::Teleport { body, x, y }),
         1 => (which(), n()).prop_map(|(body, angle)| Command::Turn { body, angle }),
         2 => (which(), n(), n(), n()).prop_map(|(body, x, y, turning)| {
@@ -107,6 +113,16 @@ impl Player {
                 let shapes: Vec<_> = self.world.shape_ids().collect();
                 if !shapes.is_empty() {
                     self.world.remove_shape(shapes[which % shapes.len()]).unwrap();
+                }
+            }
+            Command::AddJoint { a, b, kind, anchor, value } => {
+                let joint = joint_of(kind, anchor, value);
+                let _ = self.world.add_joint(self.pick(a), self.pick(b), joint);
+            }
+            Command::RemoveJoint(which) => {
+                let joints: Vec<_> = self.world.joint_ids().collect();
+                if !joints.is_empty() {
+                    self.world.remove_joint(joints[which % joints.len()]).unwrap();
                 }
             }
             Command::Gravity { x, y } => self.world.gravity = Vec2::new(x, y),
@@ -195,6 +211,17 @@ fn shape_of(shape: u8, size: f32) -> ShapeDef {
             Err(_) => circle(size),
         },
     })
+}
+
+fn joint_of(kind: u8, anchor: f32, value: f32) -> JointDef {
+    let anchors = (Vec2::new(0.1 * anchor, 0.0), Vec2::new(0.0, 0.1 * anchor));
+    let joint = match kind {
+        0 => JointDef::distance(value),
+        1 => JointDef::revolute(),
+        2 => JointDef::revolute().motor(value, 100.0),
+        _ => JointDef::revolute().limits(-0.5, value).spring(value, 0.5),
+    };
+    joint.anchors(anchors.0, anchors.1)
 }
 
 proptest! {

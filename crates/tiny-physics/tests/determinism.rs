@@ -3,18 +3,19 @@
 mod common;
 
 use common::*;
-use tiny_physics::{RigidBody, SimdLevel, Vec2, World};
+use tiny_physics::{JointDef, RigidBody, SimdLevel, Vec2, World};
 
 /// A scene by its name.
 type Scene = (&'static str, fn() -> World);
 
-const SCENES: [Scene; 6] = [
+const SCENES: [Scene; 7] = [
     ("pyramid", || pyramid(12)),
     ("mixed pile, seed 1", || mixed_pile(120, 1)),
     ("mixed pile, seed 2", || mixed_pile(120, 2)),
     ("mixed pile, seed 3", || mixed_pile(61, 3)),
     ("circles without gravity", circles_without_gravity),
     ("crowd around one body", crowd),
+    ("chains of hinges in a pile", chains),
 ];
 
 /// Balls that bounce off each other for ever.
@@ -36,6 +37,24 @@ fn crowd() -> World {
     drop_at(&mut world, rect(20.0, 0.5), 0.0, 0.5);
     for i in 0..60 {
         drop_at(&mut world, circle(0.25), 0.6 * i as f32 - 18.0, 1.25);
+    }
+    world
+}
+
+/// Chains that fall on a pile.
+fn chains() -> World {
+    let mut world = mixed_pile(30, 9);
+    for chain in 0..6 {
+        let (mut last, x) = (None, chain as f32 - 3.0);
+        for i in 0..8 {
+            let link = drop_at(&mut world, capsule(0.2, 0.1), x, 8.0 + 0.4 * i as f32);
+            if let Some(last) = last {
+                let (end, start) = (Vec2::new(0.2, 0.0), Vec2::new(-0.2, 0.0));
+                let hinge = JointDef::revolute().anchors(end, start).spring(2.0, 0.5);
+                world.add_joint(last, link, hinge).unwrap();
+            }
+            last = Some(link);
+        }
     }
     world
 }
@@ -68,6 +87,19 @@ fn every_simd_level_gives_the_same_bits() {
             world.set_simd(level).unwrap();
             let differs = divergence(&expected, &hashes(&mut world, 300));
             assert_eq!(differs, None, "{name}: {level} differs from scalar by this frame");
+        }
+    }
+}
+
+#[test]
+fn every_number_of_threads_gives_the_same_bits() {
+    for (name, scene) in SCENES {
+        let expected = hashes(&mut scene(), 200);
+        for threads in [2, 3, 5] {
+            let mut world = scene();
+            world.set_threads(threads);
+            let differs = divergence(&expected, &hashes(&mut world, 200));
+            assert_eq!(differs, None, "{name}: {threads} threads differ from one by this frame");
         }
     }
 }
