@@ -2,7 +2,6 @@
 
 mod args;
 mod commands;
-mod engine;
 mod failure;
 mod picture;
 mod simulation;

@@ -1,8 +1,8 @@
 //! A frame of a simulation in pixels.
 
 use crate::args::Overlay;
-use crate::simulation::Simulation;
-use tiny_physics::{DebugDraw, DebugDrawOptions, Layer};
+use crate::simulation::{Framing, Simulation};
+use tiny_physics::{DVec2, DebugDraw, DebugDrawOptions, Layer};
 use tiny_physics_draw::{Camera, Canvas};
 
 /// What a picture shows besides bodies.
@@ -55,6 +55,39 @@ impl Overlays {
 /// Size of points in the world, metres, as far as pixels allow: far away they must not hide bodies.
 const POINT_METRES: f32 = 0.14;
 
+/// A camera that goes along with what moves.
+#[derive(Clone, Copy, Debug)]
+pub struct Follower {
+    /// Where it looks.
+    pub camera: Camera,
+    /// Does it go along?
+    pub follows: bool,
+    middle: Option<DVec2>,
+}
+
+impl Follower {
+    /// A camera on the whole scene; it goes along where the ground goes on outside the picture.
+    pub fn on(simulation: &Simulation, width: u32, height: u32) -> Self {
+        let Framing { min, max, goes_on } = simulation.framing();
+        let camera = Camera::fit_above(min, max, width, height, Canvas::LEGEND_HEIGHT);
+        Self { camera, follows: goes_on, middle: simulation.middle_of_motion() }
+    }
+
+    /// A camera that stays where it is.
+    pub fn fixed(camera: Camera) -> Self {
+        Self { camera, follows: false, middle: None }
+    }
+
+    /// Moves by as much as the middle of what moves has moved.
+    pub fn follow(&mut self, simulation: &Simulation) {
+        let now = simulation.middle_of_motion();
+        if let (true, Some(before), Some(now)) = (self.follows, self.middle, now) {
+            self.camera.center = self.camera.center + (now - before);
+        }
+        self.middle = now;
+    }
+}
+
 /// Draws a frame. `note` follows the scene's name in the status.
 pub fn draw(
     canvas: &mut Canvas,
@@ -73,7 +106,7 @@ pub fn draw(
     };
     simulation.world().debug_draw(canvas, &options);
     if let Some((from, to)) = simulation.pull_line() {
-        let relative = |p: tiny_physics::DVec2| p.relative_to(camera.center);
+        let relative = |p: DVec2| p.relative_to(camera.center);
         canvas.layer(Layer::Joint);
         canvas.segment(relative(from), relative(to), options.palette.joint);
         canvas.point(relative(from), 7.0, options.palette.joint);

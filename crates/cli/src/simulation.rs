@@ -1,17 +1,17 @@
 //! A scene that runs on the engine, as the commands need it.
 
 use crate::args::WorldArgs;
-use crate::engine::Engine;
 use crate::failure::Outcome;
 use core::fmt;
+use std::time::{Duration, Instant};
 use tiny_physics::{Aabb, BodyId, BodyKind, DVec2, Pose, Rot, Vec2, World};
-use tiny_physics_scenes::{Player, Scene};
+use tiny_physics_scenes::{Run, Scene};
 
 /// A scene, its world, and a body that the mouse may hold.
 pub struct Simulation {
     scene: Scene,
     how: WorldArgs,
-    player: Player<Engine>,
+    run: Run,
     held: Option<Held>,
 }
 
@@ -39,6 +39,17 @@ pub struct Status {
     pub moving: usize,
 }
 
+/// The part of the world that a picture should show.
+#[derive(Clone, Copy, Debug)]
+pub struct Framing {
+    /// Lower left corner.
+    pub min: DVec2,
+    /// Upper right corner.
+    pub max: DVec2,
+    /// Is there more ground outside, on which bodies may leave the picture?
+    pub goes_on: bool,
+}
+
 impl fmt::Display for Status {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { frame, contacts, deepest, awake, moving } = self;
@@ -50,6 +61,8 @@ impl fmt::Display for Status {
     }
 }
 
+/// Time for steps between two pictures.
+const PICTURE_TIME: Duration = Duration::from_millis(25);
 /// The mouse lets a held body reach the pointer at this rate, 1/s.
 const PULL_RATE: f32 = 12.0;
 /// The mouse changes a body's speed by no more than this in a second, metres a second squared.
@@ -62,14 +75,13 @@ impl Simulation {
     /// The scene holds something that the engine refuses, or the machine lacks the SIMD level.
     pub fn new(scene: Scene, how: &WorldArgs) -> Outcome<Self> {
         scene.check()?;
-        let mut world = World::with_settings(scene.gravity, scene.settings);
+        let mut run = Run::start(&scene)?;
+        let world = run.world_mut();
         world.set_threads(usize::from(how.threads));
         if let Some(level) = how.simd {
             world.set_simd(level)?;
         }
-        let player = Player::new(&scene, Engine::new(world));
-        player.host().check()?;
-        Ok(Self { scene, how: how.clone(), player, held: None })
+        Ok(Self { scene, how: how.clone(), run, held: None })
     }
 
     /// Back to the start.
@@ -84,7 +96,19 @@ impl Simulation {
     /// One step of the scene.
     pub fn step(&mut self) {
         self.pull();
-        self.player.step();
+        self.run.step();
+    }
+
+    /// So many steps, fewer where they take longer than the time until the next picture: the scene
+    /// then plays slowly instead of standing still.
+    pub fn play(&mut self, steps: u32) {
+        let start = Instant::now();
+        for _ in 0..steps {
+            self.step();
+            if start.elapsed() > PICTURE_TIME {
+                break;
+            }
+        }
     }
 
     /// The scene.
@@ -94,16 +118,16 @@ impl Simulation {
 
     /// The world.
     pub fn world(&self) -> &World {
-        &self.player.host().world
+        self.run.world()
     }
 
     fn world_mut(&mut self) -> &mut World {
-        &mut self.player.host_mut().world
+        self.run.world_mut()
     }
 
     /// Length of a step, seconds.
     pub fn dt(&self) -> f32 {
-        self.player.dt()
+        self.run.dt()
     }
 
     /// Numbers for a status line.
@@ -120,21 +144,44 @@ impl Simulation {
         }
     }
 
-    /// The box around everything that matters: all bodies, but of static ones much wider than the
-    /// moving ones only the part near them.
-    pub fn bounds(&self) -> (DVec2, DVec2) {
+    /// What a picture should show at the start: all bodies with room for large ones to turn, but of
+    /// ground much larger than what moves only the part near it.
+    pub fn framing(&self) -> Framing {
         let world = self.world();
         let origin = self.some_position();
-        let (mut moving, mut fixed) = (Aabb::EMPTY, Aabb::EMPTY);
+        let reference = Pose::new(origin, Rot::IDENTITY);
+        let (mut moving, mut fixed, mut turning) = (Aabb::EMPTY, Aabb::EMPTY, Vec::new());
         for shape in world.shape_ids().filter_map(|id| world.shape(id)) {
             let Some(body) = world.body(shape.body()) else { continue };
-            let frame = body.pose().relative_to(Pose::new(origin, Rot::IDENTITY));
+            let frame = body.pose().relative_to(reference);
             let bounds = shape.shape().aabb(frame.compose(shape.local()));
-            let of_kind = if body.kind() == BodyKind::Static { &mut fixed } else { &mut moving };
-            *of_kind = of_kind.union(&bounds);
+            if body.kind() == BodyKind::Static {
+                fixed = fixed.union(&bounds);
+            } else {
+                moving = moving.union(&bounds);
+                let reach = (bounds.min - frame.p).abs().max((bounds.max - frame.p).abs()).length();
+                turning.push((frame.p, reach));
+            }
+        }
+        let large = 0.3 * largest_side(&moving);
+        for (center, reach) in turning.into_iter().filter(|(_, reach)| *reach > large) {
+            moving = moving.union(&Aabb::from_center(center, Vec2::splat(reach)));
         }
         let bounds = part_of_interest(moving, fixed);
-        (origin + bounds.min, origin + bounds.max)
+        let goes_on = !bounds.contains(&moving.union(&fixed)) && moving.is_valid();
+        Framing { min: origin + bounds.min, max: origin + bounds.max, goes_on }
+    }
+
+    /// The point with as many moving bodies left as right of it, and above as below.
+    pub fn middle_of_motion(&self) -> Option<DVec2> {
+        let world = self.world();
+        let bodies = world.body_ids().filter_map(|id| world.body(id));
+        let moving = bodies.filter(|body| body.kind() != BodyKind::Static);
+        let (mut xs, mut ys): (Vec<_>, Vec<_>) =
+            moving.map(|body| (body.center().x, body.center().y)).unzip();
+        xs.sort_by(f64::total_cmp);
+        ys.sort_by(f64::total_cmp);
+        Some(DVec2::new(*xs.get(xs.len() / 2)?, *ys.get(ys.len() / 2)?))
     }
 
     fn some_position(&self) -> DVec2 {
@@ -182,7 +229,7 @@ impl Simulation {
     /// An impulse that brings the held point towards the pointer.
     fn pull(&mut self) {
         let Some(held) = self.held else { return };
-        let (dt, gravity) = (self.player.dt(), self.world().gravity);
+        let (dt, gravity) = (self.run.dt(), self.world().gravity);
         let Some(mut body) = self.world_mut().body_mut(held.body) else {
             self.held = None;
             return;

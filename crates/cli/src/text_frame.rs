@@ -1,12 +1,12 @@
 //! The world in letters.
 
-use crate::simulation::Simulation;
-use tiny_physics::{DVec2, DebugDrawOptions};
+use crate::simulation::{Framing, Simulation};
+use tiny_physics::DebugDrawOptions;
 use tiny_physics_draw::TextView;
 
-/// Draws the scene into the view: the box from `min` to `max`.
-pub fn draw(view: &mut TextView, simulation: &Simulation, (min, max): (DVec2, DVec2)) {
-    view.begin(min, max);
+/// Draws the scene into the view: what the framing says.
+pub fn draw(view: &mut TextView, simulation: &Simulation, framing: &Framing) {
+    view.begin(framing.min, framing.max);
     let options = DebugDrawOptions {
         origin: view.center(),
         joints: false,

@@ -39,11 +39,11 @@ pub(super) fn open(args: &DemoArgs, seed: u64) -> Outcome<Simulation> {
 }
 
 fn print_frames(out: &mut impl Write, mut simulation: Simulation, args: &DemoArgs) -> Outcome {
-    let bounds = simulation.bounds();
+    let framing = simulation.framing();
     let mut view = TextView::new(COLUMNS, ROWS);
     let mut deepest = 0.0_f32;
     let mut print = |simulation: &Simulation| -> Outcome {
-        text_frame::draw(&mut view, simulation, bounds);
+        text_frame::draw(&mut view, simulation, &framing);
         writeln!(out, "--- {}", simulation.status())?;
         for line in view.to_lines() {
             writeln!(out, "{line}")?;

@@ -3,7 +3,7 @@
 use super::demo;
 use crate::args::DemoArgs;
 use crate::failure::Outcome;
-use crate::simulation::Simulation;
+use crate::simulation::{Framing, Simulation};
 use crate::text_frame;
 use crossterm::event::{self, Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 use crossterm::style::{Color, Print, ResetColor, SetForegroundColor};
@@ -14,7 +14,7 @@ use crossterm::terminal::{
 use crossterm::{cursor, execute, queue};
 use std::io::{Stdout, Write, stdout};
 use std::time::{Duration, Instant};
-use tiny_physics::{DVec2, FixedStep, Layer};
+use tiny_physics::{FixedStep, Layer};
 use tiny_physics_draw::TextView;
 
 const HELP: &str = "space step  p play  s slow  r restart  n next seed  q quit";
@@ -55,7 +55,7 @@ struct Player {
     args: DemoArgs,
     seed: u64,
     simulation: Simulation,
-    bounds: (DVec2, DVec2),
+    framing: Framing,
     clock: FixedStep,
     state: State,
     slow: bool,
@@ -67,7 +67,7 @@ impl Player {
         Ok(Self {
             args: args.clone(),
             seed: args.seed,
-            bounds: simulation.bounds(),
+            framing: simulation.framing(),
             clock: FixedStep::new(simulation.dt()),
             simulation,
             state: State::Playing,
@@ -92,7 +92,7 @@ impl Player {
             KeyCode::Char('n') => {
                 self.seed = self.seed.wrapping_add(1);
                 self.simulation = demo::open(&self.args, self.seed)?;
-                self.bounds = self.simulation.bounds();
+                self.framing = self.simulation.framing();
             }
             KeyCode::Char(' ') | KeyCode::Enter | KeyCode::Right => {
                 self.state = State::Paused;
@@ -108,9 +108,8 @@ impl Player {
             return;
         }
         let elapsed = if self.slow { 0.2 * elapsed } else { elapsed };
-        for _ in 0..self.clock.advance(elapsed) {
-            self.simulation.step();
-        }
+        let steps = self.clock.advance(elapsed);
+        self.simulation.play(steps);
     }
 
     fn title(&self) -> String {
@@ -137,7 +136,7 @@ impl Screen {
     fn draw(&mut self, player: &Player) -> Outcome {
         let (columns, rows) = size()?;
         let mut view = TextView::new(usize::from(columns), usize::from(rows.saturating_sub(2)));
-        text_frame::draw(&mut view, &player.simulation, player.bounds);
+        text_frame::draw(&mut view, &player.simulation, &player.framing);
         let out = &mut self.0;
         queue!(out, BeginSynchronizedUpdate)?;
         for (row, cells) in view.cells().enumerate() {

@@ -1,9 +1,9 @@
 //! `render`: a scene into a PNG or GIF.
 
 use super::run::Progress;
-use crate::args::RenderArgs;
+use crate::args::{Area, RenderArgs};
 use crate::failure::{Failure, Outcome};
-use crate::picture::{self, Overlays};
+use crate::picture::{self, Follower, Overlays};
 use crate::simulation::Simulation;
 use crate::source;
 use std::fs::File;
@@ -33,13 +33,15 @@ pub fn run(args: &RenderArgs) -> Outcome {
         Format::Png => (1280, 720),
         Format::Gif => (640, 360),
     });
-    let (min, max) = match args.area {
-        Some(area) => (area.min.into(), area.max.into()),
-        None => simulation.bounds(),
+    let eye = match args.area {
+        Some(Area { min, max }) => {
+            Follower::fixed(Camera::fit(min.into(), max.into(), width, height))
+        }
+        None => Follower::on(&simulation, width, height),
     };
     let mut film = Film {
         simulation,
-        camera: Camera::fit_above(min, max, width, height, Canvas::LEGEND_HEIGHT),
+        eye,
         canvas: Canvas::new(width, height)?,
         overlays: Overlays::new(&args.show, &args.hide),
     };
@@ -62,14 +64,16 @@ fn format_of(path: &Path) -> Outcome<Format> {
 
 struct Film {
     simulation: Simulation,
-    camera: Camera,
+    eye: Follower,
     canvas: Canvas,
     overlays: Overlays,
 }
 
 impl Film {
     fn draw(&mut self) {
-        picture::draw(&mut self.canvas, &self.simulation, &self.camera, &self.overlays, "");
+        self.eye.follow(&self.simulation);
+        let camera = &self.eye.camera;
+        picture::draw(&mut self.canvas, &self.simulation, camera, &self.overlays, "");
     }
 
     /// The last step.

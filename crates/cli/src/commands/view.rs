@@ -2,7 +2,7 @@
 
 use crate::args::{Overlay, ViewArgs, WorldArgs};
 use crate::failure::{Failure, Outcome};
-use crate::picture::{self, Overlays};
+use crate::picture::{self, Follower, Overlays};
 use crate::simulation::Simulation;
 use crate::source;
 use std::time::Instant;
@@ -10,7 +10,7 @@ use tiny_physics::{FixedStep, Vec2};
 use tiny_physics_draw::{Camera, Canvas, Input, Key, Window};
 use tiny_physics_scenes::all;
 
-const HELP: [&str; 15] = [
+const HELP: [&str; 16] = [
     "keys and mouse",
     "space      play, pause",
     "right, s   one step",
@@ -19,7 +19,8 @@ const HELP: [&str; 15] = [
     "n, b       next, previous scene",
     "left btn   drag a body",
     "right btn  move the view",
-    "wheel      zoom (f: fit)",
+    "wheel      zoom",
+    "f, o       fit, follow motion",
     "c, v       contacts, normals",
     "j, x       joints, boxes",
     "m, a       masses, velocities",
@@ -51,7 +52,7 @@ pub fn run(args: &ViewArgs) -> Outcome {
         let (width, height) = window.size();
         if (canvas.width(), canvas.height()) != (width, height) {
             canvas = Canvas::new(width, height)?;
-            viewer.camera = viewer.camera.resized(width, height);
+            viewer.eye.camera = viewer.eye.camera.resized(width, height);
         }
         let elapsed = last.elapsed().as_secs_f32();
         last = Instant::now();
@@ -69,7 +70,7 @@ pub fn run(args: &ViewArgs) -> Outcome {
 struct Viewer {
     how: WorldArgs,
     simulation: Simulation,
-    camera: Camera,
+    eye: Follower,
     overlays: Overlays,
     clock: FixedStep,
     speed: usize,
@@ -88,7 +89,7 @@ impl Viewer {
         let simulation = Simulation::new(scene, &args.world)?;
         Ok(Self {
             how: args.world.clone(),
-            camera: fit(&simulation, args.size),
+            eye: Follower::on(&simulation, args.size.0, args.size.1),
             clock: FixedStep::new(simulation.dt()),
             simulation,
             overlays: Overlays::default(),
@@ -127,8 +128,12 @@ impl Viewer {
             Key::Up => self.speed = (self.speed + 1).min(SPEEDS.len() - 1),
             Key::Down => self.speed = self.speed.saturating_sub(1),
             Key::Escape | Key::Char('q') => self.quit = true,
-            Key::Char('r') => self.simulation.restart()?,
+            Key::Char('r') => {
+                self.simulation.restart()?;
+                self.fit();
+            }
             Key::Char('f') => self.fit(),
+            Key::Char('o') => self.eye.follows = !self.eye.follows,
             Key::Char('h') => self.help = !self.help,
             Key::Char('n') => return self.other_scene(1),
             Key::Char('b') => return self.other_scene(-1),
@@ -151,21 +156,22 @@ impl Viewer {
         }
         let Some(mouse) = input.mouse else { return };
         if input.wheel != 0.0 {
-            self.camera.zoom(if input.wheel > 0.0 { 1.1 } else { 1.0 / 1.1 }, mouse);
+            self.eye.camera.zoom(if input.wheel > 0.0 { 1.1 } else { 1.0 / 1.1 }, mouse);
         }
-        let point = self.camera.to_world(mouse);
+        let point = self.eye.camera.to_world(mouse);
         match (input.left_down, was_holding) {
             (true, false) => self.simulation.grab(point),
             (true, true) => self.simulation.drag(point),
             (false, _) => {}
         }
         if let (true, Some(before)) = (input.right_down, before) {
-            self.camera.pan(mouse - before);
+            self.eye.camera.pan(mouse - before);
         }
     }
 
     fn fit(&mut self) {
-        self.camera = fit(&self.simulation, (self.camera.width, self.camera.height));
+        let Camera { width, height, .. } = self.eye.camera;
+        self.eye = Follower::on(&self.simulation, width, height);
     }
 
     /// The built-in scene so many places further on; around at the ends.
@@ -187,10 +193,10 @@ impl Viewer {
     /// Lets the time pass that has passed.
     fn advance(&mut self, elapsed: f32) {
         if self.playing {
-            for _ in 0..self.clock.advance(elapsed * SPEEDS[self.speed]) {
-                self.simulation.step();
-            }
+            let steps = self.clock.advance(elapsed * SPEEDS[self.speed]);
+            self.simulation.play(steps);
         }
+        self.eye.follow(&self.simulation);
     }
 
     fn draw(&self, canvas: &mut Canvas) {
@@ -199,16 +205,11 @@ impl Viewer {
             (true, false) => format!("   speed {}", SPEEDS[self.speed]),
             (false, _) => "   paused".into(),
         };
-        picture::draw(canvas, &self.simulation, &self.camera, &self.overlays, &note);
+        picture::draw(canvas, &self.simulation, &self.eye.camera, &self.overlays, &note);
         if self.help {
             canvas.side_text(&HELP);
         }
     }
-}
-
-fn fit(simulation: &Simulation, (width, height): (u32, u32)) -> Camera {
-    let (min, max) = simulation.bounds();
-    Camera::fit_above(min, max, width, height, Canvas::LEGEND_HEIGHT)
 }
 
 fn overlay_of(letter: char) -> Option<Overlay> {
@@ -275,7 +276,7 @@ mod tests {
         let moving = world.body_ids().filter_map(|id| world.body(id));
         let body = moving.filter(|b| b.kind() == tiny_physics::BodyKind::Dynamic).last().unwrap();
         let (id, start) = (body.id(), body.position_f64());
-        let pixel = viewer.camera.to_pixels(start.relative_to(viewer.camera.center));
+        let pixel = viewer.eye.camera.to_pixels(start.relative_to(viewer.eye.camera.center));
         let at = |pixel| Input { mouse: Some(pixel), left_down: true, ..Input::default() };
         viewer.handle(&at(pixel)).unwrap();
         assert!(viewer.simulation.pull_line().is_some());
@@ -284,7 +285,7 @@ mod tests {
             viewer.handle(&at(target)).unwrap();
             viewer.simulation.step();
         }
-        let there = viewer.camera.to_world(target);
+        let there = viewer.eye.camera.to_world(target);
         let now = viewer.simulation.world().body(id).unwrap().position_f64();
         assert!(now.relative_to(there).length() < 1.0, "{now} is not at {there}");
         viewer.handle(&Input::default()).unwrap();

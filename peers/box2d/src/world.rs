@@ -1,0 +1,371 @@
+//! Box2D's world as a host of scenes.
+//!
+//! Everything is set to what the description says; what it does not say (contact recycling, joint
+//! stiffness) stays at Box2D's defaults.
+
+use crate::queries;
+use crate::shapes::{Geometry, geometry, rot, shape_def, vec2};
+use boxdd_sys::ffi::*;
+use peers_worker::{BodyState, Engine, Host, Summary};
+use tiny_physics::{BodyKind, DVec2, JointDef, JointKind, Mix, RigidBody, Settings, Shape, Vec2};
+
+/// A Box2D world and the handles of what a scene put into it.
+pub struct Box2d {
+    world: b2WorldId,
+    bodies: Vec<Option<b2BodyId>>,
+    joints: Vec<Option<b2JointId>>,
+    substeps: i32,
+}
+
+impl Engine for Box2d {
+    fn create(
+        gravity: Vec2,
+        settings: &Settings,
+        threads: usize,
+        setting: &str,
+    ) -> Result<Self, String> {
+        if !env!("PEERS_CFLAGS").contains("-DNDEBUG") {
+            return Err("Box2D was built with its assertions on: build with CFLAGS=-DNDEBUG".into());
+        }
+        if !setting.is_empty() {
+            return Err(format!("Box2D has no setting {setting}"));
+        }
+        let def = world_def(gravity, settings, threads);
+        // SAFETY: `def` began as the default and outlives the call.
+        let world = unsafe { b2CreateWorld(&def) };
+        let substeps = settings.substeps as i32;
+        Ok(Self { world, bodies: Vec::new(), joints: Vec::new(), substeps })
+    }
+
+    fn summary(&self) -> Summary {
+        let live = || self.bodies.iter().flatten();
+        // SAFETY: the world lives until drop.
+        let joints = unsafe { b2World_GetCounters(self.world) }.jointCount as usize;
+        let (mut contacts, mut overlap) = (0, 0.0_f32);
+        for &body in live() {
+            let (count, depth) = contacts_of(body);
+            contacts += count;
+            overlap = overlap.max(depth);
+        }
+        // Each contact is on the lists of both of its bodies.
+        let (contacts, overlap) = (contacts / 2, overlap.into());
+        let bodies = Summary::of_bodies(live().map(|&body| body_state(body)));
+        Summary { joints, contacts, overlap, ..bodies }
+    }
+
+    fn name() -> String {
+        // SAFETY: returns a plain value.
+        let version = unsafe { b2GetVersion() };
+        let commit = &boxdd_sys::UPSTREAM_SHA[..9];
+        format!("Box2D {}.{}.{} ({commit})", version.major, version.minor, version.revision)
+    }
+
+    fn build(&self) -> String {
+        let lanes = if cfg!(feature = "avx2") { "AVX2, 8 lanes" } else { "SSE2, 4 lanes" };
+        format!("{lanes}, {}", env!("PEERS_CFLAGS"))
+    }
+}
+
+impl Drop for Box2d {
+    fn drop(&mut self) {
+        // SAFETY: the world was made in `create` and is destroyed only here.
+        unsafe { b2DestroyWorld(self.world) }
+    }
+}
+
+impl Host for Box2d {
+    fn add_body(&mut self, body: &RigidBody) -> usize {
+        let def = body_def(body);
+        // SAFETY: `def` began as the default; the world lives until drop.
+        let id = unsafe { b2CreateBody(self.world, &def) };
+        for shape in &body.shapes {
+            add_shape(id, shape);
+        }
+        if let Some(mass) = body.mass {
+            scale_mass(id, mass);
+        }
+        self.bodies.push(Some(id));
+        self.bodies.len() - 1
+    }
+
+    fn remove_body(&mut self, body: usize) {
+        if let Some(id) = self.bodies[body].take() {
+            // SAFETY: the handle was live: it leaves the list here.
+            unsafe { b2DestroyBody(id) }
+        }
+    }
+
+    fn add_joint(&mut self, a: usize, b: usize, joint: &JointDef) -> usize {
+        let ends = self.bodies[a].zip(self.bodies[b]);
+        let id = ends.and_then(|(a, b)| add_joint(self.world, a, b, joint));
+        self.joints.push(id);
+        self.joints.len() - 1
+    }
+
+    fn remove_joint(&mut self, joint: usize) {
+        if let Some(id) = self.joints[joint].take() {
+            // SAFETY: the call checks; removing a body took its joints with it.
+            unsafe {
+                if b2Joint_IsValid(id) {
+                    b2DestroyJoint(id, true);
+                }
+            }
+        }
+    }
+
+    fn velocity(&self, body: usize) -> Vec2 {
+        // SAFETY: the handle is live while it is on the list.
+        let v = self.bodies[body].map(|id| unsafe { b2Body_GetLinearVelocity(id) });
+        v.map_or(Vec2::ZERO, |v| Vec2::new(v.x, v.y))
+    }
+
+    fn set_velocity(&mut self, body: usize, velocity: Vec2) {
+        if let Some(id) = self.bodies[body] {
+            // SAFETY: as above.
+            unsafe { b2Body_SetLinearVelocity(id, vec2(velocity)) }
+        }
+    }
+
+    fn position(&self, body: usize) -> DVec2 {
+        // SAFETY: as above.
+        let p = self.bodies[body].map(|id| unsafe { b2Body_GetPosition(id) });
+        p.map_or(DVec2::ZERO, |p| DVec2::new(p.x.into(), p.y.into()))
+    }
+
+    fn is_awake(&self, body: usize) -> bool {
+        // SAFETY: as above.
+        self.bodies[body].is_some_and(|id| unsafe { b2Body_IsAwake(id) })
+    }
+
+    fn wake(&mut self, body: usize) {
+        if let Some(id) = self.bodies[body] {
+            // SAFETY: as above.
+            unsafe { b2Body_SetAwake(id, true) }
+        }
+    }
+
+    fn step(&mut self, dt: f32) {
+        // SAFETY: the world lives until drop.
+        unsafe { b2World_Step(self.world, dt, self.substeps) }
+    }
+
+    fn ray_cast(&mut self, origin: Vec2, translation: Vec2, mask: u64) -> Option<f32> {
+        queries::ray_cast(self.world, origin, translation, mask)
+    }
+
+    fn circle_cast(
+        &mut self,
+        center: Vec2,
+        radius: f32,
+        translation: Vec2,
+        mask: u64,
+    ) -> Option<f32> {
+        queries::circle_cast(self.world, center, radius, translation, mask)
+    }
+
+    fn count_overlaps(&mut self, lower: Vec2, upper: Vec2, mask: u64) -> usize {
+        queries::count_overlaps(self.world, lower, upper, mask)
+    }
+}
+
+fn world_def(gravity: Vec2, settings: &Settings, threads: usize) -> b2WorldDef {
+    // SAFETY: returns a plain value.
+    let mut def = unsafe { b2DefaultWorldDef() };
+    def.gravity = vec2(gravity);
+    def.restitutionThreshold = settings.restitution_threshold;
+    def.hitEventThreshold = settings.hit_event_threshold;
+    def.contactHertz = settings.contact_hertz;
+    def.contactDampingRatio = settings.contact_damping_ratio;
+    def.contactSpeed = settings.push_speed;
+    def.maximumLinearSpeed = settings.max_speed;
+    def.enableSleep = settings.sleep;
+    def.enableContinuous = settings.continuous;
+    def.frictionCallback = mix_callback(settings.friction_mix, Mix::GeometricMean);
+    def.restitutionCallback = mix_callback(settings.restitution_mix, Mix::Max);
+    // More than one starts Box2D's own scheduler.
+    def.workerCount = threads as i32;
+    def
+}
+
+/// Box2D's callback for a mix; none for the mix that it has built in.
+fn mix_callback(
+    mix: Mix,
+    built_in: Mix,
+) -> Option<unsafe extern "C" fn(f32, u64, f32, u64) -> f32> {
+    extern "C" fn geometric_mean(a: f32, _: u64, b: f32, _: u64) -> f32 {
+        Mix::GeometricMean.apply(a, b)
+    }
+    extern "C" fn average(a: f32, _: u64, b: f32, _: u64) -> f32 {
+        Mix::Average.apply(a, b)
+    }
+    extern "C" fn min(a: f32, _: u64, b: f32, _: u64) -> f32 {
+        Mix::Min.apply(a, b)
+    }
+    extern "C" fn max(a: f32, _: u64, b: f32, _: u64) -> f32 {
+        Mix::Max.apply(a, b)
+    }
+    extern "C" fn multiply(a: f32, _: u64, b: f32, _: u64) -> f32 {
+        Mix::Multiply.apply(a, b)
+    }
+    if mix == built_in {
+        return None;
+    }
+    Some(match mix {
+        Mix::GeometricMean => geometric_mean,
+        Mix::Average => average,
+        Mix::Min => min,
+        Mix::Max => max,
+        Mix::Multiply => multiply,
+    })
+}
+
+fn body_def(body: &RigidBody) -> b2BodyDef {
+    // SAFETY: returns a plain value.
+    let mut def = unsafe { b2DefaultBodyDef() };
+    def.type_ = match body.kind {
+        BodyKind::Static => b2BodyType_b2_staticBody,
+        BodyKind::Kinematic => b2BodyType_b2_kinematicBody,
+        BodyKind::Dynamic => b2BodyType_b2_dynamicBody,
+    };
+    def.position = vec2(body.position.to_vec2());
+    def.rotation = rot(body.angle);
+    def.linearVelocity = vec2(body.velocity);
+    def.angularVelocity = body.angular_velocity;
+    def.linearDamping = body.linear_damping;
+    def.angularDamping = body.angular_damping;
+    def.gravityScale = body.gravity_scale;
+    def.sleepThreshold = body.sleep_speed;
+    def.motionLocks.linearX = body.locks.x;
+    def.motionLocks.linearY = body.locks.y;
+    def.motionLocks.angularZ = body.locks.rotation || never_turns(body);
+    def.enableSleep = body.can_sleep;
+    def.isAwake = body.awake;
+    def.isBullet = body.bullet;
+    def.isEnabled = body.enabled;
+    def
+}
+
+/// A body with a never-turning box does not turn.
+fn never_turns(body: &RigidBody) -> bool {
+    body.shapes.iter().any(|def| matches!(def.shape, Shape::Aabb { .. }))
+}
+
+fn add_shape(body: b2BodyId, shape: &tiny_physics::ShapeDef) {
+    let def = shape_def(shape);
+    // SAFETY: `def` began as the default, the geometry outlives the call, the body is live.
+    unsafe {
+        match geometry(shape) {
+            Geometry::Circle(circle) => b2CreateCircleShape(body, &def, &circle),
+            Geometry::Capsule(capsule) => b2CreateCapsuleShape(body, &def, &capsule),
+            Geometry::Segment(segment) => b2CreateSegmentShape(body, &def, &segment),
+            Geometry::Polygon(polygon) => b2CreatePolygonShape(body, &def, &polygon),
+        };
+    }
+}
+
+/// Scales mass and moment of inertia so that the mass becomes `mass`.
+fn scale_mass(body: b2BodyId, mass: f32) {
+    // SAFETY: the body is live.
+    let mut data = unsafe { b2Body_GetMassData(body) };
+    if data.mass > 0.0 {
+        data.rotationalInertia *= mass / data.mass;
+        data.mass = mass;
+        // SAFETY: the body is live.
+        unsafe { b2Body_SetMassData(body, data) }
+    }
+}
+
+/// Makes a joint; `None` for a kind that this glue does not know.
+fn add_joint(world: b2WorldId, a: b2BodyId, b: b2BodyId, joint: &JointDef) -> Option<b2JointId> {
+    match &joint.kind {
+        JointKind::Revolute { spring, target_angle, limits, motor } => {
+            // SAFETY: returns a plain value.
+            let mut def = unsafe { b2DefaultRevoluteJointDef() };
+            set_base(&mut def.base, a, b, joint);
+            def.targetAngle = *target_angle;
+            if let Some(spring) = spring {
+                (def.enableSpring, def.hertz) = (true, spring.hertz);
+                def.dampingRatio = spring.damping_ratio;
+            }
+            if let Some(limits) = limits {
+                (def.enableLimit, def.lowerAngle, def.upperAngle) =
+                    (true, limits.lower, limits.upper);
+            }
+            if let Some(motor) = motor {
+                (def.enableMotor, def.motorSpeed, def.maxMotorTorque) =
+                    (true, motor.speed, motor.max);
+            }
+            // SAFETY: `def` began as the default; world and bodies are live.
+            Some(unsafe { b2CreateRevoluteJoint(world, &def) })
+        }
+        JointKind::Distance { length, spring, limits, motor } => {
+            // SAFETY: returns a plain value.
+            let mut def = unsafe { b2DefaultDistanceJointDef() };
+            set_base(&mut def.base, a, b, joint);
+            def.length = *length;
+            if let Some(spring) = spring {
+                (def.enableSpring, def.hertz) = (true, spring.hertz);
+                def.dampingRatio = spring.damping_ratio;
+            }
+            if let Some(limits) = limits {
+                (def.enableLimit, def.minLength, def.maxLength) =
+                    (true, limits.lower, limits.upper);
+                // Without a spring Box2D's joint is rigid: a spring of no stiffness is free between limits.
+                def.enableSpring = true;
+            }
+            if let Some(motor) = motor {
+                (def.enableMotor, def.motorSpeed, def.maxMotorForce) =
+                    (true, motor.speed, motor.max);
+            }
+            // SAFETY: `def` began as the default; world and bodies are live.
+            Some(unsafe { b2CreateDistanceJoint(world, &def) })
+        }
+        _ => None,
+    }
+}
+
+fn set_base(base: &mut b2JointDef, a: b2BodyId, b: b2BodyId, joint: &JointDef) {
+    (base.bodyIdA, base.bodyIdB) = (a, b);
+    base.localFrameA = b2Transform { p: vec2(joint.anchor_a), q: rot(joint.angle_a) };
+    base.localFrameB = b2Transform { p: vec2(joint.anchor_b), q: rot(joint.angle_b) };
+    base.collideConnected = joint.collide_connected;
+    if let Some(softness) = joint.softness {
+        base.constraintHertz = softness.hertz;
+        base.constraintDampingRatio = softness.damping_ratio;
+    }
+}
+
+/// Touching contacts of a body, and the depth of the deepest of their points.
+fn contacts_of(body: b2BodyId) -> (usize, f32) {
+    // SAFETY: the body is live.
+    let capacity = unsafe { b2Body_GetContactCapacity(body) };
+    let mut data: Vec<b2ContactData> = Vec::with_capacity(capacity as usize);
+    // SAFETY: the buffer holds `capacity` elements; the call says how many of them it wrote.
+    unsafe {
+        let count = b2Body_GetContactData(body, data.as_mut_ptr(), capacity);
+        data.set_len(count as usize);
+    }
+    let (mut touching, mut deepest) = (0, 0.0_f32);
+    for contact in &data {
+        let points = &contact.manifold.points[..contact.manifold.pointCount as usize];
+        touching += usize::from(!points.is_empty());
+        deepest = points.iter().fold(deepest, |depth, point| depth.max(-point.separation));
+    }
+    (touching, deepest)
+}
+
+fn body_state(body: b2BodyId) -> BodyState {
+    // SAFETY: the body is live.
+    unsafe {
+        let v = b2Body_GetLinearVelocity(body);
+        BodyState {
+            dynamic: b2Body_GetType(body) == b2BodyType_b2_dynamicBody,
+            awake: b2Body_IsAwake(body),
+            height: b2Body_GetWorldCenter(body).y.into(),
+            mass: b2Body_GetMass(body).into(),
+            inertia: b2Body_GetRotationalInertia(body).into(),
+            speed_sq: (v.x * v.x + v.y * v.y).into(),
+            spin: b2Body_GetAngularVelocity(body).into(),
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! The engine's own world as a host of scenes.
+
+use peers_worker::{BodyState, Engine, Host, Summary};
+use tiny_physics::{
+    BodyId, BodyKind, DVec2, JointDef, JointId, RigidBody, Settings, SimdLevel, Vec2, World,
+};
+
+/// A world and the handles of what a scene put into it.
+pub struct Ours {
+    world: World,
+    bodies: Vec<BodyId>,
+    joints: Vec<Option<JointId>>,
+}
+
+impl Engine for Ours {
+    fn create(
+        gravity: Vec2,
+        settings: &Settings,
+        threads: usize,
+        setting: &str,
+    ) -> Result<Self, String> {
+        let mut world = World::with_settings(gravity, *settings);
+        world.set_threads(threads);
+        if !setting.is_empty() {
+            let level: SimdLevel = setting.parse()?;
+            world.set_simd(level).map_err(|error| error.to_string())?;
+        }
+        Ok(Self { world, bodies: Vec::new(), joints: Vec::new() })
+    }
+
+    fn summary(&self) -> Summary {
+        let ids = self.world.body_ids();
+        let states = ids.filter_map(|id| self.world.body(id)).map(|body| {
+            let (v, w) = (body.velocity(), body.angular_velocity());
+            BodyState {
+                dynamic: body.kind() == BodyKind::Dynamic,
+                awake: body.is_awake(),
+                height: body.center().y,
+                mass: body.mass().into(),
+                inertia: body.inertia().into(),
+                speed_sq: v.length_sq().into(),
+                spin: w.into(),
+            }
+        });
+        Summary {
+            joints: self.world.joint_count(),
+            contacts: self.world.contact_count(),
+            overlap: self.world.max_penetration().into(),
+            ..Summary::of_bodies(states)
+        }
+    }
+
+    fn name() -> String {
+        "tiny-physics".into()
+    }
+
+    fn build(&self) -> String {
+        let level = self.world.simd();
+        format!("plain target, {level} at run time, {} lanes", level.lane_count())
+    }
+}
+
+impl Host for Ours {
+    fn add_body(&mut self, body: &RigidBody) -> usize {
+        let id = self.world.add_body(body.clone()).expect("the scene is valid");
+        self.bodies.push(id);
+        self.bodies.len() - 1
+    }
+
+    fn remove_body(&mut self, body: usize) {
+        let _ = self.world.remove_body(self.bodies[body]);
+    }
+
+    fn add_joint(&mut self, a: usize, b: usize, def: &JointDef) -> usize {
+        let id = self.world.add_joint(self.bodies[a], self.bodies[b], *def);
+        self.joints.push(id.ok());
+        self.joints.len() - 1
+    }
+
+    fn remove_joint(&mut self, joint: usize) {
+        if let Some(id) = self.joints[joint].take() {
+            // It may have gone with one of its bodies.
+            let _ = self.world.remove_joint(id);
+        }
+    }
+
+    fn position(&self, body: usize) -> DVec2 {
+        self.world.body(self.bodies[body]).map_or(DVec2::ZERO, |body| body.position_f64())
+    }
+
+    fn velocity(&self, body: usize) -> Vec2 {
+        self.world.body(self.bodies[body]).map_or(Vec2::ZERO, |body| body.velocity())
+    }
+
+    fn set_velocity(&mut self, body: usize, velocity: Vec2) {
+        if let Some(mut body) = self.world.body_mut(self.bodies[body]) {
+            body.set_velocity(velocity);
+        }
+    }
+
+    fn is_awake(&self, body: usize) -> bool {
+        self.world.body(self.bodies[body]).is_some_and(|body| body.is_awake())
+    }
+
+    fn wake(&mut self, body: usize) {
+        if let Some(mut body) = self.world.body_mut(self.bodies[body]) {
+            body.wake();
+        }
+    }
+
+    fn step(&mut self, dt: f32) {
+        self.world.step(dt);
+    }
+
+    // A default answer would be no work and so a false time: a scene with queries is left out.
+
+    fn ray_cast(&mut self, _: Vec2, _: Vec2, _: u64) -> Option<f32> {
+        unimplemented!("ray casts")
+    }
+
+    fn circle_cast(&mut self, _: Vec2, _: f32, _: Vec2, _: u64) -> Option<f32> {
+        unimplemented!("circle casts")
+    }
+
+    fn count_overlaps(&mut self, _: Vec2, _: Vec2, _: u64) -> usize {
+        unimplemented!("overlap queries")
+    }
+}

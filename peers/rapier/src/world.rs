@@ -1,0 +1,237 @@
+//! Rapier's world as a host of scenes.
+//!
+//! Everything is set to what the description says; what it does not say stays at Rapier's defaults:
+//! 4 solver iterations (its substeps) with one pass each, contact recycling on, automatic continuous
+//! collision against fixed colliders.
+
+use crate::filters::Filters;
+use crate::joints::joint;
+use crate::queries;
+use crate::shapes::{collider, vector};
+use peers_worker::{BodyState, Engine, Host, Summary};
+use rapier2d::prelude::*;
+use tiny_physics::{BodyKind, DVec2, JointDef, Settings, Shape, Vec2};
+
+/// A Rapier world and the handles of what a scene put into it.
+pub struct Rapier {
+    world: PhysicsWorld,
+    settings: Settings,
+    filters: Filters,
+    bodies: Vec<RigidBodyHandle>,
+    joints: Vec<Option<ImpulseJointHandle>>,
+}
+
+impl Engine for Rapier {
+    fn create(
+        gravity: Vec2,
+        settings: &Settings,
+        threads: usize,
+        setting: &str,
+    ) -> Result<Self, String> {
+        if !setting.is_empty() {
+            return Err(format!("Rapier has no setting {setting}"));
+        }
+        let mut world = PhysicsWorld::new();
+        world.gravity = vector(gravity);
+        world.integration_parameters = parameters(settings);
+        set_threads(&mut world, threads)?;
+        Ok(Self {
+            world,
+            settings: *settings,
+            filters: Filters::default(),
+            bodies: Vec::new(),
+            joints: Vec::new(),
+        })
+    }
+
+    fn summary(&self) -> Summary {
+        let (mut contacts, mut overlap) = (0, 0.0_f32);
+        for pair in self.world.narrow_phase.contact_pairs() {
+            contacts += usize::from(pair.has_any_active_contact());
+            overlap = pair.find_deepest_contact().map_or(overlap, |(_, c)| overlap.max(-c.dist));
+        }
+        let overlap = overlap.into();
+        let joints = self.world.impulse_joints.len();
+        let bodies = self.world.bodies.iter().map(|(_, body)| body_state(body));
+        Summary { contacts, joints, overlap, ..Summary::of_bodies(bodies) }
+    }
+
+    fn name() -> String {
+        "Rapier 0.36.1".into()
+    }
+
+    fn build(&self) -> String {
+        let lanes = if cfg!(feature = "simd8") { 8 } else { 4 };
+        let target = if cfg!(target_feature = "avx2") { "x86-64-v3" } else { "baseline" };
+        let threads = if cfg!(feature = "parallel") { ", parallel" } else { "" };
+        format!("{target}, {lanes} lanes{threads}")
+    }
+}
+
+impl Host for Rapier {
+    fn add_body(&mut self, body: &tiny_physics::RigidBody) -> usize {
+        let handle = self.world.insert_body(rigid_body(body, &self.settings));
+        let mut colliders = Vec::new();
+        for def in &body.shapes {
+            let builder = collider(def, &self.settings).zip(self.filters.groups(def.filter));
+            let Some((builder, groups)) = builder else {
+                eprintln!("a shape is left out: degenerate, or the 33rd distinct filter");
+                continue;
+            };
+            colliders.push(builder.collision_groups(groups).build());
+        }
+        if let Some(mass) = body.mass {
+            scale_mass(&mut colliders, mass);
+        }
+        for collider in colliders {
+            self.world.insert_collider(collider, Some(handle));
+        }
+        self.bodies.push(handle);
+        self.bodies.len() - 1
+    }
+
+    fn remove_body(&mut self, body: usize) {
+        self.world.remove_body(self.bodies[body]);
+    }
+
+    fn add_joint(&mut self, a: usize, b: usize, def: &JointDef) -> usize {
+        let (a, b) = (self.bodies[a], self.bodies[b]);
+        self.joints.push(joint(def).map(|joint| self.world.insert_impulse_joint(a, b, joint)));
+        self.joints.len() - 1
+    }
+
+    fn remove_joint(&mut self, joint: usize) {
+        if let Some(handle) = self.joints[joint].take() {
+            self.world.remove_impulse_joint(handle);
+        }
+    }
+
+    fn velocity(&self, body: usize) -> Vec2 {
+        let body = self.world.bodies.get(self.bodies[body]);
+        body.map_or(Vec2::ZERO, |body| Vec2::new(body.linvel().x, body.linvel().y))
+    }
+
+    fn set_velocity(&mut self, body: usize, velocity: Vec2) {
+        if let Some(body) = self.world.bodies.get_mut(self.bodies[body]) {
+            body.set_linvel(vector(velocity), true);
+        }
+    }
+
+    fn position(&self, body: usize) -> DVec2 {
+        let body = self.world.bodies.get(self.bodies[body]);
+        body.map_or(DVec2::ZERO, |body| {
+            DVec2::new(body.translation().x.into(), body.translation().y.into())
+        })
+    }
+
+    fn is_awake(&self, body: usize) -> bool {
+        let body = self.world.bodies.get(self.bodies[body]);
+        body.is_some_and(|body| !body.is_sleeping())
+    }
+
+    fn wake(&mut self, body: usize) {
+        self.world.wake_up(self.bodies[body], true);
+    }
+
+    fn step(&mut self, dt: f32) {
+        self.world.integration_parameters.dt = dt;
+        self.world.step();
+    }
+
+    fn ray_cast(&mut self, origin: Vec2, translation: Vec2, mask: u64) -> Option<f32> {
+        queries::ray_cast(&self.world, origin, translation, self.filters.query(mask))
+    }
+
+    fn circle_cast(
+        &mut self,
+        center: Vec2,
+        radius: f32,
+        translation: Vec2,
+        mask: u64,
+    ) -> Option<f32> {
+        queries::circle_cast(&self.world, center, radius, translation, self.filters.query(mask))
+    }
+
+    fn count_overlaps(&mut self, lower: Vec2, upper: Vec2, mask: u64) -> usize {
+        queries::count_overlaps(&self.world, lower, upper, self.filters.query(mask))
+    }
+}
+
+fn parameters(settings: &Settings) -> IntegrationParameters {
+    let soft = |hertz| SpringCoefficients::new(hertz, settings.contact_damping_ratio);
+    IntegrationParameters {
+        num_solver_iterations: settings.substeps as usize,
+        contact_softness: soft(settings.contact_hertz),
+        static_contact_softness: soft(2.0 * settings.contact_hertz),
+        normalized_max_corrective_velocity: settings.push_speed,
+        normalized_max_linear_velocity: settings.max_speed,
+        max_ccd_substeps: usize::from(settings.continuous),
+        ..IntegrationParameters::default()
+    }
+}
+
+#[cfg(feature = "parallel")]
+fn set_threads(world: &mut PhysicsWorld, threads: usize) -> Result<(), String> {
+    let pool = world.physics_pipeline.configure_thread_pool(threads);
+    pool.map_err(|error| format!("no thread pool: {error}"))
+}
+
+#[cfg(not(feature = "parallel"))]
+fn set_threads(_: &mut PhysicsWorld, threads: usize) -> Result<(), String> {
+    if threads == 1 { Ok(()) } else { Err("built without threads".into()) }
+}
+
+fn rigid_body(body: &tiny_physics::RigidBody, settings: &Settings) -> RigidBody {
+    let kind = match body.kind {
+        BodyKind::Static => RigidBodyType::Fixed,
+        BodyKind::Kinematic => RigidBodyType::KinematicVelocityBased,
+        BodyKind::Dynamic => RigidBodyType::Dynamic,
+    };
+    let mut locks = LockedAxes::empty();
+    locks.set(LockedAxes::TRANSLATION_LOCKED_X, body.locks.x);
+    locks.set(LockedAxes::TRANSLATION_LOCKED_Y, body.locks.y);
+    let never_turns = body.shapes.iter().any(|def| matches!(def.shape, Shape::Aabb { .. }));
+    locks.set(LockedAxes::ROTATION_LOCKED, body.locks.rotation || never_turns);
+    let mut out = RigidBodyBuilder::new(kind)
+        .pose(Pose::new(vector(body.position.to_vec2()), body.angle))
+        .linvel(vector(body.velocity))
+        .angvel(body.angular_velocity)
+        .linear_damping(body.linear_damping)
+        .angular_damping(body.angular_damping)
+        .gravity_scale(body.gravity_scale)
+        .locked_axes(locks)
+        .can_sleep(settings.sleep && body.can_sleep)
+        .sleeping(!body.awake)
+        .ccd_enabled(settings.continuous && body.bullet)
+        .enabled(body.enabled)
+        .build();
+    if settings.sleep && body.can_sleep {
+        let activation = out.activation_mut();
+        activation.normalized_linear_threshold = body.sleep_speed;
+        activation.time_until_sleep = settings.time_to_sleep;
+    }
+    out
+}
+
+/// Scales the densities so that the colliders weigh `mass` together.
+fn scale_mass(colliders: &mut [Collider], mass: f32) {
+    let total: f32 = colliders.iter().map(Collider::mass).sum();
+    if total > 0.0 {
+        for collider in colliders {
+            collider.set_density(collider.density() * (mass / total));
+        }
+    }
+}
+
+fn body_state(body: &RigidBody) -> BodyState {
+    let speed = body.linvel();
+    BodyState {
+        dynamic: body.is_dynamic(),
+        awake: !body.is_sleeping(),
+        height: body.center_of_mass().y.into(),
+        mass: body.mass().into(),
+        inertia: body.mass_properties().local_mprops.principal_inertia().into(),
+        speed_sq: (speed.x * speed.x + speed.y * speed.y).into(),
+        spin: body.angvel().into(),
+    }
+}

@@ -1,0 +1,119 @@
+//! Runs the benchmark scenes in several engines, side by side, and compares.
+//!
+//! Each engine and configuration is a program of its own (their features exclude each other), built
+//! here with its own flags into its own folder. Runs are interleaved, A B C A B C, so that what
+//! disturbs the machine disturbs all. See `README.md` for what is equal and what is not.
+
+mod engines;
+mod honesty;
+mod launch;
+mod table;
+
+use clap::Parser;
+use engines::Config;
+use peers_worker::{Job, Report};
+use table::Row;
+
+/// Runs the benchmark scenes in tiny-physics, Box2D v3 and Rapier, interleaved.
+///
+/// Prints, for each scene and engine, the median over the repeats of the mean CPU and wall time of a
+/// step, the 99th percentile, and the ratio of its time to that of tiny-physics; beside them the
+/// figures that show whether all simulated the same.
+#[derive(Parser)]
+#[command(version)]
+struct Args {
+    /// Scenes to run, by name or by tag (benchmark, box2d, huge, show); `benchmark` if none is given.
+    #[arg(value_name = "SCENE")]
+    scenes: Vec<String>,
+    /// Engines to run, comma-separated, of: ours, ours-scalar, ours-sse2, ours-avx2, ours-avx512,
+    /// box2d-sse2, box2d-avx2, rapier, rapier-v3, rapier-simd8.
+    #[arg(long, value_delimiter = ',', value_name = "ENGINE")]
+    engines: Vec<String>,
+    /// Threads that each engine may use.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=64))]
+    threads: u16,
+    /// Runs of each engine and scene; the median counts.
+    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
+    repeat: u16,
+    /// Steps of a run instead of the scene's own number, the untimed first one included.
+    #[arg(long, value_parser = clap::value_parser!(u32).range(2..))]
+    steps: Option<u32>,
+    /// Print one JSON object a row instead of tables.
+    #[arg(long)]
+    json: bool,
+}
+
+fn main() -> std::process::ExitCode {
+    let args = Args::parse();
+    match compare(&args) {
+        Ok(()) => std::process::ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            std::process::ExitCode::FAILURE
+        }
+    }
+}
+
+fn compare(args: &Args) -> Result<(), String> {
+    let scenes = scenes(&args.scenes)?;
+    let configs = engines::select(&args.engines)?;
+    for config in &configs {
+        eprintln!("building {}", config.name);
+        config.build(usize::from(args.threads))?;
+    }
+    let mut all = Vec::new();
+    for scene in &scenes {
+        let rows = run_scene(args, scene, &configs);
+        if args.json {
+            table::print_json(&rows);
+        } else {
+            table::print_scene(&rows, args.threads);
+        }
+        all.extend(rows);
+    }
+    if !args.json && scenes.len() > 1 {
+        table::print_means(&configs, &all);
+    }
+    Ok(())
+}
+
+/// The scenes that the words of the command line stand for.
+fn scenes(words: &[String]) -> Result<Vec<&'static str>, String> {
+    if words.is_empty() {
+        return peers_worker::resolve("benchmark");
+    }
+    let mut names = Vec::new();
+    for word in words {
+        names.extend(peers_worker::resolve(word)?);
+    }
+    Ok(names)
+}
+
+/// All engines on one scene, interleaved; engines that cannot run it are left out, with a word.
+fn run_scene(args: &Args, scene: &str, configs: &[Config]) -> Vec<Row> {
+    let job = |setting: &str| Job {
+        scene: scene.to_owned(),
+        threads: usize::from(args.threads),
+        steps: args.steps,
+        setting: setting.to_owned(),
+    };
+    let mut reports: Vec<Vec<Report>> = vec![Vec::new(); configs.len()];
+    let mut failed = vec![false; configs.len()];
+    for round in 1..=args.repeat {
+        for (i, config) in configs.iter().enumerate() {
+            if failed[i] {
+                continue;
+            }
+            eprintln!("{scene}, {round} of {}: {}", args.repeat, config.name);
+            match launch::run(&config.program(usize::from(args.threads)), &job(config.setting)) {
+                Ok(report) => reports[i].push(report),
+                Err(message) => {
+                    eprintln!("{scene}: {} is left out: {message}", config.name);
+                    failed[i] = true;
+                }
+            }
+        }
+    }
+    let runs = configs.iter().zip(reports).filter(|(_, reports)| !reports.is_empty());
+    table::rows(scene, usize::from(args.threads), runs)
+}

@@ -1,0 +1,182 @@
+//! Rows of results, their ratios, and how they are printed.
+
+use crate::engines::Config;
+use crate::honesty;
+use peers_worker::{Report, Summary, percentile};
+use serde::Serialize;
+
+/// One engine on one scene: medians over the repeats.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// Scene.
+    pub scene: String,
+    /// Engine and version.
+    pub engine: String,
+    /// Configuration.
+    pub config: String,
+    /// Threads allowed.
+    pub threads: usize,
+    /// Mean CPU time of a step, all threads together, milliseconds.
+    pub cpu_ms: f64,
+    /// Mean wall time of a step, milliseconds.
+    pub wall_ms: f64,
+    /// 99th percentile of a step, milliseconds: CPU time with one thread, wall time with several.
+    pub p99_ms: f64,
+    /// This row's time over the reference's, which is ours where we ran: CPU time with one thread,
+    /// wall time with several. Above 1: the reference is faster.
+    pub ratio: f64,
+    /// Name of the engine that ratios refer to.
+    pub reference: String,
+    /// Least and greatest of the repeats' mean CPU times, milliseconds.
+    pub cpu_range_ms: [f64; 2],
+    /// Timed steps of a run.
+    pub steps: u32,
+    /// Runs.
+    pub repeat: usize,
+    /// Time to build the world, milliseconds.
+    pub build_ms: f64,
+    /// Peak memory of the process, mebibytes.
+    pub peak_mib: f64,
+    /// Compiler flags and lanes.
+    pub build: String,
+    /// The world after the last step.
+    #[serde(flatten)]
+    pub end: Summary,
+    /// Where that differs from the reference's by more than the bounds.
+    pub differs: Vec<String>,
+    /// Name of the configuration.
+    #[serde(skip)]
+    name: &'static str,
+}
+
+impl Row {
+    fn new(scene: &str, threads: usize, config: &Config, reports: &[Report]) -> Self {
+        let median = |part: fn(&Report) -> f64| {
+            percentile(&reports.iter().map(part).collect::<Vec<_>>(), 0.5)
+        };
+        let mut cpu: Vec<f64> = reports.iter().map(|report| report.cpu_ms).collect();
+        cpu.sort_by(f64::total_cmp);
+        let first = &reports[0];
+        Self {
+            scene: scene.to_owned(),
+            engine: first.engine.clone(),
+            config: config.config.to_owned(),
+            threads,
+            cpu_ms: median(|report| report.cpu_ms),
+            wall_ms: median(|report| report.wall_ms),
+            p99_ms: if threads > 1 {
+                median(|report| report.wall_p99_ms)
+            } else {
+                median(|report| report.cpu_p99_ms)
+            },
+            ratio: 1.0,
+            reference: String::new(),
+            cpu_range_ms: [cpu[0], cpu[cpu.len() - 1]],
+            steps: first.steps,
+            repeat: reports.len(),
+            build_ms: median(|report| report.build_ms),
+            peak_mib: median(|report| report.peak_mib),
+            build: first.build.clone(),
+            end: first.end,
+            differs: Vec::new(),
+            name: config.name,
+        }
+    }
+
+    /// What is compared.
+    fn time_ms(&self) -> f64 {
+        if self.threads > 1 { self.wall_ms } else { self.cpu_ms }
+    }
+}
+
+/// The rows of a scene, with ratios to the first of them and differences from it.
+pub fn rows<'a>(
+    scene: &str,
+    threads: usize,
+    runs: impl Iterator<Item = (&'a Config, Vec<Report>)>,
+) -> Vec<Row> {
+    let mut rows: Vec<Row> =
+        runs.map(|(config, reports)| Row::new(scene, threads, config, &reports)).collect();
+    let Some(reference) = rows.first().cloned() else { return rows };
+    for row in &mut rows {
+        row.ratio = row.time_ms() / reference.time_ms();
+        row.reference = reference.name.to_owned();
+        row.differs = honesty::differences(&row.end, &reference.end);
+    }
+    rows
+}
+
+/// Prints rows as JSON, an object a line.
+pub fn print_json(rows: &[Row]) {
+    for row in rows {
+        match serde_json::to_string(row) {
+            Ok(line) => println!("{line}"),
+            Err(error) => eprintln!("a row cannot be written: {error}"),
+        }
+    }
+}
+
+/// Prints a scene's rows as a table, with notes on what differs.
+pub fn print_scene(rows: &[Row], threads: u16) {
+    let Some(first) = rows.first() else { return };
+    let plural = if threads == 1 { "" } else { "s" };
+    println!(
+        "\n{}: {} timed steps, median of {}, {threads} thread{plural}, ratio to {}",
+        first.scene, first.steps, first.repeat, first.reference,
+    );
+    println!(
+        "{:14}{:>9}{:>9}{:>9}{:>8}  |{:>8}{:>8}{:>9}{:>8}{:>10}{:>12}{:>9}{:>8}",
+        "engine",
+        "cpu ms",
+        "wall ms",
+        "p99 ms",
+        "ratio",
+        "bodies",
+        "joints",
+        "contacts",
+        "awake",
+        "height m",
+        "energy J",
+        "deepest",
+        "MiB",
+    );
+    for row in rows {
+        let end = &row.end;
+        println!(
+            "{:14}{:9.3}{:9.3}{:9.3}{:8.2}  |{:8}{:8}{:9}{:8}{:10.3}{:>12.3e}{:9.4}{:8.0}{}",
+            row.name,
+            row.cpu_ms,
+            row.wall_ms,
+            row.p99_ms,
+            row.ratio,
+            end.bodies,
+            end.joints,
+            end.contacts,
+            end.awake,
+            end.height,
+            end.energy,
+            end.overlap,
+            row.peak_mib,
+            if row.differs.is_empty() { "" } else { "  *" },
+        );
+    }
+    for row in rows.iter().filter(|row| !row.differs.is_empty()) {
+        println!("  * {} differs from {}: {}", row.name, row.reference, row.differs.join(", "));
+    }
+}
+
+/// Prints, for each engine, the geometric mean of its ratios over all scenes, and the least.
+pub fn print_means(configs: &[Config], rows: &[Row]) {
+    println!("\ngeometric mean of the ratios, and the least");
+    for config in configs {
+        let own: Vec<&Row> = rows.iter().filter(|row| row.name == config.name).collect();
+        let least = own.iter().min_by(|a, b| a.ratio.total_cmp(&b.ratio));
+        if let Some(least) = least {
+            let logs: f64 = own.iter().map(|row| row.ratio.ln()).sum();
+            let mean = (logs / own.len() as f64).exp();
+            let (name, count) = (config.name, own.len());
+            println!("{name:14}{mean:8.2}{:8.2} ({}), {count} scenes", least.ratio, least.scene);
+        }
+    }
+    println!("{}", honesty::bounds());
+}

@@ -1,0 +1,88 @@
+//! What an engine must offer to run a scene.
+
+use serde::{Deserialize, Serialize};
+use tiny_physics::{Settings, Vec2};
+use tiny_physics_scenes::Host;
+
+/// An engine that scenes can be built in and stepped.
+pub trait Engine: Host + Sized {
+    /// An empty world. `setting` is what [`Job::setting`](crate::Job::setting) says.
+    ///
+    /// # Errors
+    /// A setting that the engine does not know or that the machine lacks, a build that must not be
+    /// measured.
+    fn create(
+        gravity: Vec2,
+        settings: &Settings,
+        threads: usize,
+        setting: &str,
+    ) -> Result<Self, String>;
+
+    /// The world now.
+    fn summary(&self) -> Summary;
+
+    /// Engine and version.
+    fn name() -> String;
+
+    /// How it was compiled, in words.
+    fn build(&self) -> String;
+}
+
+/// Figures of a world that show whether two engines simulated the same thing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Bodies of all kinds.
+    pub bodies: usize,
+    /// Joints.
+    pub joints: usize,
+    /// Pairs of shapes with at least one contact point.
+    pub contacts: usize,
+    /// Depth of the deepest of their points, metres; 0 where nothing overlaps. An engine that keeps a
+    /// contact as it was, because its bodies hardly moved, tells the depth of then.
+    pub overlap: f64,
+    /// Dynamic bodies that are awake.
+    pub awake: usize,
+    /// Mean height of the centres of mass of the dynamic bodies, metres.
+    pub height: f64,
+    /// Kinetic energy of the dynamic bodies, joules, turning included.
+    pub energy: f64,
+}
+
+impl Summary {
+    /// Adds up the dynamic bodies of a world; what is known of contacts and joints stays 0.
+    pub fn of_bodies(bodies: impl Iterator<Item = BodyState>) -> Self {
+        let mut sum = Self::default();
+        let mut dynamic_count = 0_usize;
+        for body in bodies {
+            sum.bodies += 1;
+            if !body.dynamic {
+                continue;
+            }
+            dynamic_count += 1;
+            sum.awake += usize::from(body.awake);
+            sum.height += body.height;
+            sum.energy += 0.5 * (body.mass * body.speed_sq + body.inertia * body.spin * body.spin);
+        }
+        sum.height /= dynamic_count.max(1) as f64;
+        sum
+    }
+}
+
+/// What [`Summary::of_bodies`] wants to know about a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyState {
+    /// Is it moved by forces?
+    pub dynamic: bool,
+    /// Is it awake?
+    pub awake: bool,
+    /// Height of the centre of mass, metres.
+    pub height: f64,
+    /// Kilograms.
+    pub mass: f64,
+    /// About the centre of mass, kilograms square metre.
+    pub inertia: f64,
+    /// Square of the speed of the centre of mass, m2/s2.
+    pub speed_sq: f64,
+    /// Radians a second.
+    pub spin: f64,
+}

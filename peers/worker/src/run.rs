@@ -1,0 +1,76 @@
+//! A timed run.
+//!
+//! The protocol is that of Box2D's own benchmark program: the world and the scene are built outside
+//! the clock, one step is made unclocked, then every further step is timed, what the scene does
+//! before it (spawning, removing) included.
+
+use crate::clock::{Stopwatch, mean, peak_mib, percentile};
+use crate::{Answer, Engine, Job, Report};
+use std::time::Instant;
+use tiny_physics_scenes::{Options, Player, all, find, tags};
+
+/// Reads one job from standard input, runs it in the engine `E`, and prints the answer.
+pub fn serve<E: Engine>() {
+    let answer = read_job().and_then(|job| run::<E>(&job));
+    let answer = answer.map_or_else(Answer::Failed, Answer::Done);
+    match serde_json::to_string(&answer) {
+        Ok(line) => println!("{line}"),
+        Err(error) => eprintln!("cannot write the answer: {error}"),
+    }
+}
+
+fn read_job() -> Result<Job, String> {
+    let mut line = String::new();
+    std::io::stdin()
+        .read_line(&mut line)
+        .map_err(|error| format!("cannot read the job: {error}"))?;
+    serde_json::from_str(&line).map_err(|error| format!("cannot understand the job: {error}"))
+}
+
+/// The names of the scenes that a word stands for: a scene's own name, or a tag such as `box2d`,
+/// `benchmark` or `show` for all scenes with it but the huge ones.
+///
+/// # Errors
+/// It is neither.
+pub fn resolve(word: &str) -> Result<Vec<&'static str>, String> {
+    let tagged =
+        all().iter().filter(|e| e.has_tag(word) && (word == tags::HUGE || !e.has_tag(tags::HUGE)));
+    let names: Vec<_> = tagged.map(|entry| entry.name).collect();
+    if !names.is_empty() {
+        return Ok(names);
+    }
+    find(word).map(|entry| vec![entry.name]).map_err(|error| error.to_string())
+}
+
+fn run<E: Engine>(job: &Job) -> Result<Report, String> {
+    let entry = find(&job.scene).map_err(|error| error.to_string())?;
+    let scene = entry.build(Options::default());
+    let start = Instant::now();
+    let engine = E::create(scene.gravity, &scene.settings, job.threads, &job.setting)?;
+    let mut player = Player::new(&scene, engine);
+    let build_ms = start.elapsed().as_secs_f64() * 1e3;
+
+    player.step();
+    let steps = job.steps.unwrap_or(scene.steps).saturating_sub(1).max(1);
+    let (mut cpu_ms, mut wall_ms) = (Vec::new(), Vec::new());
+    for _ in 0..steps {
+        let watch = Stopwatch::start();
+        player.step();
+        let (cpu, wall) = watch.elapsed_ms();
+        cpu_ms.push(cpu);
+        wall_ms.push(wall);
+    }
+    let engine = player.host();
+    Ok(Report {
+        engine: E::name(),
+        build: engine.build(),
+        steps,
+        cpu_ms: mean(&cpu_ms),
+        wall_ms: mean(&wall_ms),
+        cpu_p99_ms: percentile(&cpu_ms, 0.99),
+        wall_p99_ms: percentile(&wall_ms, 0.99),
+        build_ms,
+        peak_mib: peak_mib(),
+        end: engine.summary(),
+    })
+}
