@@ -644,6 +644,44 @@ fn what_sleeps_wakes_when_touched_pushed_moved_or_robbed_of_its_floor() {
     assert!(world.body(lower).unwrap().is_awake(), "a touch wakes the island");
 }
 
+#[test]
+fn a_lift_that_starts_carries_what_sleeps_on_it() {
+    let mut world = world();
+    let lift = world.add_body(RigidBody::kinematic().shape(rect(2.0, 0.5))).unwrap();
+    let lower = drop_at(&mut world, rect(0.5, 0.5), 0.0, 1.0);
+    let upper = drop_at(&mut world, rect(0.5, 0.5), 0.0, 2.0);
+    steps(&mut world, 300);
+    assert_eq!(world.awake_body_count(), 0);
+    world.body_mut(lift).unwrap().set_velocity(Vec2::new(0.0, 1.0));
+    steps(&mut world, 60);
+    for (id, height) in [(lower, 2.0), (upper, 3.0)] {
+        let y = position(&world, id).y;
+        assert!((y - height).abs() < 0.02, "{id} is at {y}, not at {height}");
+    }
+    world.body_mut(lift).unwrap().set_velocity(Vec2::ZERO);
+    steps(&mut world, 300);
+    assert_eq!(world.awake_body_count(), 0, "a lift that stands lets them sleep again");
+}
+
+#[test]
+fn a_body_put_to_sleep_takes_its_island_along() {
+    let mut world = world_with_floor();
+    let stack = [0.5, 1.5, 2.5].map(|y| drop_at(&mut world, rect(0.5, 0.5), 0.0, y));
+    let far = drop_at(&mut world, rect(0.5, 0.5), 5.0, 0.5);
+    let hung = drop_at(&mut world, circle(0.2), 8.0, 0.2);
+    world.add_joint(stack[0], hung, JointDef::distance(8.0)).unwrap();
+    steps(&mut world, 10);
+    world.body_mut(stack[1]).unwrap().sleep();
+    for id in [stack[0], stack[1], stack[2], hung] {
+        assert!(!world.body(id).unwrap().is_awake(), "{id}");
+    }
+    assert!(world.body(far).unwrap().is_awake());
+    let before = stack.map(|id| position(&world, id));
+    steps(&mut world, 20);
+    world.validate().unwrap();
+    assert_eq!(stack.map(|id| position(&world, id)), before);
+}
+
 // Lightness.
 
 #[test]

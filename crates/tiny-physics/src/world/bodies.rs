@@ -1,11 +1,15 @@
 //! Bodies as the user sees them.
 
 use super::World;
+use super::build::MAX_COORDINATE;
 use super::ids::{BodyId, ShapeId};
 use crate::describe::BodyKind;
-use crate::dynamics::{BodyInfo, NULL};
+use crate::dynamics::BodyInfo;
 use crate::math::{DVec2, Pose, Rot, Vec2};
-use crate::stages::finalize;
+use crate::stages::{finalize, sleep};
+
+/// Velocities, forces, impulses beyond this are refused, in any unit.
+const MAX_NUMBER: f32 = 1.0e15;
 
 /// A body of the world, to read.
 #[derive(Clone, Copy)]
@@ -114,7 +118,7 @@ impl<'a> Body<'a> {
 }
 
 /// A body of the world, to change. Every change wakes it and its island; numbers that are not finite,
-/// or would make something not finite, are refused by doing nothing.
+/// or so large that calculating with them would leave 32 bits, are refused by doing nothing.
 pub struct BodyMut<'a> {
     world: &'a mut World,
     index: u32,
@@ -130,13 +134,13 @@ impl BodyMut<'_> {
         &mut self.world.bodies.infos[self.index as usize]
     }
 
-    /// Wakes it if all numbers are finite, and says whether to go on.
+    /// Wakes it if all numbers are acceptable, and says whether to go on.
     fn accept(&mut self, numbers: &[f32]) -> bool {
-        let finite = numbers.iter().all(|n| n.is_finite());
-        if finite {
+        let acceptable = numbers.iter().all(|n| n.abs() <= MAX_NUMBER);
+        if acceptable {
             self.world.wake_index(self.index);
         }
-        finite
+        acceptable
     }
 
     /// Does the solver move it?
@@ -160,7 +164,8 @@ impl BodyMut<'_> {
 
     /// Puts its frame somewhere else at once.
     pub fn set_pose(&mut self, pose: Pose) {
-        if !pose.is_finite() {
+        let (x, y) = (pose.p.x.abs(), pose.p.y.abs());
+        if !pose.is_finite() || x > MAX_COORDINATE || y > MAX_COORDINATE {
             return;
         }
         let (world, index) = (&mut *self.world, self.index);
@@ -248,12 +253,13 @@ impl BodyMut<'_> {
         self.world.wake_index(self.index);
     }
 
-    /// Puts it to sleep, alone if its island is awake. What touches it wakes it again.
+    /// Puts it to sleep with all that it touches or is joined to. What comes to touch them wakes them.
+    /// Nothing happens while a kinematic body that is awake is among what they touch.
     pub fn sleep(&mut self) {
-        let info = self.info();
-        if info.awake && info.kind != BodyKind::Static {
-            let index = self.index;
-            self.world.put_to_sleep(&[index, NULL]);
+        if self.info().awake {
+            let World { bodies, contacts, joints, .. } = &*self.world;
+            let island = sleep::island_of(self.index, bodies, contacts, joints);
+            self.world.put_to_sleep(&island);
         }
     }
 
@@ -324,6 +330,20 @@ impl World {
             .map(|(contact, _)| &self.contacts.records[contact as usize])
             .filter(|contact| contact.touching)
             .map(|contact| if contact.body_a == index { contact.body_b } else { contact.body_a })
+            .collect();
+        for other in others {
+            self.wake_index(other);
+        }
+    }
+
+    /// Wakes the islands of bodies that are joined to this one.
+    pub(super) fn wake_joined(&mut self, index: u32) {
+        let first = self.bodies.infos[index as usize].first_joint;
+        let others: Vec<u32> = self
+            .joints
+            .of_body(first)
+            .map(|(joint, _)| &self.joints.records[joint as usize])
+            .map(|joint| if joint.body_a == index { joint.body_b } else { joint.body_a })
             .collect();
         for other in others {
             self.wake_index(other);

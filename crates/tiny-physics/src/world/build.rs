@@ -13,7 +13,7 @@ use crate::simd::Row;
 use crate::stages::finalize;
 
 /// Coordinates beyond this are refused: 64-bit positions would lose millimetres.
-const MAX_COORDINATE: f64 = 1.0e12;
+pub(super) const MAX_COORDINATE: f64 = 1.0e12;
 /// Masses and densities outside of this are refused: products with them would leave 32 bits.
 const MASSES: core::ops::RangeInclusive<f32> = 1.0e-9..=1.0e12;
 
