@@ -2,9 +2,7 @@
 
 use crate::host::{Host, Player};
 use crate::scene::Scene;
-use tiny_physics::{
-    BodyId, DVec2, Error, JointDef, JointId, RigidBody, Settings, Vec2, World,
-};
+use tiny_physics::{BodyId, DVec2, Error, JointDef, JointId, RigidBody, Settings, Vec2, World};
 
 /// A scene that runs in a [`World`].
 ///

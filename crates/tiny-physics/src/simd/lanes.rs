@@ -3,8 +3,10 @@
 use crate::threads::SharedRows;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-use fearless_simd::{Avx2, Avx512, f32x8, f32x16};
-use fearless_simd::{Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, f32x4};
+use fearless_simd::{Avx2, Avx512};
+use fearless_simd::{
+    Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, f32x4, f32x8, f32x16,
+};
 
 /// Lanes in one storage block: the widest level. Narrower levels walk a block in several strides, so
 /// the data layout does not depend on the level.
@@ -311,6 +313,49 @@ fn write_rows<S: Simd>(values: [f32x4<S>; 4], rows: SharedRows<'_>, indices: &[u
     }
 }
 
+/// Half of row `i`, from float `AT` on.
+#[inline(always)]
+fn half_row<const AT: usize, S: Simd>(
+    token: S,
+    rows: impl RowSource,
+    indices: &[u32],
+    i: usize,
+) -> f32x4<S> {
+    f32x4::from_slice(token, &rows.read(indices[i])[AT..AT + 4])
+}
+
+/// Halves of rows `i` and `i + 4` side by side.
+#[inline(always)]
+fn half_rows_8<const AT: usize, S: Simd>(
+    token: S,
+    rows: impl RowSource,
+    indices: &[u32],
+    i: usize,
+) -> f32x8<S> {
+    half_row::<AT, S>(token, rows, indices, i).combine(half_row::<AT, S>(
+        token,
+        rows,
+        indices,
+        i + 4,
+    ))
+}
+
+/// Halves of rows `i`, `i + 4`, `i + 8` and `i + 12` side by side.
+#[inline(always)]
+fn half_rows_16<const AT: usize, S: Simd>(
+    token: S,
+    rows: impl RowSource,
+    indices: &[u32],
+    i: usize,
+) -> f32x16<S> {
+    half_rows_8::<AT, S>(token, rows, indices, i).combine(half_rows_8::<AT, S>(
+        token,
+        rows,
+        indices,
+        i + 8,
+    ))
+}
+
 /// Eight lanes: AVX2.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 impl Lanes for f32x8<Avx2> {
@@ -320,17 +365,20 @@ impl Lanes for f32x8<Avx2> {
 
     #[inline(always)]
     fn gather(token: Avx2, rows: impl RowSource, indices: &[u32]) -> [Self; 8] {
-        let indices = &indices[..8];
-        let low = |i: usize| {
-            let (a, b) = (rows.read(indices[i]), rows.read(indices[i + 4]));
-            f32x4::from_slice(token, &a[..4]).combine(f32x4::from_slice(token, &b[..4]))
-        };
-        let high = |i: usize| {
-            let (a, b) = (rows.read(indices[i]), rows.read(indices[i + 4]));
-            f32x4::from_slice(token, &a[4..]).combine(f32x4::from_slice(token, &b[4..]))
-        };
-        let [a, b, c, d] = transpose4_in_blocks_avx2(token, low(0), low(1), low(2), low(3));
-        let [e, f, g, h] = transpose4_in_blocks_avx2(token, high(0), high(1), high(2), high(3));
+        let [a, b, c, d] = transpose4_in_blocks_avx2(
+            token,
+            half_rows_8::<0, _>(token, rows, indices, 0),
+            half_rows_8::<0, _>(token, rows, indices, 1),
+            half_rows_8::<0, _>(token, rows, indices, 2),
+            half_rows_8::<0, _>(token, rows, indices, 3),
+        );
+        let [e, f, g, h] = transpose4_in_blocks_avx2(
+            token,
+            half_rows_8::<4, _>(token, rows, indices, 0),
+            half_rows_8::<4, _>(token, rows, indices, 1),
+            half_rows_8::<4, _>(token, rows, indices, 2),
+            half_rows_8::<4, _>(token, rows, indices, 3),
+        );
         [a, b, c, d, e, f, g, h]
     }
 
@@ -383,27 +431,19 @@ impl Lanes for f32x16<Avx512> {
 
     #[inline(always)]
     fn gather(token: Avx512, rows: impl RowSource, indices: &[u32]) -> [Self; 8] {
-        let indices = &indices[..16];
-        let quarter =
-            |i: usize, at: usize| f32x4::from_slice(token, &rows.read(indices[i])[at..at + 4]);
-        let column = |i: usize, at: usize| {
-            quarter(i, at)
-                .combine(quarter(i + 4, at))
-                .combine(quarter(i + 8, at).combine(quarter(i + 12, at)))
-        };
         let [a, b, c, d] = transpose4_in_blocks_avx512(
             token,
-            column(0, 0),
-            column(1, 0),
-            column(2, 0),
-            column(3, 0),
+            half_rows_16::<0, _>(token, rows, indices, 0),
+            half_rows_16::<0, _>(token, rows, indices, 1),
+            half_rows_16::<0, _>(token, rows, indices, 2),
+            half_rows_16::<0, _>(token, rows, indices, 3),
         );
         let [e, f, g, h] = transpose4_in_blocks_avx512(
             token,
-            column(0, 4),
-            column(1, 4),
-            column(2, 4),
-            column(3, 4),
+            half_rows_16::<4, _>(token, rows, indices, 0),
+            half_rows_16::<4, _>(token, rows, indices, 1),
+            half_rows_16::<4, _>(token, rows, indices, 2),
+            half_rows_16::<4, _>(token, rows, indices, 3),
         );
         [a, b, c, d, e, f, g, h]
     }

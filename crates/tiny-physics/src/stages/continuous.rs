@@ -16,7 +16,7 @@ use core::ops::ControlFlow;
 pub(crate) fn run(
     fast: &[FastBody],
     bodies: &mut Bodies,
-    shapes: &Shapes,
+    shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
 ) {
@@ -33,7 +33,7 @@ pub(crate) fn run(
 fn sweep(
     fast: &FastBody,
     bodies: &mut Bodies,
-    shapes: &Shapes,
+    shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
 ) {

@@ -174,7 +174,7 @@ impl BodyMut<'_> {
         world.bodies.set_origin_pose(index, pose.p, pose.q.normalized());
         finalize::update_boxes(
             &world.bodies,
-            &world.shapes,
+            &mut world.shapes,
             &mut world.broad_phase,
             index,
             Vec2::ZERO,

@@ -272,7 +272,9 @@ impl World {
                 margin,
             };
             let tight = finalize::shape_box(&self.shapes, shape, pose);
-            self.shapes.records[shape as usize].proxy = self.broad_phase.create_proxy(def, tight).0;
+            let proxy = self.broad_phase.create_proxy(def, tight);
+            self.shapes.records[shape as usize].proxy = proxy.0;
+            self.shapes.fat[shape as usize] = self.broad_phase.fat_aabb(proxy).unwrap_or(tight);
         }
     }
 

@@ -218,6 +218,7 @@ impl World {
             poses: &self.bodies.poses,
             shape_rows: &self.shapes.rows,
             shapes: &self.shapes.records,
+            infos: (self.joint_graph.count() > 0).then_some(&self.bodies.infos),
             speculative_distance: SPECULATIVE_DISTANCE * self.settings.length_unit,
         };
         (context, &mut self.graph)
@@ -259,10 +260,12 @@ impl World {
         self.prepare_joints(team, lengths.h);
         integrate::prepare(team, &mut self.bodies, self.gravity, lengths.h);
         let max_speed = self.settings.max_speed * self.settings.length_unit;
-        for _ in 0..lengths.substeps {
-            integrate::velocities(team, &mut self.bodies);
+        for substep in 0..lengths.substeps {
+            let first = substep == 0;
+            integrate::velocities(team, &mut self.bodies, first);
             self.solve_joints(team, joint_solver::Pass::WarmStart);
-            self.solve_contacts(team, Pass::WarmStart, &parameters);
+            let warm_start = if first { Pass::WarmStart } else { Pass::WarmStartJointed };
+            self.solve_contacts(team, warm_start, &parameters);
             for _ in 0..lengths.iterations {
                 self.solve_joints(team, joint_solver::Pass::Solve);
                 self.solve_contacts(team, Pass::Solve, &parameters);
@@ -292,6 +295,9 @@ impl World {
 
     /// Runs one pass over all contacts: the overflow one by one, then colour by colour.
     fn solve_contacts(&mut self, team: &Team, pass: Pass, parameters: &Parameters) {
+        if pass == Pass::WarmStartJointed && self.joint_graph.count() == 0 {
+            return;
+        }
         let rows = SharedRows::new(&mut self.bodies.rows);
         let (colours, rest) = self.graph.buckets.split_at_mut(OVERFLOW);
         for (bucket, class) in rest[0].iter_mut().zip(PairClass::ALL) {

@@ -77,7 +77,7 @@ impl Rig {
 
     fn step(&mut self) {
         let h = self.dt / self.substeps as f32;
-        integrate::prepare(&mut self.bodies, self.gravity, h);
+        integrate::prepare(&Team::alone(), &mut self.bodies, self.gravity, h);
         describe(&mut self.graph, &self.joints, &self.bodies.infos, h);
         for colour in &mut self.graph.colours {
             for blocks in colour.runs(2) {
@@ -85,12 +85,12 @@ impl Rig {
             }
         }
         for _ in 0..self.substeps {
-            integrate::velocities(&mut self.bodies);
+            integrate::velocities(&Team::alone(), &mut self.bodies, true);
             self.pass(Pass::WarmStart);
             for _ in 0..self.iterations {
                 self.pass(Pass::Solve);
             }
-            integrate::positions(&mut self.bodies, h, 400.0);
+            integrate::positions(&Team::alone(), &mut self.bodies, h, 400.0);
             for _ in 0..self.iterations {
                 self.pass(Pass::Relax);
             }
