@@ -1,11 +1,12 @@
 //! Every joint against its formula.
 
 use super::*;
-use crate::describe::{BodyKind, JointKind, Spring};
+use crate::describe::BodyKind;
 use crate::dynamics::{Bodies, BodyInfo, JointRecord, Slot};
 use crate::math::{DVec2, Rot};
 use crate::stages::integrate;
-use core::f64::consts::{PI, TAU};
+use crate::threads::Team;
+use core::f64::consts::TAU;
 
 const G: f32 = 10.0;
 
