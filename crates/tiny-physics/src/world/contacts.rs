@@ -3,6 +3,7 @@
 use super::World;
 use super::events::{ContactBegin, ContactEnd};
 use super::ids::{BodyId, ShapeId};
+use crate::describe::BodyKind;
 use crate::dynamics::{Bucket, NULL, OVERFLOW, Place};
 use crate::math::{DVec2, Vec2};
 use crate::simd::BLOCK;
@@ -132,8 +133,7 @@ impl World {
             let (shape_a, shape_b) = (self.shape_id(shape_a), self.shape_id(shape_b));
             self.events.contact_begin.push(ContactBegin { shape_a, shape_b });
         }
-        self.wake_index(body_a);
-        self.wake_index(body_b);
+        self.wake_dynamic([body_a, body_b]);
         if self.contacts.records[index as usize].place == Place::Asleep {
             self.graph.insert(&mut self.bodies, &mut self.contacts, index);
         }
@@ -149,8 +149,7 @@ impl World {
                 let end = self.end_event(index);
                 self.events.pending_end.push(end);
             }
-            self.wake_index(body_a);
-            self.wake_index(body_b);
+            self.wake_dynamic([body_a, body_b]);
         }
         self.graph.remove(&mut self.bodies, &mut self.contacts, index);
         self.contacts.remove(&mut self.bodies, index);
@@ -164,8 +163,19 @@ impl World {
         }
     }
 
-    /// Wakes the island of a body.
+    /// Wakes those of the bodies that are dynamic. A kinematic body that sleeps stands still, and may go on.
+    fn wake_dynamic(&mut self, bodies: [u32; 2]) {
+        for index in bodies {
+            if self.bodies.is_dynamic(index) {
+                self.wake_index(index);
+            }
+        }
+    }
+
+    /// Wakes the island of a body; with a kinematic body, also what rests on it or hangs on it.
     pub(super) fn wake_index(&mut self, index: u32) {
+        let info = &self.bodies.infos[index as usize];
+        let starts_to_carry = info.kind == BodyKind::Kinematic && !info.awake;
         sleep::wake(
             index,
             &mut self.bodies,
@@ -174,6 +184,10 @@ impl World {
             &mut self.joints,
             &mut self.joint_graph,
         );
+        if starts_to_carry {
+            self.wake_neighbours(index);
+            self.wake_joined(index);
+        }
     }
 
     /// Puts islands (each ended by NULL) to sleep.
