@@ -11,6 +11,7 @@ mod joint_blocks;
 mod joint_graph;
 mod joints;
 mod pair_table;
+mod sensors;
 mod shapes;
 
 pub(crate) use blocks::{
@@ -23,4 +24,5 @@ pub(crate) use joint_blocks::*;
 pub(crate) use joint_graph::{JOINT_OVERFLOW, JointBlocks, JointBucket, JointGraph};
 pub(crate) use joints::{JointLoad, JointPlace, JointRecord, Joints};
 pub(crate) use pair_table::PairTable;
+pub(crate) use sensors::{Overlap, Sensors};
 pub(crate) use shapes::{ShapeRecord, Shapes};
