@@ -28,7 +28,7 @@ pub(crate) fn seed_demo(options: Options) -> Scene {
             aabb(half_width, random.range(0.3, 0.7))
         };
         let mut body = RigidBody::new(shape, place, 1.0);
-        body.shapes[0].material.rolling_resistance = 0.05;
+        body.shapes[0].material.rolling_resistance = 0.2;
         scene.body(body);
     }
     scene

@@ -139,4 +139,8 @@ pub(crate) struct BlockHead {
     pub(crate) touching: u16,
     /// What lanes use, see [`flags`].
     pub(crate) flags: u8,
+    /// Lanes whose body A has joints, as bits, as of the last narrow phase.
+    pub(crate) jointed_a: u16,
+    /// Lanes whose body B has joints.
+    pub(crate) jointed_b: u16,
 }

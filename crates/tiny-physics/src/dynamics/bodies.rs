@@ -35,8 +35,10 @@ pub(crate) struct Motion {
     pub(crate) free: [f32; 3],
 }
 
-/// All of a body that a step does not touch in its inner loops.
+/// All of a body that a step does not touch in its inner loops. What it does touch once a step lies in the
+/// first cache line.
 #[derive(Clone, PartialEq, Debug)]
+#[repr(C, align(64))]
 pub(crate) struct BodyInfo {
     pub(crate) kind: BodyKind,
     pub(crate) alive: bool,
@@ -47,13 +49,6 @@ pub(crate) struct BodyInfo {
     /// Some shape of the body turns with nothing: rotation is locked for good.
     pub(crate) never_turns: bool,
     pub(crate) locks: Locks,
-    pub(crate) generation: u32,
-    /// Centre of mass in the body's frame.
-    pub(crate) local_center: Vec2,
-    pub(crate) mass: f32,
-    pub(crate) inertia: f32,
-    /// Mass given by the user, if any.
-    pub(crate) fixed_mass: Option<f32>,
     pub(crate) force: Vec2,
     pub(crate) torque: f32,
     pub(crate) gravity_scale: f32,
@@ -67,11 +62,18 @@ pub(crate) struct BodyInfo {
     /// Greatest distance of a point of a shape from the centre of mass.
     pub(crate) max_extent: f32,
     pub(crate) first_shape: u32,
+    /// First joint edge: joint index * 2 + side.
+    pub(crate) first_joint: u32,
+    /// Centre of mass in the body's frame.
+    pub(crate) local_center: Vec2,
+    pub(crate) mass: f32,
+    pub(crate) inertia: f32,
+    /// Mass given by the user, if any.
+    pub(crate) fixed_mass: Option<f32>,
+    pub(crate) generation: u32,
     pub(crate) shape_count: u32,
     /// First contact edge: contact index * 2 + side.
     pub(crate) first_contact: u32,
-    /// First joint edge: joint index * 2 + side.
-    pub(crate) first_joint: u32,
     /// Colours of the constraint graph that its contacts use, as bits.
     pub(crate) contact_colours: u32,
     /// Colours that its joints use, as bits.
@@ -80,6 +82,8 @@ pub(crate) struct BodyInfo {
     pub(crate) island_next: u32,
     pub(crate) user_data: u64,
 }
+
+const _: () = assert!(core::mem::offset_of!(BodyInfo, local_center) <= 64);
 
 impl Default for BodyInfo {
     fn default() -> Self {
@@ -130,6 +134,8 @@ pub(crate) struct Bodies {
     /// or were placed by the user.
     pub(crate) previous: Vec<Pose>,
     pub(crate) motions: Vec<Motion>,
+    /// Velocity before the impulses of the substep, and whether (1 or 0) those are carried into the next.
+    pub(crate) starts: Vec<[f32; 4]>,
     pub(crate) infos: Vec<BodyInfo>,
     /// Moving (dynamic or kinematic) bodies that are awake and enabled, ascending.
     pub(crate) awake: Vec<u32>,
@@ -146,6 +152,7 @@ impl Bodies {
             poses: vec![Pose::default()],
             previous: vec![Pose::default()],
             motions: vec![Motion::default()],
+            starts: vec![[0.0; 4]],
             infos: vec![BodyInfo::default()],
             awake: Vec::new(),
             awake_unsorted: false,
@@ -183,6 +190,7 @@ impl Bodies {
             self.previous.push(pose);
             self.rows.push([0.0; 8]);
             self.motions.push(Motion::default());
+            self.starts.push([0.0; 4]);
             self.infos.len() as u32 - 1
         }
     }

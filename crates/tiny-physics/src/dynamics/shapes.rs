@@ -5,36 +5,39 @@ use crate::broad_phase::ProxyId;
 use crate::describe::{Filter, Material};
 use crate::geometry::Shape;
 use crate::geometry::manifold::ShapeClass;
-use crate::math::{Transform, Vec2};
+use crate::math::{Aabb, Transform, Vec2};
 use crate::simd::Row;
 
-/// One shape of a body.
+/// One shape of a body. What a step touches lies in the first cache line.
 #[derive(Clone, PartialEq, Debug)]
+#[repr(C, align(64))]
 pub(crate) struct ShapeRecord {
-    pub(crate) alive: bool,
-    pub(crate) generation: u32,
     pub(crate) body: u32,
+    /// Next shape of the body.
+    pub(crate) next: u32,
+    /// Leaf in the broad phase; NULL while the body is disabled.
+    pub(crate) proxy: u32,
     pub(crate) class: ShapeClass,
-    /// Geometry in the shape's frame.
-    pub(crate) shape: Shape,
+    pub(crate) alive: bool,
+    pub(crate) sensor: bool,
+    pub(crate) contact_events: bool,
+    pub(crate) hit_events: bool,
+    pub(crate) filter: Filter,
+    pub(crate) generation: u32,
+    pub(crate) material: Material,
     /// Shape's frame in the body's frame.
     pub(crate) local: Transform,
     /// Shape's frame in the frame of the body's centre of mass.
     pub(crate) central: Transform,
     /// Frame of the shape as a rounded box (see [`Shapes::rows`]) in the shape's frame.
     pub(crate) box_frame: Transform,
-    pub(crate) material: Material,
-    pub(crate) filter: Filter,
-    pub(crate) sensor: bool,
     pub(crate) one_way: Option<Vec2>,
-    pub(crate) contact_events: bool,
-    pub(crate) hit_events: bool,
     pub(crate) user_data: u64,
-    /// Leaf in the broad phase; NULL while the body is disabled.
-    pub(crate) proxy: u32,
-    /// Next shape of the body.
-    pub(crate) next: u32,
+    /// Geometry in the shape's frame.
+    pub(crate) shape: Shape,
 }
+
+const _: () = assert!(core::mem::offset_of!(ShapeRecord, material) <= 64);
 
 /// All shapes of a world, by stable index.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -44,6 +47,8 @@ pub(crate) struct Shapes {
     /// place x, y, rotation c, s, half extents x, y, radius, and 1 where this is all there is to the
     /// shape (0 for general polygons, whose row is their own frame and a bounding circle).
     pub(crate) rows: Vec<Row>,
+    /// The fat boxes that the broad phase has, for a quick look.
+    pub(crate) fat: Vec<Aabb>,
     free: Vec<u32>,
     count: usize,
 }
@@ -66,10 +71,12 @@ impl Shapes {
             record.generation = self.records[index as usize].generation;
             self.records[index as usize] = record;
             self.rows[index as usize] = [0.0; 8];
+            self.fat[index as usize] = Aabb::EMPTY;
             index
         } else {
             self.records.push(record);
             self.rows.push([0.0; 8]);
+            self.fat.push(Aabb::EMPTY);
             self.records.len() as u32 - 1
         }
     }
@@ -83,6 +90,12 @@ impl Shapes {
         record.proxy = NULL;
         record.next = NULL;
         self.free.push(index);
+    }
+
+    /// Do the fat boxes of two shapes overlap?
+    #[inline]
+    pub(crate) fn may_touch(&self, a: u32, b: u32) -> bool {
+        self.fat[a as usize].overlaps(&self.fat[b as usize])
     }
 
     /// The leaf of a shape in the broad phase.

@@ -64,7 +64,11 @@ pub(crate) struct Parameters {
 /// One of the passes of a substep (or, for restitution, of the step).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Pass {
+    /// In the first substep: impulses of the step before.
     WarmStart,
+    /// In later substeps: impulses of the substep before, on bodies with joints alone; see
+    /// [`integrate::velocities`](super::integrate::velocities).
+    WarmStartJointed,
     Solve,
     Relax,
     Restitution,
@@ -146,12 +150,23 @@ impl<const POINTS: usize> LaneKernel for Points<POINTS, RunPass<'_>> {
         let RunPass { pass, parameters, rows, blocks } = self.0;
         let constants = Constants::<L>::new(token, parameters);
         for (index, block) in blocks.constraints.iter_mut().enumerate() {
-            let flags = blocks.heads[index].flags;
+            let head = blocks.heads[index];
+            let flags = head.flags;
+            if pass == Pass::WarmStartJointed && head.jointed_a | head.jointed_b == 0 {
+                continue;
+            }
             let surface = &mut blocks.surfaces[index];
             for at in (0..BLOCK).step_by(L::WIDTH) {
                 let stride = Stride { token, rows, at, constants: &constants };
                 match pass {
-                    Pass::WarmStart => warm_start::<L, POINTS>(&stride, block, surface, flags),
+                    Pass::WarmStart => {
+                        warm_start::<L, POINTS>(&stride, block, surface, flags, ALL_BODIES);
+                    }
+                    Pass::WarmStartJointed => {
+                        let jointed =
+                            (u32::from(head.jointed_a) >> at, u32::from(head.jointed_b) >> at);
+                        warm_start::<L, POINTS>(&stride, block, surface, flags, jointed);
+                    }
                     Pass::Solve => solve::<L, POINTS>(&stride, block, surface, flags),
                     Pass::Relax => relax::<L, POINTS>(&stride, block, surface, flags),
                     Pass::Restitution => restitution::<L, POINTS>(&stride, block, surface, flags),
@@ -229,9 +244,15 @@ impl<L: Lanes> Pair<L> {
     /// Writes the velocities back, except to bodies that nothing moves.
     #[inline(always)]
     fn store(self, stride: &Stride<'_, L>, block: &ConstraintBlock) {
+        self.store_only(stride, block, ALL_BODIES);
+    }
+
+    /// The same for the lanes in `only`.
+    #[inline(always)]
+    fn store_only(self, stride: &Stride<'_, L>, block: &ConstraintBlock, only: (u32, u32)) {
         let zero = stride.constants.zero;
         let mask = |body: &[L; 8]| L::bits(zero.lt(body[Slot::INV_MASS] + body[Slot::INV_INERTIA]));
-        let (write_a, write_b) = (mask(&self.a), mask(&self.b));
+        let (write_a, write_b) = (mask(&self.a) & only.0, mask(&self.b) & only.1);
         let half = |body: [L; 8]| [body[0], body[1], body[2], body[3]];
         L::scatter(half(self.a), stride.rows, &block.body_a[stride.at..], write_a);
         L::scatter(half(self.b), stride.rows, &block.body_b[stride.at..], write_b);
@@ -299,13 +320,17 @@ impl<L: Lanes> Pair<L> {
     }
 }
 
-/// Applies the impulses of the substep before.
+/// Lanes whose bodies A and B are written: all that can move.
+const ALL_BODIES: (u32, u32) = (u32::MAX, u32::MAX);
+
+/// Applies the impulses of the substep before to the bodies of the lanes in `only`.
 #[inline(always)]
 fn warm_start<L: Lanes, const POINTS: usize>(
     stride: &Stride<'_, L>,
     block: &mut ConstraintBlock,
     surface: &mut SurfaceBlock,
     flags: u8,
+    only: (u32, u32),
 ) {
     let mut pair = Pair::load(stride, block);
     for point in &block.points[..POINTS] {
@@ -318,7 +343,7 @@ fn warm_start<L: Lanes, const POINTS: usize>(
         let impulse = stride.load(&surface.rolling_impulse);
         roll(&mut pair, impulse);
     }
-    pair.store(stride, block);
+    pair.store_only(stride, block, only);
 }
 
 /// Normal impulses with bias.

@@ -10,15 +10,15 @@ use super::one_way;
 use super::pairs::PairRule;
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes};
-use crate::geometry::{Sweep, ToiState, time_of_impact};
-use crate::math::{Aabb, Pose, Transform, Vec2};
+use crate::geometry::{Shape, Sweep, ToiState, time_of_impact};
+use crate::math::{Aabb, Pose, Rot, Transform, Vec2};
 use core::ops::ControlFlow;
 
 /// Sweeps the fast bodies, bullets last: they see where all others have ended.
 pub(crate) fn run(
     fast: &mut [FastBody],
     bodies: &mut Bodies,
-    shapes: &Shapes,
+    shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
     custom: Option<&dyn PairRule>,
@@ -36,7 +36,7 @@ pub(crate) fn run(
 fn sweep(
     fast: &mut FastBody,
     bodies: &mut Bodies,
-    shapes: &Shapes,
+    shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
     custom: Option<&dyn PairRule>,
@@ -49,6 +49,32 @@ fn sweep(
         bodies.poses[fast.body as usize] = Pose::new(position, rotation);
     }
     update_boxes(bodies, shapes, broad_phase, fast.body, fast.motion * fraction);
+}
+
+/// A disk about the middle of a shape, half as thick as it. What a shape touches already at the start of
+/// the step is the contact solver's affair, which holds a corner and lets the rest turn about it; but
+/// the middle must not pass.
+struct Inner {
+    disk: Shape,
+    sweep: Sweep,
+}
+
+impl Inner {
+    fn new(record: &ShapeRecord, body: &Sweep) -> Self {
+        let disk = Shape::Circle { radius: 0.5 * record.shape.inner_radius() };
+        let middle = record.central.apply(record.shape.mass_properties(1.0).center);
+        Self { disk, sweep: body.child(Transform::new(middle, Rot::IDENTITY)) }
+    }
+
+    fn first_fraction(&self, other: &Shape, fixed: &Sweep, first: f32) -> f32 {
+        let toi = time_of_impact(&self.disk, &self.sweep, other, fixed, first);
+        match toi.state {
+            ToiState::Hit | ToiState::Limit => toi.fraction,
+            // Deep inside already: out again is the only way on.
+            ToiState::Touching if toi.normal.dot(self.sweep.translation()) > 0.0 => 0.0,
+            ToiState::Separated | ToiState::Touching => first,
+        }
+    }
 }
 
 /// The search for the first impact of a body.
@@ -78,13 +104,14 @@ impl Impact<'_> {
                 continue;
             }
             let moving = sweep.child(record.central);
+            let inner = Inner::new(record, &sweep);
             for kind in [ProxyKind::Static, ProxyKind::Kinematic, ProxyKind::Dynamic] {
                 if kind == ProxyKind::Dynamic && !info.bullet {
                     continue;
                 }
                 self.broad_phase.tree(kind).query(&path, record.filter.reach().1, |proxy| {
                     if let Some(other) = self.broad_phase.user(crate::broad_phase::ProxyId(proxy)) {
-                        first = self.impact((shape, record), &moving, other, first);
+                        first = self.impact((shape, record), &moving, &inner, other, first);
                     }
                     ControlFlow::Continue(())
                 });
@@ -105,6 +132,7 @@ impl Impact<'_> {
         &self,
         (shape, record): (u32, &ShapeRecord),
         moving: &Sweep,
+        inner: &Inner,
         index: u32,
         first: f32,
     ) -> f32 {
@@ -117,15 +145,18 @@ impl Impact<'_> {
         let place = Transform::new(pose.p.relative_to(self.fast.start.p), pose.q);
         let fixed = Sweep::fixed(place.compose(other.central));
         let toi = time_of_impact(&record.shape, moving, &other.shape, &fixed, first);
+        // One-way platforms stop only what comes from their solid side.
+        let solid_along = |way: Vec2| {
+            one_way::is_solid_side(other, -way, pose.q)
+                && one_way::is_solid_side(record, way, self.fast.start.q)
+        };
         match toi.state {
-            ToiState::Hit | ToiState::Limit
-                if one_way::is_solid_side(other, -toi.normal, pose.q)
-                    && one_way::is_solid_side(record, toi.normal, self.fast.start.q) =>
-            {
-                toi.fraction
+            ToiState::Hit | ToiState::Limit if solid_along(toi.normal) => toi.fraction,
+            // What it touches it may be passing through from behind.
+            ToiState::Touching if solid_along(self.fast.motion.normalized()) => {
+                inner.first_fraction(&other.shape, &fixed, first)
             }
-            ToiState::Hit | ToiState::Limit => first,
-            ToiState::Separated | ToiState::Touching => first,
+            ToiState::Hit | ToiState::Limit | ToiState::Separated | ToiState::Touching => first,
         }
     }
 

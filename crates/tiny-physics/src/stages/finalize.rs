@@ -1,9 +1,9 @@
 //! After the substeps: poses take up the motion, boxes follow, rest is timed.
 
-use crate::broad_phase::{BroadPhase, ProxyId};
+use crate::broad_phase::BroadPhase;
 use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, BodyInfo, Shapes, Slot};
-use crate::math::{Aabb, DVec2, Pose, Vec2};
+use crate::dynamics::{Bodies, BodyInfo, NULL, Shapes, Slot};
+use crate::math::{Aabb, Pose, Vec2};
 use crate::simd::Row;
 use crate::threads::{SharedSlice, Team};
 
@@ -38,7 +38,7 @@ const CHUNK: usize = 128;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Findings {
     /// Shapes that left their fat boxes, and the new ones.
-    moved: Vec<(ProxyId, Aabb)>,
+    moved: Vec<(u32, Aabb)>,
     /// Fast bodies: their boxes are left for the continuous stage.
     pub(crate) fast: Vec<FastBody>,
     /// Bodies whose numbers are no longer finite.
@@ -50,7 +50,7 @@ pub(crate) struct Findings {
 pub(crate) fn run(
     team: &Team,
     bodies: &mut Bodies,
-    shapes: &Shapes,
+    shapes: &mut Shapes,
     broad_phase: &mut BroadPhase,
     options: Options,
     found: &mut Vec<Findings>,
@@ -59,7 +59,7 @@ pub(crate) fn run(
     let previous = SharedSlice::new(previous);
     let (rows, poses, infos) =
         (SharedSlice::new(rows), SharedSlice::new(poses), SharedSlice::new(infos));
-    let boxes = &*broad_phase;
+    let (old_shapes, boxes) = (&*shapes, &*broad_phase);
     let chunks = team.map_chunks(awake.len(), CHUNK, found, |range, found| {
         found.moved.clear();
         found.fast.clear();
@@ -70,15 +70,16 @@ pub(crate) fn run(
                     previous.write(index, *pose);
                     infos.update(index, |info| {
                         let body = FinalBody { index, row, pose, info };
-                        finalize_body(body, shapes, boxes, options, found);
+                        finalize_body(body, old_shapes, boxes, options, found);
                     });
                 });
             });
         }
     });
     for chunk in &*chunks {
-        for &(proxy, fat) in &chunk.moved {
-            broad_phase.set_fat_aabb(proxy, fat);
+        for &(shape, fat) in &chunk.moved {
+            broad_phase.set_fat_aabb(shapes.proxy(shape), fat);
+            shapes.fat[shape as usize] = fat;
         }
     }
     chunks.len()
@@ -122,10 +123,11 @@ fn finalize_body(
         return;
     }
     for shape in shapes.of_body(info.first_shape) {
-        let proxy = shapes.proxy(shape);
         let tight = shape_box(shapes, shape, *pose);
-        if let Some(fat) = boxes.needed_fat_aabb(proxy, tight, motion) {
-            found.moved.push((proxy, fat));
+        if !shapes.fat[shape as usize].contains(&tight) {
+            if let Some(fat) = boxes.needed_fat_aabb(shapes.proxy(shape), tight, motion) {
+                found.moved.push((shape, fat));
+            }
         }
     }
 }
@@ -149,14 +151,21 @@ fn time_rest(row: &Row, info: &mut BodyInfo, dt: f32) {
 /// the best guess of the next.
 pub(crate) fn update_boxes(
     bodies: &Bodies,
-    shapes: &Shapes,
+    shapes: &mut Shapes,
     broad_phase: &mut BroadPhase,
     index: u32,
     motion: Vec2,
 ) {
     let pose = bodies.poses[index as usize];
-    for shape in shapes.of_body(bodies.infos[index as usize].first_shape) {
-        broad_phase.move_proxy(shapes.proxy(shape), shape_box(shapes, shape, pose), motion);
+    let mut shape = bodies.infos[index as usize].first_shape;
+    while shape != NULL {
+        let proxy = shapes.proxy(shape);
+        let tight = shape_box(shapes, shape, pose);
+        if let Some(fat) = broad_phase.needed_fat_aabb(proxy, tight, motion) {
+            broad_phase.set_fat_aabb(proxy, fat);
+            shapes.fat[shape as usize] = fat;
+        }
+        shape = shapes.records[shape as usize].next;
     }
 }
 
@@ -178,6 +187,8 @@ fn rounded_box(row: &Row, pose: Pose) -> Aabb {
     let (c, s) = (pose.q.c * row[2] - pose.q.s * row[3], pose.q.s * row[2] + pose.q.c * row[3]);
     let (c, s) = (c.abs(), s.abs());
     let extent = Vec2::new(c * row[4] + s * row[5] + row[6], s * row[4] + c * row[5] + row[6]);
-    let extent = DVec2::from(extent);
-    Aabb::rounded_out(center - extent, center + extent)
+    // Rounding 64 bits to 32 and adding takes at most three halves of a last place; this is four.
+    let near = center.to_vec2();
+    let slack = (near.abs() + extent) * (2.0 * f32::EPSILON);
+    Aabb::new(near - extent - slack, near + extent + slack)
 }

@@ -4,7 +4,7 @@
 //! move as deltas from the start of the step; [`finalize`](super::finalize) adds them up.
 
 use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, BodyInfo, Motion, Slot};
+use crate::dynamics::{Bodies, BodyInfo, Motion, NULL, Slot};
 use crate::math::Vec2;
 use crate::simd::Row;
 use crate::threads::{SharedRows, SharedSlice, Team};
@@ -17,12 +17,14 @@ const CHUNK: usize = 256;
 
 /// Works out what each substep adds to the velocity of each awake body.
 pub(crate) fn prepare(team: &Team, bodies: &mut Bodies, gravity: Vec2, h: f32) {
-    let Bodies { awake, rows, motions, infos, .. } = bodies;
-    let motions = SharedSlice::new(motions);
+    let Bodies { awake, rows, motions, starts, infos, .. } = bodies;
+    let (motions, starts) = (SharedSlice::new(motions), SharedSlice::new(starts));
     team.for_each_chunk(awake.len(), CHUNK, |range| {
         for &index in &awake[range] {
-            let i = index as usize;
-            motions.write(index, motion(&infos[i], &rows[i], gravity, h));
+            let (info, row) = (&infos[index as usize], &rows[index as usize]);
+            motions.write(index, motion(info, row, gravity, h));
+            let carry = if info.first_joint == NULL { 1.0 } else { 0.0 };
+            starts.write(index, [row[0], row[1], row[2], carry]);
         }
     });
 }
@@ -45,20 +47,31 @@ fn motion(info: &BodyInfo, row: &Row, gravity: Vec2, h: f32) -> Motion {
     }
 }
 
-/// Adds a substep's gain to the velocities.
-pub(crate) fn velocities(team: &Team, bodies: &mut Bodies) {
-    let Bodies { awake, rows, motions, .. } = bodies;
+/// Adds a substep's gain to the velocities and, after the first substep, the impulses of the substep
+/// before: they are what warm starting all contacts of the body would add, because contacts keep
+/// their lever arms during a step. Joints turn theirs, so bodies with joints go without
+/// ([`prepare`] marks them) and have their contacts warm started one by one.
+pub(crate) fn velocities(team: &Team, bodies: &mut Bodies, first: bool) {
+    let Bodies { awake, rows, motions, starts, .. } = bodies;
     let rows = SharedRows::new(rows);
+    let starts = SharedSlice::new(starts);
     team.for_each_chunk(awake.len(), CHUNK, |range| {
         for &index in &awake[range] {
             let motion = &motions[index as usize];
-            rows.update(index, |row| {
-                row[Slot::VX] = (row[Slot::VX] * motion.linear + motion.gain[0]) * motion.free[0];
-                row[Slot::VY] = (row[Slot::VY] * motion.linear + motion.gain[1]) * motion.free[1];
-                row[Slot::W] = (row[Slot::W] * motion.angular + motion.gain[2]) * motion.free[2];
-            });
+            rows.update(index, |row| starts.update(index, |start| gain(row, start, motion, first)));
         }
     });
+}
+
+#[inline]
+fn gain(row: &mut Row, start: &mut [f32; 4], motion: &Motion, first: bool) {
+    let damping = [motion.linear, motion.linear, motion.angular];
+    let carry = if first { 0.0 } else { start[3] };
+    for k in 0..3 {
+        let pushed = (row[k] - start[k]) * carry;
+        start[k] = (row[k] * damping[k] + motion.gain[k]) * motion.free[k];
+        row[k] = start[k] + pushed;
+    }
 }
 
 /// Moves the bodies on by a substep; speeds above the limits are cut.

@@ -6,7 +6,8 @@
 //! after the pass are simply run again.
 
 use crate::dynamics::{
-    BlockHead, Bucket, ConstraintBlock, ManifoldBlock, ShapeRecord, SurfaceBlock, flags,
+    BlockHead, BodyInfo, Bucket, ConstraintBlock, ManifoldBlock, NULL, ShapeRecord, SurfaceBlock,
+    flags,
 };
 use crate::geometry::manifold::{self, LaneManifold, LanePair, PairClass};
 use crate::math::{Pose, Rot, Transform, Vec2};
@@ -21,6 +22,8 @@ pub(crate) struct Context<'a> {
     pub(crate) poses: &'a [Pose],
     pub(crate) shape_rows: &'a [Row],
     pub(crate) shapes: &'a [ShapeRecord],
+    /// Bodies, for whether they have joints; nothing where no joint is awake.
+    pub(crate) infos: Option<&'a [BodyInfo]>,
     /// Points up to this far apart are contacts already, metres.
     pub(crate) speculative_distance: f32,
 }
@@ -236,7 +239,20 @@ impl<K: PairKernel> LaneKernel for Update<'_, K> {
             }
             let valid = if lanes == BLOCK { u16::MAX } else { (1 << lanes) - 1 };
             blocks.heads[index].touching = touching as u16 & valid;
+            note_joints(&context, &blocks.manifolds[index], &mut blocks.heads[index], lanes);
         }
+    }
+}
+
+/// Notes which lanes have bodies with joints.
+#[inline(always)]
+fn note_joints(context: &Context<'_>, block: &ManifoldBlock, head: &mut BlockHead, lanes: usize) {
+    (head.jointed_a, head.jointed_b) = (0, 0);
+    let Some(infos) = context.infos else { return };
+    for lane in 0..lanes {
+        let jointed = |body: u32| u16::from(infos[body as usize].first_joint != NULL);
+        head.jointed_a |= jointed(block.body_a[lane]) << lane;
+        head.jointed_b |= jointed(block.body_b[lane]) << lane;
     }
 }
 

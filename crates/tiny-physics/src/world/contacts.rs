@@ -3,6 +3,7 @@
 use super::World;
 use super::events::{ContactBegin, ContactEnd, Hit};
 use super::ids::{BodyId, ShapeId};
+use crate::describe::BodyKind;
 use crate::dynamics::{Bucket, NULL, OVERFLOW, Place, flags};
 use crate::math::{DVec2, Vec2};
 use crate::simd::BLOCK;
@@ -196,8 +197,7 @@ impl World {
             let (shape_a, shape_b) = (self.shape_id(shape_a), self.shape_id(shape_b));
             self.events.contact_begin.push(ContactBegin { shape_a, shape_b });
         }
-        self.wake_index(body_a);
-        self.wake_index(body_b);
+        self.wake_dynamic([body_a, body_b]);
         if self.contacts.records[index as usize].place == Place::Asleep {
             self.graph.insert(&mut self.bodies, &mut self.contacts, index);
         }
@@ -213,8 +213,7 @@ impl World {
                 let end = self.end_event(index);
                 self.events.pending_end.push(end);
             }
-            self.wake_index(body_a);
-            self.wake_index(body_b);
+            self.wake_dynamic([body_a, body_b]);
         }
         self.graph.remove(&mut self.bodies, &mut self.contacts, index);
         self.contacts.remove(&mut self.bodies, index);
@@ -228,7 +227,16 @@ impl World {
         }
     }
 
-    /// Wakes the island of a body.
+    /// Wakes those of the bodies that are dynamic. A kinematic body that sleeps stands still, and may go on.
+    fn wake_dynamic(&mut self, bodies: [u32; 2]) {
+        for index in bodies {
+            if self.bodies.is_dynamic(index) {
+                self.wake_index(index);
+            }
+        }
+    }
+
+    /// Wakes the island of a body; with a kinematic body, also what rests on it or hangs on it.
     pub(super) fn wake_index(&mut self, index: u32) {
         let woken = sleep::wake(
             index,
@@ -238,9 +246,16 @@ impl World {
             &mut self.joints,
             &mut self.joint_graph,
         );
+        // Not where it was awake already or is not enabled: this calls itself.
+        let info = &self.bodies.infos[index as usize];
+        let starts_to_carry = info.kind == BodyKind::Kinematic && !woken.is_empty();
         for body in woken {
             let body = self.body_id(body);
             self.events.pending_woke.push(body);
+        }
+        if starts_to_carry {
+            self.wake_neighbours(index);
+            self.wake_joined(index);
         }
     }
 

@@ -213,8 +213,9 @@ impl World {
     /// Drops contacts of shapes that left their fat boxes and their partners; finds new partners.
     fn update_pairs(&mut self, team: &Team) {
         self.stats.moved_shapes = self.broad_phase.moved().len();
-        let Self { broad_phase, shapes, bodies, contacts, joints, hooks, scratch, .. } = self;
-        pairs::find_parted(broad_phase, bodies, shapes, contacts, &mut scratch.parted);
+        let Self { broad_phase, shapes, bodies, contacts, graph, joints, hooks, scratch, .. } =
+            self;
+        pairs::find_parted(broad_phase, bodies, shapes, contacts, graph, &mut scratch.parted);
         let custom = hooks.pair_filter();
         let stores = pairs::Partners { shapes, bodies, contacts, joints, custom };
         pairs::find_new(team, broad_phase, &stores, &mut scratch.found_pairs, &mut scratch.pairs);
@@ -242,6 +243,7 @@ impl World {
             poses: &self.bodies.poses,
             shape_rows: &self.shapes.rows,
             shapes: &self.shapes.records,
+            infos: (self.joint_graph.count() > 0).then_some(&self.bodies.infos),
             speculative_distance: SPECULATIVE_DISTANCE * self.settings.length_unit,
         };
         (context, &mut self.graph)
@@ -284,10 +286,12 @@ impl World {
         self.prepare_joints(team, lengths.h);
         integrate::prepare(team, &mut self.bodies, self.gravity, lengths.h);
         let max_speed = self.settings.max_speed * self.settings.length_unit;
-        for _ in 0..lengths.substeps {
-            integrate::velocities(team, &mut self.bodies);
+        for substep in 0..lengths.substeps {
+            let first = substep == 0;
+            integrate::velocities(team, &mut self.bodies, first);
             self.solve_joints(team, joint_solver::Pass::WarmStart);
-            self.solve_contacts(team, Pass::WarmStart, &parameters);
+            let warm_start = if first { Pass::WarmStart } else { Pass::WarmStartJointed };
+            self.solve_contacts(team, warm_start, &parameters);
             for _ in 0..lengths.iterations {
                 self.solve_joints(team, joint_solver::Pass::Solve);
                 self.solve_contacts(team, Pass::Solve, &parameters);
@@ -318,6 +322,9 @@ impl World {
 
     /// Runs one pass over all contacts: the overflow one by one, then colour by colour.
     fn solve_contacts(&mut self, team: &Team, pass: Pass, parameters: &Parameters) {
+        if pass == Pass::WarmStartJointed && self.joint_graph.count() == 0 {
+            return;
+        }
         let rows = SharedRows::new(&mut self.bodies.rows);
         let (colours, rest) = self.graph.buckets.split_at_mut(OVERFLOW);
         for (bucket, class) in rest[0].iter_mut().zip(PairClass::ALL) {
