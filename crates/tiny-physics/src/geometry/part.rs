@@ -59,8 +59,7 @@ fn disk_below(radius: f32, normal: Vec2, d: f32) -> AreaPart {
     if d >= radius {
         return AreaPart { area: full, center: Vec2::ZERO };
     }
-    // NaN goes here too.
-    if !(d > -radius) {
+    if d <= -radius || d.is_nan() {
         return AreaPart::default();
     }
     let half_chord = (radius * radius - d * d).sqrt();
