@@ -368,7 +368,7 @@ impl World {
 
     /// Looks for islands at rest now and then, and lets them sleep.
     fn put_resting_islands_to_sleep(&mut self) {
-        if !self.settings.sleep || self.step_count % sleep::INTERVAL != 0 {
+        if !self.settings.sleep || !self.step_count.is_multiple_of(sleep::INTERVAL) {
             return;
         }
         let mut islands = core::mem::take(&mut self.scratch.islands);
