@@ -206,6 +206,18 @@ impl Graph {
         self.touching
     }
 
+    /// Lists the buckets that the solver has to visit, in its order: the overflow, then colour by colour.
+    pub(crate) fn list_occupied(&self, occupied: &mut Vec<(usize, PairClass)>) {
+        occupied.clear();
+        for colour in core::iter::once(OVERFLOW).chain(0..COLOURS) {
+            for (bucket, class) in self.buckets[colour].iter().zip(PairClass::ALL) {
+                if !bucket.contacts.is_empty() {
+                    occupied.push((colour, class));
+                }
+            }
+        }
+    }
+
     /// Puts a contact into the graph: into a colour if it touches, else among the idle ones.
     pub(crate) fn insert(&mut self, bodies: &mut Bodies, contacts: &mut Contacts, index: u32) {
         let contact = &mut contacts.records[index as usize];
