@@ -107,15 +107,13 @@ pub(super) fn stack(lab: &mut Lab<'_>) -> Vec<Measure> {
         let sag = if sideways < 0.5 { sag } else { f64::INFINITY };
         let metric = format!("{count} crates, 60 s, sag");
         let (box2d, rapier) = reference[0];
-        measures.push(
-            Measure::new(metric, sag, "m", Target::AtMost(limit)).reference(box2d, rapier),
-        );
+        measures
+            .push(Measure::new(metric, sag, "m", Target::AtMost(limit)).reference(box2d, rapier));
         let metric = format!("{count} crates, 60 s, sideways");
         let (box2d, rapier) = reference[1];
         let target = Target::AtMost(0.1);
-        measures.push(
-            Measure::new(metric, 1000.0 * sideways, "mm", target).reference(box2d, rapier),
-        );
+        measures
+            .push(Measure::new(metric, 1000.0 * sideways, "mm", target).reference(box2d, rapier));
     }
     measures
 }
