@@ -11,6 +11,7 @@ mod joint_blocks;
 mod joint_graph;
 mod joints;
 mod pair_table;
+mod sensors;
 mod shapes;
 
 pub(crate) use blocks::{
@@ -25,4 +26,5 @@ pub(crate) use joint_graph::{
 };
 pub(crate) use joints::{JointLoad, JointPlace, JointRecord, Joints};
 pub(crate) use pair_table::PairTable;
+pub(crate) use sensors::{Overlap, Sensors};
 pub(crate) use shapes::{ShapeRecord, Shapes};

@@ -14,14 +14,14 @@ use core::ops::ControlFlow;
 
 /// Sweeps the fast bodies, bullets last: they see where all others have ended.
 pub(crate) fn run(
-    fast: &[FastBody],
+    fast: &mut [FastBody],
     bodies: &mut Bodies,
     shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
 ) {
     for bullets in [false, true] {
-        for body in fast {
+        for body in fast.iter_mut() {
             if bodies.infos[body.body as usize].bullet == bullets {
                 sweep(body, bodies, shapes, joints, broad_phase);
             }
@@ -31,13 +31,14 @@ pub(crate) fn run(
 
 /// Sets one body back to its first impact, if it has one, and updates its boxes.
 fn sweep(
-    fast: &FastBody,
+    fast: &mut FastBody,
     bodies: &mut Bodies,
     shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
 ) {
     let fraction = Impact { fast, bodies, shapes, joints, broad_phase }.first_fraction();
+    fast.fraction = fraction;
     if fraction < 1.0 {
         let position = fast.start.p + fast.motion * fraction;
         let rotation = fast.start.q.integrate(fast.turn * fraction);
@@ -75,7 +76,7 @@ impl Impact<'_> {
                 if kind == ProxyKind::Dynamic && !info.bullet {
                     continue;
                 }
-                self.broad_phase.tree(kind).query(&path, record.filter.mask, |proxy| {
+                self.broad_phase.tree(kind).query(&path, record.filter.reach().1, |proxy| {
                     if let Some(other) = self.broad_phase.user(crate::broad_phase::ProxyId(proxy)) {
                         first = self.impact(record, &moving, other, first);
                     }

@@ -139,6 +139,7 @@ fn put_island_to_sleep(
     for (i, &body) in island.iter().enumerate() {
         bodies.set_velocity(body, Vec2::ZERO);
         bodies.set_angular_velocity(body, 0.0);
+        bodies.previous[body as usize] = bodies.poses[body as usize];
         let info = &mut bodies.infos[body as usize];
         info.awake = false;
         info.island_next = island[(i + 1) % island.len()];
@@ -165,7 +166,8 @@ fn put_island_to_sleep(
     }
 }
 
-/// Wakes a body and its island. Nothing happens if it is awake or cannot move.
+/// Wakes a body and its island, and gives the bodies that woke, ascending. Nothing happens if it is awake
+/// or cannot move.
 pub(crate) fn wake(
     index: u32,
     bodies: &mut Bodies,
@@ -173,10 +175,10 @@ pub(crate) fn wake(
     graph: &mut Graph,
     joints: &mut Joints,
     joint_graph: &mut JointGraph,
-) {
+) -> Vec<u32> {
     let info = &bodies.infos[index as usize];
     if info.awake || !info.alive || !info.enabled || info.kind == BodyKind::Static {
-        return;
+        return Vec::new();
     }
     let mut island = Vec::new();
     let mut body = index;
@@ -204,6 +206,7 @@ pub(crate) fn wake(
             joint_graph.insert(bodies, joints, index);
         }
     }
+    island
 }
 
 /// Joints of a body, ascending.

@@ -10,12 +10,12 @@ use crate::stages::finalize;
 /// A body of the world, to read.
 #[derive(Clone, Copy)]
 pub struct Body<'a> {
-    world: &'a World,
-    index: u32,
+    pub(super) world: &'a World,
+    pub(super) index: u32,
 }
 
 impl<'a> Body<'a> {
-    fn info(&self) -> &'a BodyInfo {
+    pub(super) fn info(&self) -> &'a BodyInfo {
         &self.world.bodies.infos[self.index as usize]
     }
 
@@ -116,8 +116,8 @@ impl<'a> Body<'a> {
 /// A body of the world, to change. Every change wakes it and its island; numbers that are not finite
 /// are refused by doing nothing.
 pub struct BodyMut<'a> {
-    world: &'a mut World,
-    index: u32,
+    pub(super) world: &'a mut World,
+    pub(super) index: u32,
 }
 
 impl BodyMut<'_> {
@@ -126,12 +126,12 @@ impl BodyMut<'_> {
         Body { world: self.world, index: self.index }
     }
 
-    fn info(&mut self) -> &mut BodyInfo {
+    pub(super) fn info(&mut self) -> &mut BodyInfo {
         &mut self.world.bodies.infos[self.index as usize]
     }
 
     /// Wakes it if all numbers are finite, and says whether to go on.
-    fn accept(&mut self, numbers: &[f32]) -> bool {
+    pub(super) fn accept(&mut self, numbers: &[f32]) -> bool {
         let finite = numbers.iter().all(|n| n.is_finite());
         if finite {
             self.world.wake_index(self.index);
@@ -167,6 +167,7 @@ impl BodyMut<'_> {
         world.wake_index(index);
         world.wake_neighbours(index);
         world.bodies.set_origin_pose(index, pose.p, pose.q.normalized());
+        world.mark_shapes_changed(index);
         finalize::update_boxes(
             &world.bodies,
             &mut world.shapes,

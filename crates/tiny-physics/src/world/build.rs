@@ -150,6 +150,10 @@ impl World {
             next: info.first_shape,
         };
         let index = self.shapes.insert(record);
+        if def.sensor {
+            self.sensors.insert(index);
+        }
+        self.sensors.mark_changed(index);
         info.first_shape = index;
         info.shape_count += 1;
         index
@@ -174,6 +178,7 @@ impl World {
             }
         }
         self.broad_phase.destroy_proxy(self.shapes.proxy(shape));
+        self.sensors.remove(shape);
         self.shapes.remove(shape);
     }
 
@@ -262,13 +267,8 @@ impl World {
             if record.proxy != NULL {
                 continue;
             }
-            let def = ProxyDef {
-                kind,
-                category: record.filter.category,
-                mask: record.filter.mask,
-                user: shape,
-                margin,
-            };
+            let (category, mask) = record.filter.reach();
+            let def = ProxyDef { kind, category, mask, user: shape, margin };
             let tight = finalize::shape_box(&self.shapes, shape, pose);
             let proxy = self.broad_phase.create_proxy(def, tight);
             self.shapes.records[shape as usize].proxy = proxy.0;

@@ -28,6 +28,7 @@ impl World {
         self.hash_bodies(&mut hasher);
         self.hash_contacts(&mut hasher);
         self.hash_joints(&mut hasher);
+        self.hash_sensors(&mut hasher);
         hasher.0
     }
 
@@ -57,6 +58,13 @@ impl World {
             for value in self.joint_graph.impulses(record) {
                 hasher.float(value);
             }
+        }
+    }
+
+    fn hash_sensors(&self, hasher: &mut Hasher) {
+        for overlap in &self.sensors.overlaps {
+            hasher.word(u64::from(overlap.sensor) << 32 | u64::from(overlap.sensor_generation));
+            hasher.word(u64::from(overlap.visitor) << 32 | u64::from(overlap.visitor_generation));
         }
     }
 

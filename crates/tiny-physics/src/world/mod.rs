@@ -8,22 +8,25 @@ mod events;
 mod hash;
 mod ids;
 mod joints;
+mod queries;
+mod sensors;
 mod shapes;
 mod stats;
 mod validate;
 
 pub use bodies::{Body, BodyMut};
 pub use contacts::{ContactPoint, ContactView};
-pub use events::{ContactBegin, ContactEnd, Events, Hit, JointBreak};
+pub use events::{ContactBegin, ContactEnd, Events, Hit, JointBreak, SensorBegin, SensorEnd};
 pub use ids::{BodyId, JointId, ShapeId};
 pub use joints::JointRef;
+pub use queries::{ClosestPoint, QueryFilter, RayCast, RayCastHit, ShapeCastHit};
 pub use shapes::ShapeRef;
 pub use stats::{Stage, Stats};
 
 use crate::broad_phase::BroadPhase;
 use crate::describe::Settings;
 use crate::dynamics::{
-    Bodies, Contacts, Graph, JOINT_OVERFLOW, JointGraph, Joints, OVERFLOW, Shapes,
+    Bodies, Contacts, Graph, JOINT_OVERFLOW, JointGraph, Joints, OVERFLOW, Overlap, Sensors, Shapes,
 };
 use crate::error::Error;
 use crate::geometry::manifold::PairClass;
@@ -76,6 +79,7 @@ pub struct World {
     joints: Joints,
     joint_graph: JointGraph,
     broad_phase: BroadPhase,
+    sensors: Sensors,
     events: Events,
     step_count: u64,
     /// 1 / substep length of the last step.
@@ -96,6 +100,8 @@ struct Scratch {
     findings: Vec<Findings>,
     fast: Vec<FastBody>,
     islands: Vec<u32>,
+    overlaps: Vec<Overlap>,
+    found_overlaps: Vec<Vec<Overlap>>,
     broken_joints: Vec<u32>,
 }
 
@@ -126,6 +132,7 @@ impl World {
             joints: Joints::default(),
             joint_graph: JointGraph::new(),
             broad_phase: BroadPhase::new(),
+            sensors: Sensors::default(),
             events: Events::default(),
             step_count: 0,
             inv_h: 0.0,
@@ -174,7 +181,9 @@ impl World {
         watch.lap(&mut self.stats, Stage::Finalize);
         self.sweep_fast_bodies();
         watch.lap(&mut self.stats, Stage::Continuous);
+        self.update_sensors(team);
         self.put_resting_islands_to_sleep();
+        self.events.flush_pending();
         watch.lap(&mut self.stats, Stage::Sleep);
     }
 
@@ -276,6 +285,7 @@ impl World {
         }
         self.solve_contacts(team, Pass::Restitution, &parameters);
         self.solve_joints(team, joint_solver::Pass::Finish);
+        self.collect_hits();
         self.break_joints();
     }
 
@@ -353,7 +363,7 @@ impl World {
     /// Stops fast bodies where they would have gone through something.
     fn sweep_fast_bodies(&mut self) {
         let Self { bodies, shapes, broad_phase, joints, scratch, .. } = self;
-        continuous::run(&scratch.fast, bodies, shapes, joints, broad_phase);
+        continuous::run(&mut scratch.fast, bodies, shapes, joints, broad_phase);
     }
 
     /// Looks for islands at rest now and then, and lets them sleep.
