@@ -27,4 +27,4 @@ pub(crate) use joint_graph::{
 pub(crate) use joints::{JointLoad, JointPlace, JointRecord, Joints};
 pub(crate) use pair_table::PairTable;
 pub(crate) use sensors::{Overlap, Sensors};
-pub(crate) use shapes::{ShapeRecord, Shapes};
+pub(crate) use shapes::{ShapeRecord, Shapes, guard};

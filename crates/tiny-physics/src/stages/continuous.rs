@@ -5,6 +5,7 @@
 //! bullet also to that with a dynamic one. Its velocity stays: the contact solver deals with it in the
 //! next step, when there is a contact. The time that is lost is at most a step.
 
+use super::surfaces;
 use super::finalize::{FastBody, update_boxes};
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes};
@@ -102,7 +103,12 @@ impl Impact<'_> {
         }
         let pose = self.bodies.poses[other.body as usize];
         let place = Transform::new(pose.p.relative_to(self.fast.start.p), pose.q);
-        let fixed = Sweep::fixed(place.compose(other.central));
+        let at = place.compose(other.central);
+        let center = self.fast.start.q.rotate(record.central.p);
+        if surfaces::lets_pass(other, at, pose.q, center, self.fast.motion) {
+            return first;
+        }
+        let fixed = Sweep::fixed(at);
         let toi = time_of_impact(&record.shape, moving, &other.shape, &fixed, first);
         match toi.state {
             ToiState::Hit | ToiState::Limit => toi.fraction,

@@ -12,4 +12,5 @@ pub(crate) mod narrow_phase;
 pub(crate) mod pairs;
 pub(crate) mod sensors;
 pub(crate) mod sleep;
+pub(crate) mod surfaces;
 pub(crate) mod touching;

@@ -36,7 +36,7 @@ use crate::stages::contact_solver::{self, Parameters, Pass, Softness};
 use crate::stages::finalize::{FastBody, Findings};
 use crate::stages::touching::Changes;
 use crate::stages::{
-    continuous, finalize, integrate, joint_solver, narrow_phase, pairs, sleep, touching,
+    continuous, finalize, integrate, joint_solver, narrow_phase, pairs, sleep, surfaces, touching,
 };
 use crate::threads::{Pool, SharedRows, Team};
 use stats::Stopwatch;
@@ -84,6 +84,8 @@ pub struct World {
     step_count: u64,
     /// 1 / substep length of the last step.
     inv_h: f32,
+    /// Length of the step, seconds.
+    dt: f32,
     level: SimdLevel,
     pool: Pool,
     stats: Stats,
@@ -136,6 +138,7 @@ impl World {
             events: Events::default(),
             step_count: 0,
             inv_h: 0.0,
+            dt: 0.0,
             level: SimdLevel::detect(),
             pool: Pool::default(),
             stats: Stats::default(),
@@ -168,6 +171,8 @@ impl World {
         let mut watch = Stopwatch::start();
         self.events.clear();
         self.bodies.sort_awake();
+        self.dt = lengths.dt;
+        self.refresh_surfaces();
 
         self.update_pairs(team);
         watch.lap(&mut self.stats, Stage::Pairs);
@@ -219,6 +224,12 @@ impl World {
         );
     }
 
+    /// Finds which faces of static shapes are covered by others, where static shapes have changed.
+    fn refresh_surfaces(&mut self) {
+        let Self { shapes, bodies, broad_phase, settings, .. } = self;
+        surfaces::refresh(shapes, bodies, broad_phase, settings.length_unit);
+    }
+
     /// What the narrow phase reads, and the graph that it writes.
     fn narrow_phase(&mut self) -> (narrow_phase::Context<'_>, &mut Graph) {
         let context = narrow_phase::Context {
@@ -229,6 +240,12 @@ impl World {
             shapes: &self.shapes.records,
             infos: (self.joint_graph.count() > 0).then_some(&self.bodies.infos),
             speculative_distance: SPECULATIVE_DISTANCE * self.settings.length_unit,
+            surroundings: surfaces::Surroundings {
+                guards: &self.shapes.guards,
+                broad_phase: &self.broad_phase,
+                dt: self.dt,
+                length_unit: self.settings.length_unit,
+            },
         };
         (context, &mut self.graph)
     }
