@@ -9,6 +9,7 @@ mod filter;
 mod joint;
 mod settings;
 mod shape;
+mod tiles;
 
 pub use body::{BodyKind, Locks, RigidBody};
 pub use chain::{ChainDef, ChainLink};
@@ -16,3 +17,5 @@ pub use filter::Filter;
 pub use joint::{Break, JointDef, JointKind, Limits, Motor, Spring};
 pub use settings::{Mix, Settings};
 pub use shape::{Material, ShapeDef};
+pub use tiles::{Tile, TileForm, TileGrid};
+pub(crate) use tiles::{BLOCK_CELLS, Piece};

@@ -12,12 +12,13 @@ mod queries;
 mod sensors;
 mod shapes;
 mod stats;
+mod tiles;
 mod validate;
 
 pub use bodies::{Body, BodyMut};
 pub use contacts::{ContactPoint, ContactView};
 pub use events::{ContactBegin, ContactEnd, Events, Hit, JointBreak, SensorBegin, SensorEnd};
-pub use ids::{BodyId, JointId, ShapeId};
+pub use ids::{BodyId, JointId, ShapeId, TileGridId};
 pub use joints::JointRef;
 pub use queries::{ClosestPoint, QueryFilter, RayCast, RayCastHit, ShapeCastHit};
 pub use shapes::ShapeRef;
@@ -79,6 +80,7 @@ pub struct World {
     joints: Joints,
     joint_graph: JointGraph,
     broad_phase: BroadPhase,
+    tiles: tiles::TileGrids,
     sensors: Sensors,
     events: Events,
     step_count: u64,
@@ -134,6 +136,7 @@ impl World {
             joints: Joints::default(),
             joint_graph: JointGraph::new(),
             broad_phase: BroadPhase::new(),
+            tiles: tiles::TileGrids::default(),
             sensors: Sensors::default(),
             events: Events::default(),
             step_count: 0,
