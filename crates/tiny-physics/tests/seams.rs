@@ -183,9 +183,7 @@ fn real_corners_still_hold() {
 fn a_chain_is_solid_from_one_side_and_round_its_ends() {
     let mut world = world();
     let ground = world.add_body(RigidBody::fixed()).unwrap();
-    world
-        .add_chain(ground, &ChainDef::open(&[Vec2::new(2.0, 0.0), Vec2::new(-2.0, 0.0)]))
-        .unwrap();
+    world.add_chain(ground, &ChainDef::open(&[Vec2::new(2.0, 0.0), Vec2::new(-2.0, 0.0)])).unwrap();
     let ball = |x: f32, y: f32, v: f32| {
         let shape = Shape::circle(0.25).unwrap();
         RigidBody::dynamic().position(Vec2::new(x, y)).velocity(Vec2::new(0.0, v)).shape(shape)

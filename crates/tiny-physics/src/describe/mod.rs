@@ -17,5 +17,5 @@ pub use filter::Filter;
 pub use joint::{Break, JointDef, JointKind, Limits, Motor, Spring};
 pub use settings::{Mix, Settings};
 pub use shape::{Material, ShapeDef};
-pub use tiles::{Tile, TileForm, TileGrid};
 pub(crate) use tiles::{BLOCK_CELLS, Piece};
+pub use tiles::{Tile, TileForm, TileGrid};

@@ -409,9 +409,9 @@ mod tests {
 
     #[test]
     fn every_form_has_its_area() {
-        for (letter, area) in LETTERS.chars().zip([
-            1.0, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.25, 0.75, 0.75, 0.25, 0.5,
-        ]) {
+        for (letter, area) in
+            LETTERS.chars().zip([1.0, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.25, 0.75, 0.75, 0.25, 0.5])
+        {
             let grid = TileGrid::parse(2.0, &[letter.to_string().as_str()]).unwrap();
             let shape = &grid.bodies()[0].shapes[0].shape;
             let found = shape.mass_properties(1.0).mass / 4.0;

@@ -5,8 +5,8 @@
 //! bullet also to that with a dynamic one. Its velocity stays: the contact solver deals with it in the
 //! next step, when there is a contact. The time that is lost is at most a step.
 
-use super::surfaces;
 use super::finalize::{FastBody, update_boxes};
+use super::surfaces;
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes};
 use crate::geometry::{Sweep, ToiState, time_of_impact};

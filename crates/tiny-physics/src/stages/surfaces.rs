@@ -54,9 +54,8 @@ pub(crate) struct LanePoints {
 }
 
 impl LanePoints {
-    const NONE: Self = Self {
-        values: [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, f32::MAX, f32::MAX, 0.0, 0.0],
-    };
+    const NONE: Self =
+        Self { values: [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, f32::MAX, f32::MAX, 0.0, 0.0] };
 
     fn normal(&self) -> Vec2 {
         Vec2::new(self.values[0], self.values[1])
@@ -147,8 +146,7 @@ impl<'a> View<'a> {
         frames: [Transform; 2],
         side: usize,
     ) -> Self {
-        let (record, other) =
-            (&context.shapes[own as usize], &context.shapes[other as usize]);
+        let (record, other) = (&context.shapes[own as usize], &context.shapes[other as usize]);
         let other_in_own = frames[1 - side].relative_to(frames[side]);
         Self {
             context,
@@ -210,9 +208,8 @@ impl<'a> View<'a> {
     /// Is a normal one that the surface made by all static shapes does not have there?
     fn is_ghost(&self, lane: &LanePoints, normal: Vec2) -> bool {
         let limit = self.context.speculative_distance;
-        let points = [0, 1].map(|k| {
-            lane.is_valid(k, limit).then(|| self.frame.unapply(lane.point(k)))
-        });
+        let points =
+            [0, 1].map(|k| lane.is_valid(k, limit).then(|| self.frame.unapply(lane.point(k))));
         if let Some(face) = face_of(&self.core, normal) {
             return self.guard & guard::face(face) != 0 && self.is_covered(face, points);
         }

@@ -118,7 +118,9 @@ impl World {
                     continue;
                 }
                 let end = (block * BLOCK + BLOCK).min(bucket.contacts.len());
-                hits.extend((block * BLOCK..end).filter_map(|slot| self.hit(bucket, slot, threshold)));
+                hits.extend(
+                    (block * BLOCK..end).filter_map(|slot| self.hit(bucket, slot, threshold)),
+                );
             }
         }
         hits.sort_unstable_by_key(|hit| (hit.shape_a, hit.shape_b));

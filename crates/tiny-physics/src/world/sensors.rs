@@ -16,7 +16,13 @@ impl World {
         let mut overlaps = core::mem::take(&mut self.scratch.overlaps);
         let Self { bodies, shapes, broad_phase, sensors, events, scratch, .. } = self;
         let scene = sensors::Scene { bodies, shapes, broad_phase, sensors };
-        sensors::find_overlaps(team, scene, &scratch.fast, &mut scratch.found_overlaps, &mut overlaps);
+        sensors::find_overlaps(
+            team,
+            scene,
+            &scratch.fast,
+            &mut scratch.found_overlaps,
+            &mut overlaps,
+        );
         sensors::compare(
             &sensors.overlaps,
             &overlaps,
