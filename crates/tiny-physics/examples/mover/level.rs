@@ -31,13 +31,13 @@ pub const SCRIPT: [(f32, f32, f32); 13] = [
     (19.0, 0.0, 6.0), // A jump on the way.
     (23.5, 5.0, 0.0), // To the plate.
     (24.5, 0.0, 0.0),
-    (30.5, 2.0, 0.0), // Pushes the crate.
-    (33.5, -2.0, 0.0),
-    (35.5, 0.0, 0.0),
+    (30.5, 2.0, 0.0), // Pushes the crate to the wall.
+    (37.5, -2.0, 0.0),
+    (39.5, 0.0, 0.0),
 ];
 
 /// Length of the script, seconds.
-pub const END: f32 = 36.0;
+pub const END: f32 = 40.0;
 
 impl Level {
     pub fn new() -> Result<Self, Error> {

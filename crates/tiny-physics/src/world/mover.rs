@@ -167,10 +167,12 @@ impl CharacterMover {
 
         self.ride(world, frame);
         self.push_out(world, frame);
-        let platform = self.ground_velocity(world);
+        let mut carried = Vec2::ZERO;
         if self.ground.is_some() && input.jump > 0.0 {
-            self.drift = platform.dot(frame.right);
-            self.velocity = up * (input.jump + platform.dot(up));
+            // It has gone along with the platform in this step already.
+            carried = self.ground_velocity(world);
+            self.drift = carried.dot(frame.right);
+            self.velocity = up * (input.jump + carried.dot(up));
             self.ground = None;
         }
         if self.ground.is_some() && !input.drop {
@@ -179,7 +181,7 @@ impl CharacterMover {
             if self.ground.take().is_some() {
                 self.velocity = Vec2::ZERO;
             }
-            self.fall(world, frame, input.walk, dt);
+            self.fall(world, frame, input.walk, carried * -dt);
         }
         self.weigh(world, frame);
     }
@@ -242,7 +244,6 @@ impl CharacterMover {
             let motion = along * (way / along.dot(right));
             let Some(hit) = self.cast(world, frame, motion, None) else {
                 self.position += motion;
-                way = 0.0;
                 break;
             };
             self.position += motion * hit.fraction;
@@ -263,6 +264,7 @@ impl CharacterMover {
     /// Climbs what stops it, if that is a step: up, forward by `way`, down again.
     fn step_up(&mut self, world: &World, frame: Frame, way: f32) -> bool {
         let start = self.position;
+        let foot = start - frame.up * (0.5 * self.height);
         let rise = frame.up * self.step_height;
         let free = self.cast(world, frame, rise, None).map_or(1.0, |hit| hit.fraction);
         self.position += rise * free;
@@ -272,6 +274,7 @@ impl CharacterMover {
             let down = rise * -free;
             if let Some(hit) = self.cast(world, frame, down, None)
                 && hit.fraction < 1.0
+                && hit.point.relative_to(foot).dot(frame.up) <= self.step_height + self.skin
                 && self.holds(world, frame, &hit)
             {
                 self.position += down * hit.fraction;
@@ -299,12 +302,12 @@ impl CharacterMover {
         }
     }
 
-    /// Falls for a time along the parabola; walks on for the rest where it lands.
-    fn fall(&mut self, world: &mut World, frame: Frame, speed: f32, time: f32) {
-        let Frame { up, right, gravity, .. } = frame;
+    /// Falls along the parabola, with a motion on top; walks on for the rest of the time where it lands.
+    fn fall(&mut self, world: &mut World, frame: Frame, speed: f32, extra: Vec2) {
+        let Frame { up, right, gravity, dt: time } = frame;
         let vertical = up * self.velocity.dot(up) + right * (speed + self.drift);
         let mut velocity = vertical + gravity * time;
-        let mut rest = vertical * time + gravity * (0.5 * time * time);
+        let mut rest = vertical * time + gravity * (0.5 * time * time) + extra;
         let mut left = time;
         for _ in 0..MAX_CASTS {
             let Some(hit) = self.cast(world, frame, rest, None) else {
