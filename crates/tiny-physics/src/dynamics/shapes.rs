@@ -146,6 +146,12 @@ impl Shapes {
         self.free.push(index);
     }
 
+    /// Do the fat boxes of two shapes overlap?
+    #[inline]
+    pub(crate) fn may_touch(&self, a: u32, b: u32) -> bool {
+        self.fat[a as usize].overlaps(&self.fat[b as usize])
+    }
+
     /// The leaf of a shape in the broad phase.
     #[inline]
     pub(crate) fn proxy(&self, index: u32) -> ProxyId {

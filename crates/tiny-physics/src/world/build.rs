@@ -13,7 +13,9 @@ use crate::simd::Row;
 use crate::stages::finalize;
 
 /// Coordinates beyond this are refused: 64-bit positions would lose millimetres.
-const MAX_COORDINATE: f64 = 1.0e12;
+pub(super) const MAX_COORDINATE: f64 = 1.0e12;
+/// Masses and densities outside of this are refused: products with them would leave 32 bits.
+const MASSES: core::ops::RangeInclusive<f32> = 1.0e-9..=1.0e12;
 
 impl World {
     /// Adds a body and gives its handle.
@@ -397,6 +399,7 @@ fn check_body(body: &RigidBody) -> Result<(), Error> {
     Error::check_not_negative("sleep_speed", body.sleep_speed)?;
     if let Some(mass) = body.mass {
         Error::check_positive("mass", mass)?;
+        check_range("mass", mass)?;
     }
     body.shapes.iter().try_for_each(check_shape)
 }
@@ -406,6 +409,9 @@ fn check_shape(shape: &ShapeDef) -> Result<(), Error> {
     Error::check_finite_vec("offset", shape.offset)?;
     Error::check_finite("angle", shape.angle)?;
     Error::check_not_negative("density", shape.material.density)?;
+    if shape.material.density != 0.0 {
+        check_range("density", shape.material.density)?;
+    }
     Error::check_not_negative("friction", shape.material.friction)?;
     Error::check_not_negative("restitution", shape.material.restitution)?;
     Error::check_not_negative("rolling_resistance", shape.material.rolling_resistance)?;
@@ -419,4 +425,11 @@ fn check_shape(shape: &ShapeDef) -> Result<(), Error> {
         }
     }
     shape.one_way.map_or(Ok(()), |direction| Error::check_finite_vec("one_way", direction))
+}
+
+fn check_range(name: &'static str, value: f32) -> Result<(), Error> {
+    if MASSES.contains(&value) {
+        return Ok(());
+    }
+    Err(Error::OutOfRange { name, value: value.into(), allowed: "1e-9 to 1e12" })
 }

@@ -3,6 +3,7 @@
 use super::World;
 use super::events::{ContactBegin, ContactEnd, Hit};
 use super::ids::{BodyId, ShapeId};
+use crate::describe::BodyKind;
 use crate::dynamics::{Bucket, NULL, OVERFLOW, Place, flags};
 use crate::math::{DVec2, Vec2};
 use crate::simd::BLOCK;
@@ -138,13 +139,11 @@ impl World {
         let ids = [manifold.id_1[lane], manifold.id_2[lane]];
         let approach = [surface.approach_1[lane], surface.approach_2[lane]];
         let peak = [surface.peak_1[lane], surface.peak_2[lane]];
-        let mut point = 0;
-        for k in (0..2).filter(|&k| ids[k] >= 0.0) {
+        for (point, k) in (0..2).filter(|&k| ids[k] >= 0.0).enumerate() {
             let speed = -approach[k];
             if peak[k] > 0.0 && speed > threshold && fastest.is_none_or(|(_, most)| speed > most) {
                 fastest = Some((point, speed));
             }
-            point += 1;
         }
         let (point, speed) = fastest?;
         let view = self.view(bucket, slot);
@@ -181,8 +180,7 @@ impl World {
             let (shape_a, shape_b) = (self.shape_id(shape_a), self.shape_id(shape_b));
             self.events.contact_begin.push(ContactBegin { shape_a, shape_b });
         }
-        self.wake_index(body_a);
-        self.wake_index(body_b);
+        self.wake_dynamic([body_a, body_b]);
         if self.contacts.records[index as usize].place == Place::Asleep {
             self.graph.insert(&mut self.bodies, &mut self.contacts, index);
         }
@@ -198,8 +196,7 @@ impl World {
                 let end = self.end_event(index);
                 self.events.pending_end.push(end);
             }
-            self.wake_index(body_a);
-            self.wake_index(body_b);
+            self.wake_dynamic([body_a, body_b]);
         }
         self.graph.remove(&mut self.bodies, &mut self.contacts, index);
         self.contacts.remove(&mut self.bodies, index);
@@ -213,8 +210,19 @@ impl World {
         }
     }
 
-    /// Wakes the island of a body.
+    /// Wakes those of the bodies that are dynamic. A kinematic body that sleeps stands still, and may go on.
+    fn wake_dynamic(&mut self, bodies: [u32; 2]) {
+        for index in bodies {
+            if self.bodies.is_dynamic(index) {
+                self.wake_index(index);
+            }
+        }
+    }
+
+    /// Wakes the island of a body; with a kinematic body, also what rests on it or hangs on it.
     pub(super) fn wake_index(&mut self, index: u32) {
+        let info = &self.bodies.infos[index as usize];
+        let starts_to_carry = info.kind == BodyKind::Kinematic && !info.awake;
         let woken = sleep::wake(
             index,
             &mut self.bodies,
@@ -226,6 +234,10 @@ impl World {
         for body in woken {
             let body = self.body_id(body);
             self.events.pending_woke.push(body);
+        }
+        if starts_to_carry {
+            self.wake_neighbours(index);
+            self.wake_joined(index);
         }
     }
 

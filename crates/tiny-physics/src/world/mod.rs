@@ -106,6 +106,7 @@ struct Scratch {
     findings: Vec<Findings>,
     fast: Vec<FastBody>,
     islands: Vec<u32>,
+    occupied: Vec<(usize, PairClass)>,
     overlaps: Vec<Overlap>,
     found_overlaps: Vec<Vec<Overlap>>,
     broken_joints: Vec<u32>,
@@ -209,8 +210,8 @@ impl World {
     /// Drops contacts of shapes that left their fat boxes and their partners; finds new partners.
     fn update_pairs(&mut self, team: &Team) {
         self.stats.moved_shapes = self.broad_phase.moved().len();
-        let Self { broad_phase, shapes, bodies, contacts, joints, scratch, .. } = self;
-        pairs::find_parted(broad_phase, bodies, shapes, contacts, &mut scratch.parted);
+        let Self { broad_phase, shapes, bodies, contacts, graph, joints, scratch, .. } = self;
+        pairs::find_parted(broad_phase, bodies, shapes, contacts, graph, &mut scratch.parted);
         let stores = pairs::Partners { shapes, bodies, contacts, joints };
         pairs::find_new(team, broad_phase, &stores, &mut scratch.found_pairs, &mut scratch.pairs);
         self.stats.candidate_pairs = scratch.pairs.len();
@@ -288,6 +289,10 @@ impl World {
     fn solve(&mut self, team: &Team, lengths: StepLengths) {
         let parameters = self.contact_parameters(lengths);
         self.inv_h = parameters.inv_h;
+        if self.bodies.awake.is_empty() {
+            return;
+        }
+        self.graph.list_occupied(&mut self.scratch.occupied);
         self.prepare_joints(team, lengths.h);
         integrate::prepare(team, &mut self.bodies, self.gravity, lengths.h);
         let max_speed = self.settings.max_speed * self.settings.length_unit;
@@ -330,14 +335,16 @@ impl World {
         if pass == Pass::WarmStartJointed && self.joint_graph.count() == 0 {
             return;
         }
-        let rows = SharedRows::new(&mut self.bodies.rows);
-        let (colours, rest) = self.graph.buckets.split_at_mut(OVERFLOW);
-        for (bucket, class) in rest[0].iter_mut().zip(PairClass::ALL) {
-            contact_solver::run_in_order(pass, parameters, rows, bucket, class.max_points());
-        }
-        for (bucket, class) in colours.iter_mut().flat_map(|c| c.iter_mut().zip(PairClass::ALL)) {
+        let Self { bodies, graph, scratch, level, .. } = self;
+        let rows = SharedRows::new(&mut bodies.rows);
+        for &(colour, class) in &scratch.occupied {
+            let bucket = &mut graph.buckets[colour][class as usize];
             let points = class.max_points();
-            contact_solver::run(team, self.level, pass, parameters, rows, bucket, points);
+            if colour == OVERFLOW {
+                contact_solver::run_in_order(pass, parameters, rows, bucket, points);
+            } else {
+                contact_solver::run(team, *level, pass, parameters, rows, bucket, points);
+            }
         }
     }
 
@@ -390,7 +397,7 @@ impl World {
 
     /// Looks for islands at rest now and then, and lets them sleep.
     fn put_resting_islands_to_sleep(&mut self) {
-        if !self.settings.sleep || self.step_count % sleep::INTERVAL != 0 {
+        if !self.settings.sleep || !self.step_count.is_multiple_of(sleep::INTERVAL) {
             return;
         }
         let mut islands = core::mem::take(&mut self.scratch.islands);
