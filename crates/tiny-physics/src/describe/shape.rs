@@ -1,6 +1,6 @@
 //! A shape on a body: geometry, place, material, filter.
 
-use super::Filter;
+use super::{ChainLink, Filter};
 use crate::geometry::Shape;
 use crate::math::Vec2;
 
@@ -66,6 +66,9 @@ pub struct ShapeDef {
     /// through from behind. `None` is solid from everywhere.
     #[cfg_attr(feature = "serde", serde(default))]
     pub one_way: Option<Vec2>,
+    /// For a segment that is part of a chain: its neighbours. [`ChainDef`](super::ChainDef) sets it.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub link: Option<ChainLink>,
     /// Are contact begin and end events sent for this shape?
     #[cfg_attr(feature = "serde", serde(default))]
     pub contact_events: bool,
@@ -88,6 +91,7 @@ impl ShapeDef {
             filter: Filter::default(),
             sensor: false,
             one_way: None,
+            link: None,
             contact_events: false,
             hit_events: false,
             user_data: 0,

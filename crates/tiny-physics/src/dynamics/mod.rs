@@ -24,4 +24,4 @@ pub(crate) use joint_blocks::*;
 pub(crate) use joint_graph::{JOINT_OVERFLOW, JointBlocks, JointBucket, JointGraph};
 pub(crate) use joints::{JointLoad, JointPlace, JointRecord, Joints};
 pub(crate) use sensors::{Overlap, Sensors};
-pub(crate) use shapes::{ShapeRecord, Shapes};
+pub(crate) use shapes::{ShapeRecord, Shapes, guard};

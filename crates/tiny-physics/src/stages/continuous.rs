@@ -8,6 +8,7 @@
 use super::finalize::{FastBody, update_boxes};
 use super::one_way;
 use super::pairs::PairRule;
+use super::surfaces;
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes};
 use crate::geometry::{Shape, Sweep, ToiState, time_of_impact};
@@ -143,7 +144,12 @@ impl Impact<'_> {
         }
         let pose = self.bodies.poses[other.body as usize];
         let place = Transform::new(pose.p.relative_to(self.fast.start.p), pose.q);
-        let fixed = Sweep::fixed(place.compose(other.central));
+        let at = place.compose(other.central);
+        let center = self.fast.start.q.rotate(record.central.p);
+        if surfaces::lets_pass(other, at, pose.q, center, self.fast.motion) {
+            return first;
+        }
+        let fixed = Sweep::fixed(at);
         let toi = time_of_impact(&record.shape, moving, &other.shape, &fixed, first);
         // One-way platforms stop only what comes from their solid side.
         let solid_along = |way: Vec2| {

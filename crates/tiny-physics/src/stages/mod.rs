@@ -13,4 +13,5 @@ pub(crate) mod one_way;
 pub(crate) mod pairs;
 pub(crate) mod sensors;
 pub(crate) mod sleep;
+pub(crate) mod surfaces;
 pub(crate) mod touching;

@@ -171,6 +171,7 @@ impl BodyMut<'_> {
         let (world, index) = (&mut *self.world, self.index);
         world.wake_index(index);
         world.wake_neighbours(index);
+        world.note_ground_of(index);
         world.bodies.set_origin_pose(index, pose.p, pose.q.normalized());
         world.mark_shapes_changed(index);
         finalize::update_boxes(
@@ -180,6 +181,7 @@ impl BodyMut<'_> {
             index,
             Vec2::ZERO,
         );
+        world.note_ground_of(index);
     }
 
     /// Sets the velocity of the centre of mass, metres a second. Nothing happens to a static body.

@@ -11,6 +11,7 @@ mod hash;
 mod hooks;
 mod ids;
 mod joints;
+mod mover;
 mod queries;
 mod sensors;
 mod shape_changes;
@@ -18,6 +19,7 @@ mod shapes;
 mod stats;
 #[cfg(test)]
 mod tests;
+mod tiles;
 mod validate;
 
 pub use bodies::{Body, BodyMut};
@@ -25,8 +27,9 @@ pub use contacts::{ContactPoint, ContactView};
 pub use events::{ContactBegin, ContactEnd, Events, Hit, JointBreak, SensorBegin, SensorEnd};
 pub use forces::{Explosion, ForceZone, Water, Wind, ZoneForce};
 pub use hooks::{ContactRules, ShapePair};
-pub use ids::{BodyId, JointId, ShapeId};
+pub use ids::{BodyId, JointId, ShapeId, TileGridId};
 pub use joints::JointRef;
+pub use mover::{CharacterMover, MoverGround, MoverInput};
 pub use queries::{ClosestPoint, QueryFilter, RayCast, RayCastHit, ShapeCastHit};
 pub use shape_changes::ShapeMut;
 pub use shapes::ShapeRef;
@@ -45,7 +48,7 @@ use crate::stages::contact_solver::{self, Parameters, Pass, Softness};
 use crate::stages::finalize::{FastBody, Findings};
 use crate::stages::touching::Changes;
 use crate::stages::{
-    continuous, finalize, integrate, joint_solver, narrow_phase, pairs, sleep, touching,
+    continuous, finalize, integrate, joint_solver, narrow_phase, pairs, sleep, surfaces, touching,
 };
 use crate::threads::{Pool, SharedRows, Team};
 use stats::Stopwatch;
@@ -88,12 +91,15 @@ pub struct World {
     joints: Joints,
     joint_graph: JointGraph,
     broad_phase: BroadPhase,
+    tiles: tiles::TileGrids,
     sensors: Sensors,
     hooks: hooks::Hooks,
     events: Events,
     step_count: u64,
     /// 1 / substep length of the last step.
     inv_h: f32,
+    /// Length of the step, seconds.
+    dt: f32,
     level: SimdLevel,
     pool: Pool,
     stats: Stats,
@@ -143,11 +149,13 @@ impl World {
             joints: Joints::default(),
             joint_graph: JointGraph::new(),
             broad_phase: BroadPhase::new(),
+            tiles: tiles::TileGrids::default(),
             sensors: Sensors::default(),
             hooks: hooks::Hooks::default(),
             events: Events::default(),
             step_count: 0,
             inv_h: 0.0,
+            dt: 0.0,
             level: SimdLevel::detect(),
             pool: Pool::default(),
             stats: Stats::default(),
@@ -181,6 +189,8 @@ impl World {
         let mut watch = Stopwatch::start();
         self.events.clear();
         self.bodies.sort_awake();
+        self.dt = lengths.dt;
+        self.refresh_surfaces();
 
         self.update_pairs(team);
         watch.lap(&mut self.stats, Stage::Pairs);
@@ -236,6 +246,12 @@ impl World {
         );
     }
 
+    /// Finds which faces of static shapes are covered by others, where static shapes have changed.
+    fn refresh_surfaces(&mut self) {
+        let Self { shapes, bodies, broad_phase, settings, .. } = self;
+        surfaces::refresh(shapes, bodies, broad_phase, settings.length_unit);
+    }
+
     /// What the narrow phase reads, and the graph that it writes.
     fn narrow_phase(&mut self) -> (narrow_phase::Context<'_>, &mut Graph) {
         let context = narrow_phase::Context {
@@ -246,6 +262,12 @@ impl World {
             shapes: &self.shapes.records,
             infos: (self.joint_graph.count() > 0).then_some(&self.bodies.infos),
             speculative_distance: SPECULATIVE_DISTANCE * self.settings.length_unit,
+            surroundings: surfaces::Surroundings {
+                guards: &self.shapes.guards,
+                broad_phase: &self.broad_phase,
+                dt: self.dt,
+                length_unit: self.settings.length_unit,
+            },
         };
         (context, &mut self.graph)
     }
