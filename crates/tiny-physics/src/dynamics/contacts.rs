@@ -1,6 +1,7 @@
 //! Contact records: pairs of shapes whose fat boxes overlap.
 
 use super::bodies::{Bodies, NULL};
+use super::clone::clone_by_field;
 use super::pair_table::PairTable;
 use crate::geometry::manifold::PairClass;
 
@@ -32,7 +33,7 @@ pub(crate) enum Place {
 }
 
 /// The lasting record of a pair.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Contact {
     pub(crate) alive: bool,
     /// Do the shapes touch (or nearly), as of the last narrow phase?
@@ -58,12 +59,14 @@ pub(crate) struct Contact {
 }
 
 /// All contacts of a world.
-#[derive(Clone, Debug, PartialEq, Default)]
+#[derive(Debug, PartialEq, Default)]
 pub(crate) struct Contacts {
     pub(crate) records: Vec<Contact>,
     pub(crate) pairs: PairTable,
     free: Vec<u32>,
 }
+
+clone_by_field!(Contacts { records, pairs, free });
 
 impl Contacts {
     /// Puts a record in: into the pair table and both bodies' lists.

@@ -12,6 +12,7 @@
 
 use super::blocks::{BlockHead, ConstraintBlock, ManifoldBlock, SurfaceBlock, flags};
 use super::bodies::Bodies;
+use super::clone::clone_by_field;
 use super::contacts::{Contact, Contacts, Place, SavedPoint};
 use crate::geometry::manifold::PairClass;
 use crate::simd::BLOCK;
@@ -24,7 +25,7 @@ pub(crate) const OVERFLOW: usize = COLOURS;
 pub(crate) const IDLE: usize = COLOURS + 1;
 
 /// Contacts of one colour and class.
-#[derive(Clone, Debug, PartialEq, Default)]
+#[derive(Debug, PartialEq, Default)]
 pub(crate) struct Bucket {
     /// Contact index of each slot.
     pub(crate) contacts: Vec<u32>,
@@ -34,6 +35,8 @@ pub(crate) struct Bucket {
     pub(crate) surfaces: Vec<SurfaceBlock>,
     pub(crate) heads: Vec<BlockHead>,
 }
+
+clone_by_field!(Bucket { contacts, manifolds, constraints, surfaces, heads });
 
 impl Bucket {
     /// The two bodies of a slot.
@@ -175,7 +178,7 @@ fn contact_flags(contact: &Contact) -> u8 {
 }
 
 /// All colours, the overflow and the idle contacts.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub(crate) struct Graph {
     /// `buckets[colour][class]`.
     pub(crate) buckets: Vec<[Bucket; PairClass::COUNT]>,
@@ -183,6 +186,8 @@ pub(crate) struct Graph {
     /// Blocks (colour, class, block) that got a touching contact since the last narrow phase.
     fresh: Vec<(u8, u8, u32)>,
 }
+
+clone_by_field!(Graph { buckets, touching, fresh });
 
 impl Graph {
     pub(crate) fn new() -> Self {

@@ -1,6 +1,7 @@
 //! Shapes: what hangs on bodies.
 
 use super::bodies::NULL;
+use super::clone::{Serial, clone_by_field};
 use crate::broad_phase::ProxyId;
 use crate::describe::{Filter, Material};
 use crate::geometry::Shape;
@@ -9,7 +10,7 @@ use crate::math::{Aabb, Transform, Vec2};
 use crate::simd::Row;
 
 /// One shape of a body. What a step touches lies in the first cache line.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct ShapeRecord {
     pub(crate) body: u32,
@@ -40,7 +41,7 @@ pub(crate) struct ShapeRecord {
 const _: () = assert!(core::mem::offset_of!(ShapeRecord, material) <= 64);
 
 /// All shapes of a world, by stable index.
-#[derive(Clone, Debug, PartialEq, Default)]
+#[derive(Debug, PartialEq, Default)]
 pub(crate) struct Shapes {
     pub(crate) records: Vec<ShapeRecord>,
     /// The shape as a rounded box in the frame of the body's centre of mass, for the lane kernels:
@@ -51,7 +52,10 @@ pub(crate) struct Shapes {
     pub(crate) fat: Vec<Aabb>,
     free: Vec<u32>,
     count: usize,
+    serial: Serial,
 }
+
+clone_by_field!(Shapes { records, rows, fat, free, count, serial });
 
 impl Shapes {
     /// Shapes alive.
@@ -67,8 +71,8 @@ impl Shapes {
     pub(crate) fn insert(&mut self, mut record: ShapeRecord) -> u32 {
         self.count += 1;
         record.alive = true;
+        record.generation = self.serial.next();
         if let Some(index) = self.free.pop() {
-            record.generation = self.records[index as usize].generation;
             self.records[index as usize] = record;
             self.rows[index as usize] = [0.0; 8];
             self.fat[index as usize] = Aabb::EMPTY;
@@ -85,7 +89,6 @@ impl Shapes {
         self.count -= 1;
         let record = &mut self.records[index as usize];
         record.alive = false;
-        record.generation = record.generation.wrapping_add(1);
         record.body = NULL;
         record.proxy = NULL;
         record.next = NULL;

@@ -1,6 +1,7 @@
 //! What happened in the last step, to be read after it.
 
 use super::ids::{JointId, ShapeId};
+use crate::dynamics::clone_by_field;
 use crate::math::Vec2;
 
 /// Two shapes began to touch.
@@ -51,7 +52,7 @@ pub struct JointBreak {
 
 /// The events of one step, each list in a fixed order that threads do not change. Only shapes that ask for
 /// events (see [`ShapeDef`](crate::ShapeDef)) have them.
-#[derive(Clone, PartialEq, Debug, Default)]
+#[derive(PartialEq, Debug, Default)]
 pub struct Events {
     pub(crate) contact_begin: Vec<ContactBegin>,
     pub(crate) contact_end: Vec<ContactEnd>,
@@ -60,6 +61,8 @@ pub struct Events {
     /// Ends that came about between steps, by removal: part of the next step's events.
     pub(crate) pending_end: Vec<ContactEnd>,
 }
+
+clone_by_field!(Events { contact_begin, contact_end, hits, joint_breaks, pending_end });
 
 impl Events {
     /// Contacts that began.

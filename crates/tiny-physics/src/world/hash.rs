@@ -35,7 +35,7 @@ impl World {
         for index in self.bodies.indices() {
             let i = index as usize;
             let (pose, info) = (&self.bodies.poses[i], &self.bodies.infos[i]);
-            hasher.word(u64::from(index) << 32 | u64::from(info.generation));
+            hasher.word(index.into());
             hasher.word(pose.p.x.to_bits());
             hasher.word(pose.p.y.to_bits());
             hasher.float(pose.q.c);

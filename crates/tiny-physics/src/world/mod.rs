@@ -5,6 +5,7 @@ mod build;
 mod contacts;
 mod debug_draw;
 mod events;
+mod frame;
 mod hash;
 mod ids;
 mod joints;
@@ -63,7 +64,7 @@ const CONTACT_RATE_FRACTION: f32 = 0.125;
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct World {
     /// Acceleration of every dynamic body, metres a second squared.
     pub gravity: Vec2,
@@ -87,7 +88,7 @@ pub struct World {
 }
 
 /// Lists that a step fills anew; kept only for their memory.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 struct Scratch {
     pairs: Vec<(u32, u32)>,
     parted: Vec<u32>,
