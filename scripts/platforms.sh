@@ -51,7 +51,7 @@ hashes_x86_64() {
 hashes_aarch64() {
   local target=aarch64-unknown-linux-gnu dir; dir=$(sysroot $target "-Ctarget-feature=+crt-static")
   RUSTC=/usr/bin/rustc CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc \
-    CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUSTFLAGS="--sysroot $dir -Ctarget-feature=+crt-static -Cpanic=abort" \
+    CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUSTFLAGS="--sysroot $dir -Ctarget-feature=+crt-static" \
     CARGO_TARGET_DIR=$target_dir/platforms \
     cargo build -q --release --target $target -p tiny-physics-scenes --example hashes
   qemu-aarch64 "$target_dir/platforms/$target/release/examples/hashes"

@@ -1,5 +1,6 @@
 //! tiny-physics.
 pub mod broad_phase;
+mod codec;
 mod debug_draw;
 mod describe;
 mod dynamics;

@@ -4,6 +4,7 @@
 //! written to a file. The world copies what it needs; changing a description later changes nothing.
 
 mod body;
+mod data;
 mod filter;
 mod joint;
 mod settings;

@@ -1,5 +1,6 @@
 //! Bodies: hot rows for the solver, poses, and everything else.
 
+use crate::codec::data;
 use super::clone::{Serial, clone_by_field};
 use crate::describe::{BodyKind, Locks};
 use crate::math::{DVec2, Pose, Rot, Vec2};
@@ -139,12 +140,24 @@ pub(crate) struct Bodies {
     pub(crate) awake: Vec<u32>,
     /// `awake` has been appended to since it was last sorted.
     pub(crate) awake_unsorted: bool,
-    free: Vec<u32>,
-    count: usize,
+    pub(crate) free: Vec<u32>,
+    pub(crate) count: usize,
     serial: Serial,
 }
 
 clone_by_field!(Bodies {
+    rows,
+    poses,
+    motions,
+    starts,
+    infos,
+    awake,
+    awake_unsorted,
+    free,
+    count,
+    serial
+});
+data!(Bodies {
     rows,
     poses,
     motions,

@@ -33,6 +33,15 @@ impl Serial {
     }
 }
 
+impl crate::codec::Data for Serial {
+    fn save(&self, sink: &mut impl crate::codec::Sink) {
+        sink.apart(self.0);
+    }
+    fn load(reader: &mut crate::codec::Reader<'_>) -> Result<Self, crate::error::Error> {
+        Ok(Self(crate::codec::Data::load(reader)?))
+    }
+}
+
 impl Clone for Serial {
     fn clone(&self) -> Self {
         Self(self.0)

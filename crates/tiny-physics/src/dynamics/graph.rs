@@ -14,6 +14,8 @@ use super::blocks::{BlockHead, ConstraintBlock, ManifoldBlock, SurfaceBlock, fla
 use super::bodies::Bodies;
 use super::clone::clone_by_field;
 use super::contacts::{Contact, Contacts, Place, SavedPoint};
+use crate::codec::{Data, Reader, Sink};
+use crate::error::Error;
 use crate::geometry::manifold::PairClass;
 use crate::simd::BLOCK;
 
@@ -188,6 +190,24 @@ pub(crate) struct Graph {
 }
 
 clone_by_field!(Graph { buckets, touching, fresh });
+
+impl Data for Graph {
+    fn save(&self, sink: &mut impl Sink) {
+        // Fresh blocks are those of the step at work.
+        let Self { buckets, touching: _, fresh: _ } = self;
+        buckets.iter().flatten().for_each(|bucket| bucket.save(sink));
+    }
+
+    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        let mut graph = Self::new();
+        for bucket in graph.buckets.iter_mut().flatten() {
+            *bucket = Data::load(reader)?;
+        }
+        let coloured = graph.buckets[..IDLE].iter().flatten();
+        graph.touching = coloured.map(|bucket| bucket.contacts.len()).sum();
+        Ok(graph)
+    }
+}
 
 impl Graph {
     pub(crate) fn new() -> Self {

@@ -4,6 +4,7 @@
 //! which joints come in. Between two dynamic bodies the lowest free colour, else the highest: joints
 //! to the ground are solved last. What finds no colour goes to the overflow.
 
+use crate::codec::data;
 use super::bodies::Bodies;
 use super::clone::clone_by_field;
 use super::joint_blocks::{
@@ -209,10 +210,11 @@ pub(crate) struct JointGraph {
     pub(crate) described_h: f32,
     /// Some block is stale.
     pub(crate) any_stale: bool,
-    count: usize,
+    pub(crate) count: usize,
 }
 
 clone_by_field!(JointGraph { colours, described_h, any_stale, count });
+data!(JointGraph { colours, described_h, any_stale, count });
 
 impl JointGraph {
     pub(crate) fn new() -> Self {

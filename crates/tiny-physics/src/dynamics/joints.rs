@@ -1,5 +1,6 @@
 //! Joint records: what the user asked for, and where the solver's copy of it is.
 
+use crate::codec::data;
 use super::bodies::{Bodies, NULL};
 use super::clone::{Serial, clone_by_field};
 use super::joint_blocks::{Impulses, JointClass};
@@ -71,12 +72,13 @@ pub(crate) struct Joints {
     pub(crate) records: Vec<JointRecord>,
     /// Joints that can break, ascending.
     pub(crate) breakable: Vec<u32>,
-    free: Vec<u32>,
-    count: usize,
+    pub(crate) free: Vec<u32>,
+    pub(crate) count: usize,
     serial: Serial,
 }
 
 clone_by_field!(Joints { records, breakable, free, count, serial });
+data!(Joints { records, breakable, free, count, serial });
 
 impl Joints {
     /// Joints alive.

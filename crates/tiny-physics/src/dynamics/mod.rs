@@ -7,6 +7,7 @@ mod blocks;
 mod bodies;
 mod clone;
 mod contacts;
+mod data;
 mod graph;
 mod joint_blocks;
 mod joint_graph;

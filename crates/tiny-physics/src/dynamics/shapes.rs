@@ -1,5 +1,6 @@
 //! Shapes: what hangs on bodies.
 
+use crate::codec::data;
 use super::bodies::NULL;
 use super::clone::{Serial, clone_by_field};
 use crate::broad_phase::ProxyId;
@@ -50,12 +51,13 @@ pub(crate) struct Shapes {
     pub(crate) rows: Vec<Row>,
     /// The fat boxes that the broad phase has, for a quick look.
     pub(crate) fat: Vec<Aabb>,
-    free: Vec<u32>,
-    count: usize,
+    pub(crate) free: Vec<u32>,
+    pub(crate) count: usize,
     serial: Serial,
 }
 
 clone_by_field!(Shapes { records, rows, fat, free, count, serial });
+data!(Shapes { records, rows, fat, free, count, serial });
 
 impl Shapes {
     /// Shapes alive.

@@ -1,6 +1,7 @@
 //! What happened in the last step, to be read after it.
 
 use super::ids::{JointId, ShapeId};
+use crate::codec::data;
 use crate::dynamics::clone_by_field;
 use crate::math::Vec2;
 
@@ -62,6 +63,11 @@ pub struct Events {
     pub(crate) pending_end: Vec<ContactEnd>,
 }
 
+data!(ContactBegin { shape_a, shape_b });
+data!(ContactEnd { shape_a, shape_b });
+data!(Hit { shape_a, shape_b, position, normal, speed });
+data!(JointBreak { joint, force, torque, user_data });
+data!(Events { contact_begin, contact_end, hits, joint_breaks, pending_end });
 clone_by_field!(Events { contact_begin, contact_end, hits, joint_breaks, pending_end });
 
 impl Events {
