@@ -1,4 +1,55 @@
-//! tiny-physics.
+//! A small, fast 2D rigid-body physics engine: nothing tunnels, nothing jitters, same bits everywhere.
+//!
+//! ```
+//! use tiny_physics::{RigidBody, Shape, Vec2, World};
+//! # fn main() -> Result<(), tiny_physics::Error> {
+//! let mut world = World::new(Vec2::new(0.0, -9.8));
+//! let ground = Shape::Aabb { half_extents: Vec2::new(20.0, 1.0) };
+//! world.add_body(RigidBody::new(ground, Vec2::new(0.0, -1.0), 0.0))?; // mass 0 is static
+//! let ball = RigidBody::new(Shape::Circle { radius: 0.5 }, Vec2::new(0.0, 4.0), 1.0);
+//! let ball = world.add_body(ball)?;
+//! for _ in 0..300 {
+//!     world.step(1.0 / 60.0);
+//! }
+//! assert!((world.body(ball).unwrap().position().y - 0.5).abs() < 0.01);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Contents
+//!
+//! | to | use |
+//! |---|---|
+//! | make a world, add to it, step it | [`World`], [`Settings`] |
+//! | describe a body and its shapes | [`RigidBody`], [`ShapeDef`], [`Material`], [`Filter`], [`Shape`], [`Polygon`] |
+//! | describe a joint | [`JointDef`], [`JointKind`] |
+//! | read a body, change it | [`Body`], [`BodyMut`], by its [`BodyId`] |
+//! | read shapes and contacts | [`ShapeRef`], [`ContactView`] |
+//! | learn what happened in a step | [`Events`], [`Stats`] |
+//! | step evenly where frames are uneven | [`FixedStep`] |
+//! | draw | [`DebugDraw`] |
+//! | collide two shapes without a world | [`collide`], [`contact`], [`geometry`] |
+//! | calculate | [`Vec2`], [`Rot`], [`Transform`], [`Aabb`], [`math`] |
+//! | find pairs of boxes without a world | [`broad_phase`] |
+//! | choose an instruction set | [`SimdLevel`] |
+//!
+//! # Units and frames
+//!
+//! Metres, kilograms, seconds, radians anticlockwise; y points up. Bodies work best between 0.1 and 10 m; see
+//! [`Settings::length_unit`] for pixels. Normals are unit vectors from A to B. Positions in the world have 64 bits inside
+//! ([`DVec2`], [`Pose`]), everything else 32.
+//!
+//! # Bad input
+//!
+//! What describes something gives an [`Error`] that names the value. What changes a body by a number that is not
+//! finite does nothing. Handles go stale when their body, shape or joint is removed, and never mean another.
+//! Nothing panics.
+//!
+//! # Features
+//!
+//! `parallel` (default) lets a world use several threads; results do not depend on it. `serde` writes
+//! descriptions and settings to files.
+
 pub mod broad_phase;
 mod codec;
 mod debug_draw;
@@ -25,3 +76,8 @@ pub use geometry::{Polygon, Shape};
 pub use math::{Aabb, DVec2, Pose, Rot, Transform, Vec2};
 pub use simd::SimdLevel;
 pub use world::*;
+
+/// The examples of the README are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

@@ -538,6 +538,12 @@ impl BroadPhase {
         }
     }
 
+    /// What decides which pairs the next update finds, besides the boxes.
+    pub(crate) fn hash_lists(&self, sink: &mut impl Sink) {
+        self.free.save(sink);
+        self.moved.iter().for_each(|id| id.0.save(sink));
+    }
+
     /// Checks that nothing of what was read leads out of the lists.
     fn check_loaded(&self) -> Result<(), Error> {
         let mut seen = vec![false; self.proxies.len()];
@@ -554,9 +560,8 @@ impl BroadPhase {
         }
         for (kind, tree) in kinds.into_iter().zip(&self.trees) {
             tree.check_loaded().map_err(bad)?;
-            let in_tree = |(id, proxy): (usize, &Proxy)| {
-                proxy.kind != Some(kind) || tree.contains(id as u32)
-            };
+            let in_tree =
+                |(id, proxy): (usize, &Proxy)| proxy.kind != Some(kind) || tree.contains(id as u32);
             if tree.len() != alive(kind) || !self.proxies.iter().enumerate().all(in_tree) {
                 return Err(bad("a tree holds other proxies than there are"));
             }

@@ -446,9 +446,7 @@ impl DynamicTree {
             return Err("a leaf of a tree is nowhere");
         }
         for node in &self.nodes {
-            let below = |&child: &u32| {
-                child == NONE || node.level == 0 || (child as usize) < count
-            };
+            let below = |&child: &u32| child == NONE || node.level == 0 || (child as usize) < count;
             if node.level > 64 || !inside(node.parent) || node.lane as usize >= WIDTH {
                 return Err("a node of a tree is wrong");
             }

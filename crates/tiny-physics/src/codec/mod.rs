@@ -176,7 +176,7 @@ macro_rules! data {
             #[inline]
             fn save(&self, sink: &mut impl $crate::codec::Sink) {
                 let Self { $($field,)* $($($apart,)*)? } = self;
-                $($field.save(sink);)*
+                $($crate::codec::Data::save($field, sink);)*
                 $($(sink.apart(*$apart);)*)?
             }
             #[inline]
@@ -200,7 +200,7 @@ macro_rules! data_enum {
                 match self {
                     $(Self::$variant $({ $($field),* })? => {
                         sink.u8($tag);
-                        $($($field.save(sink);)*)?
+                        $($($crate::codec::Data::save($field, sink);)*)?
                     })*
                 }
             }

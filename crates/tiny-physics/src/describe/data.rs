@@ -1,7 +1,8 @@
 //! Descriptions as data of a saved frame.
 
 use super::{
-    BodyKind, Break, Filter, JointDef, JointKind, Limits, Locks, Material, Mix, Motor, Settings, Spring,
+    BodyKind, Break, Filter, JointDef, JointKind, Limits, Locks, Material, Mix, Motor, Settings,
+    Spring,
 };
 use crate::codec::{data, data_enum};
 

@@ -31,4 +31,10 @@ impl Filter {
         }
         self.mask & other.category != 0 && other.mask & self.category != 0
     }
+
+    /// Category and mask by which the broad phase may pass over pairs: all bits where a positive group
+    /// overrides them.
+    pub(crate) fn reach(&self) -> (u64, u64) {
+        if self.group > 0 { (u64::MAX, u64::MAX) } else { (self.category, self.mask) }
+    }
 }

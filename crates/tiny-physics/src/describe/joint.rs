@@ -454,8 +454,8 @@ impl JointDef {
     /// # Errors
     /// [`Error::NotFinite`] and [`Error::OutOfRange`] name the first field that does not.
     pub fn validate(&self) -> Result<(), Error> {
-        Error::check_finite_vec("anchor_a", self.anchor_a)?;
-        Error::check_finite_vec("anchor_b", self.anchor_b)?;
+        check_anchor("anchor_a", self.anchor_a)?;
+        check_anchor("anchor_b", self.anchor_b)?;
         Error::check_finite("angle_a", self.angle_a)?;
         Error::check_finite("angle_b", self.angle_b)?;
         check_spring("softness", self.softness)?;
@@ -528,6 +528,17 @@ impl JointKind {
             }
         }
     }
+}
+
+/// Anchors lie where points of shapes can lie.
+fn check_anchor(name: &'static str, anchor: Vec2) -> Result<(), Error> {
+    Error::check_finite_vec(name, anchor)?;
+    for value in [anchor.x, anchor.y] {
+        if value.abs() > crate::geometry::MAX_EXTENT {
+            return Err(Error::OutOfRange { name, value: value.into(), allowed: "within 1e6" });
+        }
+    }
+    Ok(())
 }
 
 fn check_axis(

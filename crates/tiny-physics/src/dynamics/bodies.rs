@@ -1,7 +1,7 @@
 //! Bodies: hot rows for the solver, poses, and everything else.
 
-use crate::codec::data;
 use super::clone::{Serial, clone_by_field};
+use crate::codec::data;
 use crate::describe::{BodyKind, Locks};
 use crate::math::{DVec2, Pose, Rot, Vec2};
 use crate::simd::Row;
@@ -132,6 +132,9 @@ pub(crate) struct Bodies {
     pub(crate) rows: Vec<Row>,
     /// Frame of the centre of mass.
     pub(crate) poses: Vec<Pose>,
+    /// Poses at the start of the last step, for drawing in between; the current ones of bodies that sleep
+    /// or were placed by the user.
+    pub(crate) previous: Vec<Pose>,
     pub(crate) motions: Vec<Motion>,
     /// Velocity before the impulses of the substep, and whether (1 or 0) those are carried into the next.
     pub(crate) starts: Vec<[f32; 4]>,
@@ -148,6 +151,7 @@ pub(crate) struct Bodies {
 clone_by_field!(Bodies {
     rows,
     poses,
+    previous,
     motions,
     starts,
     infos,
@@ -160,6 +164,7 @@ clone_by_field!(Bodies {
 data!(Bodies {
     rows,
     poses,
+    previous,
     motions,
     starts,
     infos,
@@ -175,6 +180,7 @@ impl Bodies {
         Self {
             rows: vec![[0.0; 8]],
             poses: vec![Pose::default()],
+            previous: vec![Pose::default()],
             motions: vec![Motion::default()],
             starts: vec![[0.0; 4]],
             infos: vec![BodyInfo::default()],
@@ -205,12 +211,14 @@ impl Bodies {
             let i = index as usize;
             self.infos[i] = info;
             self.poses[i] = pose;
+            self.previous[i] = pose;
             self.rows[i] = [0.0; 8];
             self.motions[i] = Motion::default();
             index
         } else {
             self.infos.push(info);
             self.poses.push(pose);
+            self.previous.push(pose);
             self.rows.push([0.0; 8]);
             self.motions.push(Motion::default());
             self.starts.push([0.0; 4]);
@@ -284,7 +292,9 @@ impl Bodies {
     /// Places the body by its origin.
     pub(crate) fn set_origin_pose(&mut self, index: u32, position: DVec2, rotation: Rot) {
         let center = self.infos[index as usize].local_center;
-        self.poses[index as usize] = Pose::new(position + rotation.rotate(center), rotation);
+        let pose = Pose::new(position + rotation.rotate(center), rotation);
+        self.poses[index as usize] = pose;
+        self.previous[index as usize] = pose;
     }
 
     /// Writes the inverse masses that the solver works with.

@@ -218,6 +218,11 @@ impl Graph {
         }
     }
 
+    /// Contacts in the graph, touching or not.
+    pub(crate) fn len(&self) -> usize {
+        self.touching + self.buckets[IDLE].iter().map(|bucket| bucket.contacts.len()).sum::<usize>()
+    }
+
     /// Contacts that touch and are awake.
     pub(crate) fn touching_count(&self) -> usize {
         self.touching

@@ -4,7 +4,6 @@
 //! which joints come in. Between two dynamic bodies the lowest free colour, else the highest: joints
 //! to the ground are solved last. What finds no colour goes to the overflow.
 
-use crate::codec::data;
 use super::bodies::Bodies;
 use super::clone::clone_by_field;
 use super::joint_blocks::{
@@ -12,6 +11,7 @@ use super::joint_blocks::{
     PulleyBlock, RevoluteBlock, WeldBlock, WheelBlock,
 };
 use super::joints::{JointPlace, JointRecord, Joints};
+use crate::codec::data;
 use crate::simd::BLOCK;
 use crate::threads::Team;
 

@@ -1,9 +1,9 @@
 //! Joint records: what the user asked for, and where the solver's copy of it is.
 
-use crate::codec::data;
 use super::bodies::{Bodies, NULL};
 use super::clone::{Serial, clone_by_field};
 use super::joint_blocks::{Impulses, JointClass};
+use crate::codec::data;
 use crate::describe::JointDef;
 use crate::math::Vec2;
 

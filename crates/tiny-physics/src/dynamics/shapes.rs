@@ -1,9 +1,9 @@
 //! Shapes: what hangs on bodies.
 
-use crate::codec::data;
 use super::bodies::NULL;
 use super::clone::{Serial, clone_by_field};
 use crate::broad_phase::ProxyId;
+use crate::codec::data;
 use crate::describe::{Filter, Material};
 use crate::geometry::Shape;
 use crate::geometry::manifold::ShapeClass;
@@ -95,6 +95,12 @@ impl Shapes {
         record.proxy = NULL;
         record.next = NULL;
         self.free.push(index);
+    }
+
+    /// Do the fat boxes of two shapes overlap?
+    #[inline]
+    pub(crate) fn may_touch(&self, a: u32, b: u32) -> bool {
+        self.fat[a as usize].overlaps(&self.fat[b as usize])
     }
 
     /// The leaf of a shape in the broad phase.

@@ -71,14 +71,15 @@ impl Rot {
         self.relative_to(reference).angle()
     }
 
-    /// Turned on by a small angle in radians: exact to fifth order, and kept at unit length.
+    /// Turned on by a small angle in radians: exact to seventh order, and kept at unit length.
     ///
     /// The half-angle form `((1 - t^2), 2t) / (1 + t^2)` with `t = tan(angle / 2)` by its series; one
     /// Newton step takes out the rounding that thousands of steps would gather.
     #[inline]
     pub fn integrate(self, delta: f32) -> Self {
         let half = 0.5 * delta;
-        let t = half + half * half * half * (1.0 / 3.0);
+        let half_sq = half * half;
+        let t = half + half * half_sq * (1.0 / 3.0 + half_sq * (2.0 / 15.0));
         let t_sq = t * t;
         let inv = 1.0 / (1.0 + t_sq);
         let turned = Self { c: (1.0 - t_sq) * inv, s: 2.0 * t * inv }.compose(self);

@@ -8,20 +8,20 @@
 use super::finalize::{FastBody, update_boxes};
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes};
-use crate::geometry::{Sweep, ToiState, time_of_impact};
-use crate::math::{Aabb, Pose, Transform, Vec2};
+use crate::geometry::{Shape, Sweep, ToiState, time_of_impact};
+use crate::math::{Aabb, Pose, Rot, Transform, Vec2};
 use core::ops::ControlFlow;
 
 /// Sweeps the fast bodies, bullets last: they see where all others have ended.
 pub(crate) fn run(
-    fast: &[FastBody],
+    fast: &mut [FastBody],
     bodies: &mut Bodies,
     shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
 ) {
     for bullets in [false, true] {
-        for body in fast {
+        for body in fast.iter_mut() {
             if bodies.infos[body.body as usize].bullet == bullets {
                 sweep(body, bodies, shapes, joints, broad_phase);
             }
@@ -31,19 +31,46 @@ pub(crate) fn run(
 
 /// Sets one body back to its first impact, if it has one, and updates its boxes.
 fn sweep(
-    fast: &FastBody,
+    fast: &mut FastBody,
     bodies: &mut Bodies,
     shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
 ) {
     let fraction = Impact { fast, bodies, shapes, joints, broad_phase }.first_fraction();
+    fast.fraction = fraction;
     if fraction < 1.0 {
         let position = fast.start.p + fast.motion * fraction;
         let rotation = fast.start.q.integrate(fast.turn * fraction);
         bodies.poses[fast.body as usize] = Pose::new(position, rotation);
     }
     update_boxes(bodies, shapes, broad_phase, fast.body, fast.motion * fraction);
+}
+
+/// A disk about the middle of a shape, half as thick as it. What a shape touches already at the start of
+/// the step is the contact solver's affair, which holds a corner and lets the rest turn about it; but
+/// the middle must not pass.
+struct Inner {
+    disk: Shape,
+    sweep: Sweep,
+}
+
+impl Inner {
+    fn new(record: &ShapeRecord, body: &Sweep) -> Self {
+        let disk = Shape::Circle { radius: 0.5 * record.shape.inner_radius() };
+        let middle = record.central.apply(record.shape.mass_properties(1.0).center);
+        Self { disk, sweep: body.child(Transform::new(middle, Rot::IDENTITY)) }
+    }
+
+    fn first_fraction(&self, other: &Shape, fixed: &Sweep, first: f32) -> f32 {
+        let toi = time_of_impact(&self.disk, &self.sweep, other, fixed, first);
+        match toi.state {
+            ToiState::Hit | ToiState::Limit => toi.fraction,
+            // Deep inside already: out again is the only way on.
+            ToiState::Touching if toi.normal.dot(self.sweep.translation()) > 0.0 => 0.0,
+            ToiState::Separated | ToiState::Touching => first,
+        }
+    }
 }
 
 /// The search for the first impact of a body.
@@ -71,13 +98,14 @@ impl Impact<'_> {
                 continue;
             }
             let moving = sweep.child(record.central);
+            let inner = Inner::new(record, &sweep);
             for kind in [ProxyKind::Static, ProxyKind::Kinematic, ProxyKind::Dynamic] {
                 if kind == ProxyKind::Dynamic && !info.bullet {
                     continue;
                 }
-                self.broad_phase.tree(kind).query(&path, record.filter.mask, |proxy| {
+                self.broad_phase.tree(kind).query(&path, record.filter.reach().1, |proxy| {
                     if let Some(other) = self.broad_phase.user(crate::broad_phase::ProxyId(proxy)) {
-                        first = self.impact(record, &moving, other, first);
+                        first = self.impact(record, &moving, &inner, other, first);
                     }
                     ControlFlow::Continue(())
                 });
@@ -94,7 +122,14 @@ impl Impact<'_> {
     }
 
     /// The first impact so far, taking one more shape into account.
-    fn impact(&self, record: &ShapeRecord, moving: &Sweep, other: u32, first: f32) -> f32 {
+    fn impact(
+        &self,
+        record: &ShapeRecord,
+        moving: &Sweep,
+        inner: &Inner,
+        other: u32,
+        first: f32,
+    ) -> f32 {
         let other = &self.shapes.records[other as usize];
         if !self.may_collide(record, other) {
             return first;
@@ -105,7 +140,8 @@ impl Impact<'_> {
         let toi = time_of_impact(&record.shape, moving, &other.shape, &fixed, first);
         match toi.state {
             ToiState::Hit | ToiState::Limit => toi.fraction,
-            ToiState::Separated | ToiState::Touching => first,
+            ToiState::Separated => first,
+            ToiState::Touching => inner.first_fraction(&other.shape, &fixed, first),
         }
     }
 

@@ -17,6 +17,8 @@ pub(crate) struct FastBody {
     pub(crate) motion: Vec2,
     /// What it turned, radians.
     pub(crate) turn: f32,
+    /// The part of both that the continuous stage let it have, 0 to 1.
+    pub(crate) fraction: f32,
 }
 
 /// What [`run`] needs to know of the world's settings.
@@ -53,7 +55,8 @@ pub(crate) fn run(
     options: Options,
     found: &mut Vec<Findings>,
 ) -> usize {
-    let Bodies { awake, rows, poses, infos, .. } = bodies;
+    let Bodies { awake, rows, poses, previous, infos, .. } = bodies;
+    let previous = SharedSlice::new(previous);
     let (rows, poses, infos) =
         (SharedSlice::new(rows), SharedSlice::new(poses), SharedSlice::new(infos));
     let (old_shapes, boxes) = (&*shapes, &*broad_phase);
@@ -64,6 +67,7 @@ pub(crate) fn run(
         for &index in &awake[range] {
             rows.update(index, |row| {
                 poses.update(index, |pose| {
+                    previous.write(index, *pose);
                     infos.update(index, |info| {
                         let body = FinalBody { index, row, pose, info };
                         finalize_body(body, old_shapes, boxes, options, found);
@@ -115,7 +119,7 @@ fn finalize_body(
     let reach = motion.length() + turn.abs() * info.max_extent;
     let moving = info.kind == BodyKind::Dynamic;
     if options.continuous && moving && reach > SAFE_FRACTION * info.min_extent {
-        found.fast.push(FastBody { body: index, start, motion, turn });
+        found.fast.push(FastBody { body: index, start, motion, turn, fraction: 1.0 });
         return;
     }
     for shape in shapes.of_body(info.first_shape) {

@@ -10,5 +10,6 @@ pub(crate) mod integrate;
 pub(crate) mod joint_solver;
 pub(crate) mod narrow_phase;
 pub(crate) mod pairs;
+pub(crate) mod sensors;
 pub(crate) mod sleep;
 pub(crate) mod touching;

@@ -24,10 +24,10 @@ pub(crate) fn find_resting(
     if !bodies.awake.iter().any(|&i| bodies.infos[i as usize].sleep_time >= time_to_sleep) {
         return;
     }
-    let mut sets = Sets::new(bodies);
+    let mut sets = Sets::new(bodies, time_to_sleep);
     sets.join_contacts(bodies, graph);
     sets.join_joints(bodies, joints);
-    sets.collect_resting(bodies, time_to_sleep, islands);
+    sets.collect_resting(bodies, islands);
 }
 
 /// Union-find over awake bodies.
@@ -35,12 +35,14 @@ struct Sets {
     parent: Vec<u32>,
     /// Must the set of this root stay awake?
     restless: Vec<bool>,
+    time_to_sleep: f32,
 }
 
 impl Sets {
-    fn new(bodies: &Bodies) -> Self {
+    fn new(bodies: &Bodies, time_to_sleep: f32) -> Self {
         let count = bodies.infos.len();
-        Self { parent: (0..count as u32).collect(), restless: vec![false; count] }
+        let parent = (0..count as u32).collect();
+        Self { parent, restless: vec![false; count], time_to_sleep }
     }
 
     fn find(&mut self, mut i: u32) -> u32 {
@@ -62,9 +64,9 @@ impl Sets {
                 let (root, child) = if a < b { (a, b) } else { (b, a) };
                 self.parent[child as usize] = root;
             }
-            (true, false) if is_moving(bodies, b) => self.restless[a as usize] = true,
-            (false, true) if is_moving(bodies, a) => self.restless[b as usize] = true,
-            _ => {}
+            (true, false) => self.restless[a as usize] |= !rests(bodies, b, self.time_to_sleep),
+            (false, true) => self.restless[b as usize] |= !rests(bodies, a, self.time_to_sleep),
+            (false, false) => {}
         }
     }
 
@@ -85,9 +87,9 @@ impl Sets {
         }
     }
 
-    fn collect_resting(&mut self, bodies: &Bodies, time_to_sleep: f32, islands: &mut Vec<u32>) {
+    fn collect_resting(&mut self, bodies: &Bodies, islands: &mut Vec<u32>) {
         for &body in &bodies.awake {
-            let rested = bodies.infos[body as usize].sleep_time >= time_to_sleep;
+            let rested = bodies.infos[body as usize].sleep_time >= self.time_to_sleep;
             if !rested || self.restless[body as usize] {
                 let root = self.find(body);
                 self.restless[root as usize] = true;
@@ -106,9 +108,51 @@ impl Sets {
     }
 }
 
-fn is_moving(bodies: &Bodies, index: u32) -> bool {
-    bodies.infos[index as usize].kind == BodyKind::Kinematic
-        && (bodies.velocity(index) != Vec2::ZERO || bodies.angular_velocity(index) != 0.0)
+/// May what lies on a body that is not dynamic sleep? Not on a kinematic one that moves or stays awake.
+fn rests(bodies: &Bodies, index: u32, time_to_sleep: f32) -> bool {
+    let info = &bodies.infos[index as usize];
+    let still = bodies.velocity(index) == Vec2::ZERO && bodies.angular_velocity(index) == 0.0;
+    info.kind == BodyKind::Static || still && (!info.awake || info.sleep_time >= time_to_sleep)
+}
+
+/// The awake dynamic bodies that hang together with one by touching contacts and joints, ascending, then
+/// [`NULL`]; a kinematic body is alone. Empty if the island touches a kinematic body that is awake: that
+/// would go on pushing what sleeps.
+pub(crate) fn island_of(
+    index: u32,
+    bodies: &Bodies,
+    contacts: &Contacts,
+    joints: &Joints,
+) -> Vec<u32> {
+    let is_awake = |i: u32| bodies.infos[i as usize].awake;
+    let mut seen = vec![false; bodies.infos.len()];
+    let mut island = vec![index];
+    seen[index as usize] = true;
+    let mut next = 0;
+    while next < island.len() && bodies.is_dynamic(index) {
+        let info = &bodies.infos[island[next] as usize];
+        let touching = contacts
+            .of_body(info.first_contact)
+            .map(|(contact, _)| &contacts.records[contact as usize])
+            .filter(|contact| contact.touching)
+            .flat_map(|contact| [contact.body_a, contact.body_b]);
+        let joined = joints
+            .of_body(info.first_joint)
+            .map(|(joint, _)| &joints.records[joint as usize])
+            .flat_map(|joint| [joint.body_a, joint.body_b]);
+        for other in touching.chain(joined) {
+            if !bodies.is_dynamic(other) && is_awake(other) {
+                return Vec::new();
+            }
+            if is_awake(other) && !core::mem::replace(&mut seen[other as usize], true) {
+                island.push(other);
+            }
+        }
+        next += 1;
+    }
+    island.sort_unstable();
+    island.push(NULL);
+    island
 }
 
 /// Puts islands (each ended by [`NULL`]) to sleep: takes their bodies and what hangs on them out of the
@@ -139,6 +183,7 @@ fn put_island_to_sleep(
     for (i, &body) in island.iter().enumerate() {
         bodies.set_velocity(body, Vec2::ZERO);
         bodies.set_angular_velocity(body, 0.0);
+        bodies.previous[body as usize] = bodies.poses[body as usize];
         let info = &mut bodies.infos[body as usize];
         info.awake = false;
         info.island_next = island[(i + 1) % island.len()];
@@ -165,7 +210,8 @@ fn put_island_to_sleep(
     }
 }
 
-/// Wakes a body and its island. Nothing happens if it is awake or cannot move.
+/// Wakes a body and its island, and gives the bodies that woke, ascending. Nothing happens if it is awake
+/// or cannot move.
 pub(crate) fn wake(
     index: u32,
     bodies: &mut Bodies,
@@ -173,10 +219,10 @@ pub(crate) fn wake(
     graph: &mut Graph,
     joints: &mut Joints,
     joint_graph: &mut JointGraph,
-) {
+) -> Vec<u32> {
     let info = &bodies.infos[index as usize];
     if info.awake || !info.alive || !info.enabled || info.kind == BodyKind::Static {
-        return;
+        return Vec::new();
     }
     let mut island = Vec::new();
     let mut body = index;
@@ -204,6 +250,7 @@ pub(crate) fn wake(
             joint_graph.insert(bodies, joints, index);
         }
     }
+    island
 }
 
 /// Joints of a body, ascending.

@@ -1,21 +1,25 @@
 //! Bodies as the user sees them.
 
 use super::World;
+use super::build::MAX_COORDINATE;
 use super::ids::{BodyId, ShapeId};
 use crate::describe::BodyKind;
-use crate::dynamics::{BodyInfo, NULL};
+use crate::dynamics::BodyInfo;
 use crate::math::{DVec2, Pose, Rot, Vec2};
-use crate::stages::finalize;
+use crate::stages::{finalize, sleep};
+
+/// Velocities, forces, impulses beyond this are refused, in any unit.
+const MAX_NUMBER: f32 = 1.0e15;
 
 /// A body of the world, to read.
 #[derive(Clone, Copy)]
 pub struct Body<'a> {
-    world: &'a World,
-    index: u32,
+    pub(super) world: &'a World,
+    pub(super) index: u32,
 }
 
 impl<'a> Body<'a> {
-    fn info(&self) -> &'a BodyInfo {
+    pub(super) fn info(&self) -> &'a BodyInfo {
         &self.world.bodies.infos[self.index as usize]
     }
 
@@ -113,11 +117,11 @@ impl<'a> Body<'a> {
     }
 }
 
-/// A body of the world, to change. Every change wakes it and its island; numbers that are not finite
-/// are refused by doing nothing.
+/// A body of the world, to change. Every change wakes it and its island; numbers that are not finite,
+/// or so large that calculating with them would leave 32 bits, are refused by doing nothing.
 pub struct BodyMut<'a> {
-    world: &'a mut World,
-    index: u32,
+    pub(super) world: &'a mut World,
+    pub(super) index: u32,
 }
 
 impl BodyMut<'_> {
@@ -126,17 +130,17 @@ impl BodyMut<'_> {
         Body { world: self.world, index: self.index }
     }
 
-    fn info(&mut self) -> &mut BodyInfo {
+    pub(super) fn info(&mut self) -> &mut BodyInfo {
         &mut self.world.bodies.infos[self.index as usize]
     }
 
-    /// Wakes it if all numbers are finite, and says whether to go on.
-    fn accept(&mut self, numbers: &[f32]) -> bool {
-        let finite = numbers.iter().all(|n| n.is_finite());
-        if finite {
+    /// Wakes it if all numbers are acceptable, and says whether to go on.
+    pub(super) fn accept(&mut self, numbers: &[f32]) -> bool {
+        let acceptable = numbers.iter().all(|n| n.abs() <= MAX_NUMBER);
+        if acceptable {
             self.world.wake_index(self.index);
         }
-        finite
+        acceptable
     }
 
     /// Does the solver move it?
@@ -160,13 +164,15 @@ impl BodyMut<'_> {
 
     /// Puts its frame somewhere else at once.
     pub fn set_pose(&mut self, pose: Pose) {
-        if !pose.is_finite() {
+        let (x, y) = (pose.p.x.abs(), pose.p.y.abs());
+        if !pose.is_finite() || x > MAX_COORDINATE || y > MAX_COORDINATE {
             return;
         }
         let (world, index) = (&mut *self.world, self.index);
         world.wake_index(index);
         world.wake_neighbours(index);
         world.bodies.set_origin_pose(index, pose.p, pose.q.normalized());
+        world.mark_shapes_changed(index);
         finalize::update_boxes(
             &world.bodies,
             &mut world.shapes,
@@ -194,23 +200,25 @@ impl BodyMut<'_> {
     pub fn apply_force(&mut self, force: Vec2, point: impl Into<DVec2>) {
         let arm = point.into().relative_to(self.as_ref().center());
         let torque = arm.cross(force);
-        if self.is_dynamic() && self.accept(&[force.x, force.y, torque]) {
-            self.info().force += force;
-            self.info().torque += torque;
-        }
+        self.apply_forces(force, torque);
     }
 
     /// Applies a force in newtons at the centre of mass, during the next step.
     pub fn apply_force_to_center(&mut self, force: Vec2) {
-        if self.is_dynamic() && self.accept(&[force.x, force.y]) {
-            self.info().force += force;
-        }
+        self.apply_forces(force, 0.0);
     }
 
     /// Applies a torque in newton metres during the next step.
     pub fn apply_torque(&mut self, torque: f32) {
-        if self.is_dynamic() && self.accept(&[torque]) {
-            self.info().torque += torque;
+        self.apply_forces(Vec2::ZERO, torque);
+    }
+
+    fn apply_forces(&mut self, force: Vec2, torque: f32) {
+        let info = &self.world.bodies.infos[self.index as usize];
+        let (force, torque) = (info.force + force, info.torque + torque);
+        if self.is_dynamic() && self.accept(&[force.x, force.y, torque]) {
+            let info = self.info();
+            (info.force, info.torque) = (force, torque);
         }
     }
 
@@ -231,14 +239,14 @@ impl BodyMut<'_> {
     }
 
     fn apply_impulses(&mut self, linear: Vec2, angular: f32) {
-        if !self.is_dynamic() || !self.accept(&[linear.x, linear.y, angular]) {
-            return;
-        }
-        let index = self.index;
-        let bodies = &mut self.world.bodies;
+        let (index, bodies) = (self.index, &self.world.bodies);
         let (inv_mass, inv_inertia) = bodies.inverse_masses(index);
-        bodies.set_velocity(index, bodies.velocity(index) + linear * inv_mass);
-        bodies.set_angular_velocity(index, bodies.angular_velocity(index) + angular * inv_inertia);
+        let velocity = bodies.velocity(index) + linear * inv_mass;
+        let turning = bodies.angular_velocity(index) + angular * inv_inertia;
+        if self.is_dynamic() && self.accept(&[velocity.x, velocity.y, turning]) {
+            self.world.bodies.set_velocity(index, velocity);
+            self.world.bodies.set_angular_velocity(index, turning);
+        }
     }
 
     /// Wakes it and its island.
@@ -246,12 +254,13 @@ impl BodyMut<'_> {
         self.world.wake_index(self.index);
     }
 
-    /// Puts it to sleep, alone if its island is awake. What touches it wakes it again.
+    /// Puts it to sleep with all that it touches or is joined to. What comes to touch them wakes them.
+    /// Nothing happens while a kinematic body that is awake is among what they touch.
     pub fn sleep(&mut self) {
-        let info = self.info();
-        if info.awake && info.kind != BodyKind::Static {
-            let index = self.index;
-            self.world.put_to_sleep(&[index, NULL]);
+        if self.info().awake {
+            let World { bodies, contacts, joints, .. } = &*self.world;
+            let island = sleep::island_of(self.index, bodies, contacts, joints);
+            self.world.put_to_sleep(&island);
         }
     }
 
@@ -328,6 +337,20 @@ impl World {
         }
     }
 
+    /// Wakes the islands of bodies that are joined to this one.
+    pub(super) fn wake_joined(&mut self, index: u32) {
+        let first = self.bodies.infos[index as usize].first_joint;
+        let others: Vec<u32> = self
+            .joints
+            .of_body(first)
+            .map(|(joint, _)| &self.joints.records[joint as usize])
+            .map(|joint| if joint.body_a == index { joint.body_b } else { joint.body_a })
+            .collect();
+        for other in others {
+            self.wake_index(other);
+        }
+    }
+
     /// A body whose numbers stopped being finite: it stops where it last was.
     pub(super) fn freeze(&mut self, index: u32) {
         let row = &mut self.bodies.rows[index as usize];
@@ -337,5 +360,19 @@ impl World {
         let info = &mut self.bodies.infos[index as usize];
         info.force = Vec2::ZERO;
         info.torque = 0.0;
+        self.forget_joint_impulses(index);
+    }
+
+    /// Joints of a body start anew: what they have gathered may not be finite.
+    fn forget_joint_impulses(&mut self, index: u32) {
+        let Self { bodies, joints, joint_graph, .. } = self;
+        let first = bodies.infos[index as usize].first_joint;
+        let mut indices: Vec<u32> = joints.of_body(first).map(|(joint, _)| joint).collect();
+        indices.sort_unstable();
+        for joint in indices {
+            joint_graph.remove(bodies, joints, joint);
+            joints.records[joint as usize].saved = Default::default();
+            joint_graph.insert(bodies, joints, joint);
+        }
     }
 }

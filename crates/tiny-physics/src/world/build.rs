@@ -13,7 +13,9 @@ use crate::simd::Row;
 use crate::stages::finalize;
 
 /// Coordinates beyond this are refused: 64-bit positions would lose millimetres.
-const MAX_COORDINATE: f64 = 1.0e12;
+pub(super) const MAX_COORDINATE: f64 = 1.0e12;
+/// Masses and densities outside of this are refused: products with them would leave 32 bits.
+const MASSES: core::ops::RangeInclusive<f32> = 1.0e-9..=1.0e12;
 
 impl World {
     /// Adds a body and gives its handle.
@@ -150,6 +152,10 @@ impl World {
             next: info.first_shape,
         };
         let index = self.shapes.insert(record);
+        if def.sensor {
+            self.sensors.insert(index);
+        }
+        self.sensors.mark_changed(index);
         info.first_shape = index;
         info.shape_count += 1;
         index
@@ -174,6 +180,7 @@ impl World {
             }
         }
         self.broad_phase.destroy_proxy(self.shapes.proxy(shape));
+        self.sensors.remove(shape);
         self.shapes.remove(shape);
     }
 
@@ -262,13 +269,8 @@ impl World {
             if record.proxy != NULL {
                 continue;
             }
-            let def = ProxyDef {
-                kind,
-                category: record.filter.category,
-                mask: record.filter.mask,
-                user: shape,
-                margin,
-            };
+            let (category, mask) = record.filter.reach();
+            let def = ProxyDef { kind, category, mask, user: shape, margin };
             let tight = finalize::shape_box(&self.shapes, shape, pose);
             let proxy = self.broad_phase.create_proxy(def, tight);
             self.shapes.records[shape as usize].proxy = proxy.0;
@@ -360,6 +362,7 @@ fn check_body(body: &RigidBody) -> Result<(), Error> {
     Error::check_not_negative("sleep_speed", body.sleep_speed)?;
     if let Some(mass) = body.mass {
         Error::check_positive("mass", mass)?;
+        check_range("mass", mass)?;
     }
     body.shapes.iter().try_for_each(check_shape)
 }
@@ -369,9 +372,19 @@ fn check_shape(shape: &ShapeDef) -> Result<(), Error> {
     Error::check_finite_vec("offset", shape.offset)?;
     Error::check_finite("angle", shape.angle)?;
     Error::check_not_negative("density", shape.material.density)?;
+    if shape.material.density != 0.0 {
+        check_range("density", shape.material.density)?;
+    }
     Error::check_not_negative("friction", shape.material.friction)?;
     Error::check_not_negative("restitution", shape.material.restitution)?;
     Error::check_not_negative("rolling_resistance", shape.material.rolling_resistance)?;
     Error::check_finite("tangent_speed", shape.material.tangent_speed)?;
     shape.one_way.map_or(Ok(()), |direction| Error::check_finite_vec("one_way", direction))
+}
+
+fn check_range(name: &'static str, value: f32) -> Result<(), Error> {
+    if MASSES.contains(&value) {
+        return Ok(());
+    }
+    Err(Error::OutOfRange { name, value: value.into(), allowed: "1e-9 to 1e12" })
 }

@@ -1,9 +1,10 @@
 //! Contacts of the world: their life, and how the user sees them.
 
 use super::World;
-use super::events::{ContactBegin, ContactEnd};
+use super::events::{ContactBegin, ContactEnd, Hit};
 use super::ids::{BodyId, ShapeId};
-use crate::dynamics::{Bucket, NULL, OVERFLOW, Place};
+use crate::describe::BodyKind;
+use crate::dynamics::{Bucket, NULL, OVERFLOW, Place, flags};
 use crate::math::{DVec2, Vec2};
 use crate::simd::BLOCK;
 use crate::stages::sleep;
@@ -108,6 +109,55 @@ impl World {
         -deepest
     }
 
+    /// Notes which contacts were hit in the substeps faster than the threshold.
+    pub(super) fn collect_hits(&mut self) {
+        let threshold = self.settings.hit_event_threshold * self.settings.length_unit;
+        let mut hits = core::mem::take(&mut self.events.hits);
+        for bucket in self.graph.buckets[..=OVERFLOW].iter().flatten() {
+            for (block, head) in bucket.heads.iter().enumerate() {
+                if head.flags & flags::HIT == 0 {
+                    continue;
+                }
+                let end = (block * BLOCK + BLOCK).min(bucket.contacts.len());
+                hits.extend(
+                    (block * BLOCK..end).filter_map(|slot| self.hit(bucket, slot, threshold)),
+                );
+            }
+        }
+        hits.sort_unstable_by_key(|hit| (hit.shape_a, hit.shape_b));
+        self.events.hits = hits;
+    }
+
+    /// The hit of a contact, if it wants one and its fastest point was fast enough.
+    fn hit(&self, bucket: &Bucket, slot: usize, threshold: f32) -> Option<Hit> {
+        let (block, lane) = (slot / BLOCK, slot % BLOCK);
+        if !self.contacts.records[bucket.contacts[slot] as usize].hit_events {
+            return None;
+        }
+        let (surface, manifold) = (&bucket.surfaces[block], &bucket.manifolds[block]);
+        let mut fastest: Option<(usize, f32)> = None;
+        let ids = [manifold.id_1[lane], manifold.id_2[lane]];
+        let approach = [surface.approach_1[lane], surface.approach_2[lane]];
+        let peak = [surface.peak_1[lane], surface.peak_2[lane]];
+        let mut point = 0;
+        for k in (0..2).filter(|&k| ids[k] >= 0.0) {
+            let speed = -approach[k];
+            if peak[k] > 0.0 && speed > threshold && fastest.is_none_or(|(_, most)| speed > most) {
+                fastest = Some((point, speed));
+            }
+            point += 1;
+        }
+        let (point, speed) = fastest?;
+        let view = self.view(bucket, slot);
+        Some(Hit {
+            shape_a: view.shape_a,
+            shape_b: view.shape_b,
+            position: view.points()[point].position,
+            normal: view.normal,
+            speed,
+        })
+    }
+
     /// A contact of the graph no longer touches.
     pub(super) fn end_contact(&mut self, index: u32) {
         self.graph.remove(&mut self.bodies, &mut self.contacts, index);
@@ -132,8 +182,7 @@ impl World {
             let (shape_a, shape_b) = (self.shape_id(shape_a), self.shape_id(shape_b));
             self.events.contact_begin.push(ContactBegin { shape_a, shape_b });
         }
-        self.wake_index(body_a);
-        self.wake_index(body_b);
+        self.wake_dynamic([body_a, body_b]);
         if self.contacts.records[index as usize].place == Place::Asleep {
             self.graph.insert(&mut self.bodies, &mut self.contacts, index);
         }
@@ -149,8 +198,7 @@ impl World {
                 let end = self.end_event(index);
                 self.events.pending_end.push(end);
             }
-            self.wake_index(body_a);
-            self.wake_index(body_b);
+            self.wake_dynamic([body_a, body_b]);
         }
         self.graph.remove(&mut self.bodies, &mut self.contacts, index);
         self.contacts.remove(&mut self.bodies, index);
@@ -164,9 +212,20 @@ impl World {
         }
     }
 
-    /// Wakes the island of a body.
+    /// Wakes those of the bodies that are dynamic. A kinematic body that sleeps stands still, and may go on.
+    fn wake_dynamic(&mut self, bodies: [u32; 2]) {
+        for index in bodies {
+            if self.bodies.is_dynamic(index) {
+                self.wake_index(index);
+            }
+        }
+    }
+
+    /// Wakes the island of a body; with a kinematic body, also what rests on it or hangs on it.
     pub(super) fn wake_index(&mut self, index: u32) {
-        sleep::wake(
+        let info = &self.bodies.infos[index as usize];
+        let starts_to_carry = info.kind == BodyKind::Kinematic && !info.awake;
+        let woken = sleep::wake(
             index,
             &mut self.bodies,
             &mut self.contacts,
@@ -174,6 +233,14 @@ impl World {
             &mut self.joints,
             &mut self.joint_graph,
         );
+        for body in woken {
+            let body = self.body_id(body);
+            self.events.pending_woke.push(body);
+        }
+        if starts_to_carry {
+            self.wake_neighbours(index);
+            self.wake_joined(index);
+        }
     }
 
     /// Puts islands (each ended by NULL) to sleep.
@@ -182,6 +249,10 @@ impl World {
             return;
         }
         debug_assert_eq!(islands.last(), Some(&NULL));
+        for &body in islands.iter().filter(|&&body| body != NULL) {
+            let body = self.body_id(body);
+            self.events.pending_asleep.push(body);
+        }
         sleep::put_to_sleep(
             islands,
             &mut self.bodies,

@@ -38,6 +38,7 @@ impl Clone for World {
             joints: self.joints.clone(),
             joint_graph: self.joint_graph.clone(),
             broad_phase: self.broad_phase.clone(),
+            sensors: self.sensors.clone(),
             events: self.events.clone(),
             step_count: self.step_count,
             inv_h: self.inv_h,
@@ -59,6 +60,7 @@ impl Clone for World {
             joints,
             joint_graph,
             broad_phase,
+            sensors,
             events,
             step_count,
             inv_h,
@@ -78,6 +80,7 @@ impl Clone for World {
         joints.clone_from(&source.joints);
         joint_graph.clone_from(&source.joint_graph);
         broad_phase.clone_from(&source.broad_phase);
+        sensors.clone_from(&source.sensors);
         events.clone_from(&source.events);
     }
 }

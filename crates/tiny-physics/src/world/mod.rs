@@ -2,6 +2,8 @@
 
 mod bodies;
 mod build;
+mod bytes;
+mod check;
 mod contacts;
 mod debug_draw;
 mod events;
@@ -9,22 +11,25 @@ mod frame;
 mod hash;
 mod ids;
 mod joints;
+mod queries;
+mod sensors;
 mod shapes;
 mod stats;
 mod validate;
 
 pub use bodies::{Body, BodyMut};
 pub use contacts::{ContactPoint, ContactView};
-pub use events::{ContactBegin, ContactEnd, Events, Hit, JointBreak};
+pub use events::{ContactBegin, ContactEnd, Events, Hit, JointBreak, SensorBegin, SensorEnd};
 pub use ids::{BodyId, JointId, ShapeId};
 pub use joints::JointRef;
+pub use queries::{ClosestPoint, QueryFilter, RayCast, RayCastHit, ShapeCastHit};
 pub use shapes::ShapeRef;
 pub use stats::{Stage, Stats};
 
 use crate::broad_phase::BroadPhase;
 use crate::describe::Settings;
 use crate::dynamics::{
-    Bodies, Contacts, Graph, JOINT_OVERFLOW, JointGraph, Joints, OVERFLOW, Shapes,
+    Bodies, Contacts, Graph, JOINT_OVERFLOW, JointGraph, Joints, OVERFLOW, Overlap, Sensors, Shapes,
 };
 use crate::error::Error;
 use crate::geometry::manifold::PairClass;
@@ -77,6 +82,7 @@ pub struct World {
     joints: Joints,
     joint_graph: JointGraph,
     broad_phase: BroadPhase,
+    sensors: Sensors,
     events: Events,
     step_count: u64,
     /// 1 / substep length of the last step.
@@ -97,6 +103,8 @@ struct Scratch {
     findings: Vec<Findings>,
     fast: Vec<FastBody>,
     islands: Vec<u32>,
+    overlaps: Vec<Overlap>,
+    found_overlaps: Vec<Vec<Overlap>>,
     broken_joints: Vec<u32>,
 }
 
@@ -127,6 +135,7 @@ impl World {
             joints: Joints::default(),
             joint_graph: JointGraph::new(),
             broad_phase: BroadPhase::new(),
+            sensors: Sensors::default(),
             events: Events::default(),
             step_count: 0,
             inv_h: 0.0,
@@ -175,7 +184,9 @@ impl World {
         watch.lap(&mut self.stats, Stage::Finalize);
         self.sweep_fast_bodies();
         watch.lap(&mut self.stats, Stage::Continuous);
+        self.update_sensors(team);
         self.put_resting_islands_to_sleep();
+        self.events.flush_pending();
         watch.lap(&mut self.stats, Stage::Sleep);
     }
 
@@ -191,8 +202,8 @@ impl World {
     /// Drops contacts of shapes that left their fat boxes and their partners; finds new partners.
     fn update_pairs(&mut self, team: &Team) {
         self.stats.moved_shapes = self.broad_phase.moved().len();
-        let Self { broad_phase, shapes, bodies, contacts, joints, scratch, .. } = self;
-        pairs::find_parted(broad_phase, bodies, shapes, contacts, &mut scratch.parted);
+        let Self { broad_phase, shapes, bodies, contacts, graph, joints, scratch, .. } = self;
+        pairs::find_parted(broad_phase, bodies, shapes, contacts, graph, &mut scratch.parted);
         let stores = pairs::Partners { shapes, bodies, contacts, joints };
         pairs::find_new(team, broad_phase, &stores, &mut scratch.found_pairs, &mut scratch.pairs);
         self.stats.candidate_pairs = scratch.pairs.len();
@@ -277,6 +288,7 @@ impl World {
         }
         self.solve_contacts(team, Pass::Restitution, &parameters);
         self.solve_joints(team, joint_solver::Pass::Finish);
+        self.collect_hits();
         self.break_joints();
     }
 
@@ -354,7 +366,7 @@ impl World {
     /// Stops fast bodies where they would have gone through something.
     fn sweep_fast_bodies(&mut self) {
         let Self { bodies, shapes, broad_phase, joints, scratch, .. } = self;
-        continuous::run(&scratch.fast, bodies, shapes, joints, broad_phase);
+        continuous::run(&mut scratch.fast, bodies, shapes, joints, broad_phase);
     }
 
     /// Looks for islands at rest now and then, and lets them sleep.

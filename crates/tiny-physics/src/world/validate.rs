@@ -77,6 +77,11 @@ impl World {
                     if bucket.contacts.get(slot as usize) != Some(&(index as u32)) {
                         return Err(format!("contact {index} is not in its slot"));
                     }
+                    let asleep =
+                        |i: u32| self.bodies.is_dynamic(i) && !self.bodies.infos[i as usize].awake;
+                    if contact.touching && (asleep(contact.body_a) || asleep(contact.body_b)) {
+                        return Err(format!("contact {index} pushes a body that sleeps"));
+                    }
                     if contact.touching != (usize::from(colour) != IDLE) {
                         return Err(format!("contact {index}: touching does not match its colour"));
                     }

@@ -8,7 +8,7 @@
 
 use super::JointKernel;
 use super::axis::{AxisDef, Coordinate};
-use super::parts::{Pair, Row, Soft, Start, Stride, cross, dot, scale};
+use super::parts::{Pair, Row, Soft, Start, Stride, cross, dot, scale, slow_turn};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
 use crate::dynamics::{DistanceBlock, FrameLanes};
@@ -34,6 +34,18 @@ fn length_row<L: Lanes>(stride: &Stride<L>, pair: &Pair<L>, frame: &FrameLanes) 
     let arm_a = cross(pair.anchor_a, direction);
     let arm_b = cross(pair.anchor_b, direction);
     (length, Row { direction, arm_a, arm_b })
+}
+
+/// What circles add to the mean rate of the length over a substep, to second order: those of the
+/// anchors, and that of the whole rod, `h vt^2 / (2 |d|)` with vt across it. See
+/// [`Pair::anchor_velocity_in`]. The length itself a substep ahead would not do: it grows again beyond
+/// zero, and a very short rope pulled harder and harder.
+#[inline(always)]
+fn outward<L: Lanes>(stride: &Stride<L>, pair: &Pair<L>, length: L, direction: [L; 2]) -> L {
+    let across = cross(direction, pair.anchor_velocity());
+    let turn_rate = across * stride.invert(length);
+    let rod = stride.splat(0.5) * across * slow_turn(stride, turn_rate);
+    rod + dot(direction, pair.inward(stride))
 }
 
 impl JointKernel for DistanceBlock {
@@ -78,6 +90,9 @@ impl JointKernel for DistanceBlock {
         let rigid = stride.load(&self.soft.rigid);
         let inv_mass = pair.inv_mass_along(&row);
         let mut velocity = pair.velocity_along(&row);
+        if BIAS {
+            velocity = velocity + outward(stride, &pair, value, row.direction);
+        }
         let mut change = stride.zero;
         if extras {
             change =

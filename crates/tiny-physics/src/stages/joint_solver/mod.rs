@@ -148,13 +148,12 @@ fn describe_bucket<B: JointKernel>(
 /// Writes what follows from the poses (of the centres of mass) at the start of the step. `h` is the
 /// substep length, seconds.
 pub(crate) fn prepare(level: SimdLevel, poses: &[Pose], h: f32, blocks: JointBlocks<'_>) {
-    let inv_h = 1.0 / h;
-    with_blocks!(blocks, blocks => dispatch(level, Prepare { poses, inv_h, blocks }));
+    with_blocks!(blocks, blocks => dispatch(level, Prepare { poses, h, blocks }));
 }
 
 struct Prepare<'a, B> {
     poses: &'a [Pose],
-    inv_h: f32,
+    h: f32,
     blocks: &'a mut [B],
 }
 
@@ -163,11 +162,12 @@ impl<B: JointKernel> LaneKernel for Prepare<'_, B> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, token: L::Token) {
-        for block in self.blocks {
+        let Self { poses, h, blocks } = self;
+        for block in blocks {
             for at in (0..BLOCK).step_by(L::WIDTH) {
-                let stride = Stride::<L>::new(token, at, self.inv_h);
-                let start = Start::prepare(&stride, block.frame(), self.poses);
-                block.prepare(&stride, &start, self.poses);
+                let stride = Stride::<L>::new(token, at, h, 1.0 / h);
+                let start = Start::prepare(&stride, block.frame(), poses);
+                block.prepare(&stride, &start, poses);
             }
         }
     }
@@ -202,10 +202,11 @@ impl<B: JointKernel> LaneKernel for RunPass<'_, B> {
     #[inline(always)]
     fn run<L: Lanes>(self, token: L::Token) {
         let Self { pass, inv_h, rows, blocks } = self;
+        let h = 1.0 / inv_h;
         for block in blocks {
             let extras = block.has_extras();
             for at in (0..BLOCK).step_by(L::WIDTH) {
-                let stride = Stride::<L>::new(token, at, inv_h);
+                let stride = Stride::<L>::new(token, at, h, inv_h);
                 match pass {
                     Pass::WarmStart => block.warm_start(&stride, rows),
                     Pass::Solve => block.solve::<L, true>(&stride, rows, extras),

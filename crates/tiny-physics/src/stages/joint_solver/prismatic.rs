@@ -130,13 +130,15 @@ impl JointKernel for PrismaticBlock {
         let velocity = [pair.velocity_along(&jacobians.across), pair.spin()];
         let angle = stride.load(&self.angle.start) + pair.turned();
         let demand = soft.demand2(velocity, [dot(gap, jacobians.across.direction), angle]);
-        let alone = sub(scale(inverse.apply(demand), -stride.one), scale(old, soft.impulse_scale));
-        let (mut change, mut along) = (alone, stride.zero);
+        let mut change = scale(inverse.apply(demand), -stride.one);
+        let mut along = stride.zero;
         if extras {
             let coupling = jacobians.coupling(&pair);
             let per_along = inverse.apply(coupling);
             let free = pair.inv_mass_along(&jacobians.along);
             let least = free * stride.splat(LEAST_COMPLEMENT);
+            let carried = add(old, scale(per_along, self.axis.total(stride)));
+            let alone = sub(change, scale(carried, soft.impulse_scale));
             let coordinate = Coordinate {
                 value: dot(gap, direction),
                 velocity: pair.velocity_along(&jacobians.along) + dot(coupling, alone),
@@ -144,6 +146,8 @@ impl JointKernel for PrismaticBlock {
             };
             along = self.axis.solve::<L, BIAS>(stride, &soft, coordinate);
             change = sub(alone, scale(per_along, along));
+        } else {
+            change = sub(change, scale(old, soft.impulse_scale));
         }
         let impulse = add(old, change);
         stride.store2(impulse, &mut self.rigid.impulse_x, &mut self.rigid.impulse_y);

@@ -26,17 +26,25 @@ struct Rope<L> {
     arm_b: L,
 }
 
+/// Length and direction from a fixed point to an anchor.
+#[inline(always)]
+fn from_ground<L: Lanes>(
+    stride: &Stride<L>,
+    body: &[L; 8],
+    arm: [L; 2],
+    anchor: [L; 2],
+) -> (L, [L; 2]) {
+    length_and_direction(stride, add(add(arm, [body[Slot::DX], body[Slot::DY]]), anchor))
+}
+
 impl PulleyBlock {
     #[inline(always)]
     fn rope<L: Lanes>(&self, stride: &Stride<L>, pair: &Pair<L>) -> Rope<L> {
         let rope = &self.rope;
-        let from_ground = |body: &[L; 8], arm: [L; 2], anchor: [L; 2]| {
-            length_and_direction(stride, add(add(arm, [body[Slot::DX], body[Slot::DY]]), anchor))
-        };
         let (length_a, ua) =
-            from_ground(&pair.a, stride.load2(&rope.arm_a_x, &rope.arm_a_y), pair.anchor_a);
+            from_ground(stride, &pair.a, stride.load2(&rope.arm_a_x, &rope.arm_a_y), pair.anchor_a);
         let (length_b, ub) =
-            from_ground(&pair.b, stride.load2(&rope.arm_b_x, &rope.arm_b_y), pair.anchor_b);
+            from_ground(stride, &pair.b, stride.load2(&rope.arm_b_x, &rope.arm_b_y), pair.anchor_b);
         let ratio = stride.load(&rope.ratio);
         let (pull_a, pull_b) = (scale(ua, -stride.one), scale(ub, -ratio));
         Rope {
@@ -83,14 +91,16 @@ pub(super) fn apply_each<L: Lanes>(
     arms: [L; 2],
     impulse: L,
 ) {
-    for (body, (direction, arm)) in
-        [&mut pair.a, &mut pair.b].into_iter().zip(directions.into_iter().zip(arms))
-    {
-        let linear = body[Slot::INV_MASS] * impulse;
-        body[Slot::VX] = body[Slot::VX] + direction[0] * linear;
-        body[Slot::VY] = body[Slot::VY] + direction[1] * linear;
-        body[Slot::W] = body[Slot::W] + body[Slot::INV_INERTIA] * (arm * impulse);
-    }
+    apply_to(&mut pair.a, directions[0], arms[0], impulse);
+    apply_to(&mut pair.b, directions[1], arms[1], impulse);
+}
+
+#[inline(always)]
+fn apply_to<L: Lanes>(body: &mut [L; 8], direction: [L; 2], arm: L, impulse: L) {
+    let linear = body[Slot::INV_MASS] * impulse;
+    body[Slot::VX] = body[Slot::VX] + direction[0] * linear;
+    body[Slot::VY] = body[Slot::VY] + direction[1] * linear;
+    body[Slot::W] = body[Slot::W] + body[Slot::INV_INERTIA] * (arm * impulse);
 }
 
 impl JointKernel for PulleyBlock {

@@ -7,7 +7,9 @@
 //!
 //! With K the point's response and k that of the angular velocity to an impulse at the anchors, the
 //! angle's inverse mass given the point is `iA + iB - k . K^-1 k` (Schur's complement). An angular
-//! impulse j goes with the impulse `-K^-1 k j` at the anchors, which keeps their velocities.
+//! impulse j goes with the impulse `-K^-1 k j` at the anchors, which keeps their velocities. The decay
+//! of the soft point is that of all impulses which act on it, `K p + k j`: with `K p` alone a cantilever
+//! of 3 m sagged by 3.9 mm instead of 0.07 mm.
 
 use super::JointKernel;
 use super::axis::{AxisDef, Coordinate};
@@ -28,44 +30,31 @@ pub(super) fn describe_angle(angle: &mut AngleLanes, lane: usize, def: &JointDef
     angle.turn_s[lane] = turn.s;
 }
 
-/// The change of the point impulse, and how it answers to the angular one.
-pub(super) struct Point<L> {
-    /// Impulse change if there were no angular impulse.
-    alone: [L; 2],
-    /// Impulse change per angular impulse, negative.
-    per_angular: [L; 2],
-    /// Angular velocity after `alone`.
-    pub(super) spin: L,
+/// How the point answers to what happens to the angle.
+pub(super) struct Tie<L> {
+    /// Response of the angular velocity to an impulse at the anchors.
+    pub(super) twist: [L; 2],
+    /// Impulse at the anchors that an angular impulse takes from the point, `K^-1 k`.
+    pub(super) per_angular: [L; 2],
     /// Inverse mass of the angle given the point.
     pub(super) inv_mass: L,
 }
 
-impl<L: Lanes> Point<L> {
+impl<L: Lanes> Tie<L> {
     /// `coupled` is 1 where the point is rigid and so carries the angle along, else 0.
     #[inline(always)]
     pub(super) fn new(
         stride: &Stride<L>,
         pair: &Pair<L>,
         inverse: &Symmetric<L>,
-        alone: [L; 2],
         coupled: L,
     ) -> Self {
         let twist = pair.twist();
         let per_angular = scale(inverse.apply(twist), coupled);
         let inv_inertia = pair.inv_inertia();
         let least = inv_inertia * stride.splat(LEAST_COMPLEMENT);
-        Self {
-            alone,
-            per_angular,
-            spin: pair.spin() + dot(twist, alone),
-            inv_mass: (inv_inertia - dot(twist, per_angular)).max(least),
-        }
-    }
-
-    /// The whole change of the point impulse, given the angular one.
-    #[inline(always)]
-    pub(super) fn change(&self, angular: L) -> [L; 2] {
-        sub(self.alone, scale(self.per_angular, angular))
+        let inv_mass = (inv_inertia - dot(twist, per_angular)).max(least);
+        Self { twist, per_angular, inv_mass }
     }
 }
 
@@ -126,18 +115,23 @@ impl JointKernel for RevoluteBlock {
         let soft = Soft::load::<BIAS>(stride, &self.soft);
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         let inverse = pair.point_mass(stride);
-        let demand = soft.demand2(pair.anchor_velocity(), pair.gap(stride, &self.frame));
-        let alone = sub(scale(inverse.apply(demand), -stride.one), scale(old, soft.impulse_scale));
-        let (mut change, mut angular) = (alone, stride.zero);
+        let demand =
+            soft.demand2(pair.anchor_velocity_in::<BIAS>(stride), pair.gap(stride, &self.frame));
+        let mut change = scale(inverse.apply(demand), -stride.one);
+        let mut angular = stride.zero;
         if extras {
-            let point = Point::new(stride, &pair, &inverse, alone, stride.one);
+            let tie = Tie::new(stride, &pair, &inverse, stride.one);
+            let carried = add(old, scale(tie.per_angular, self.axis.total(stride)));
+            let alone = sub(change, scale(carried, soft.impulse_scale));
             let coordinate = Coordinate {
                 value: stride.load(&self.angle.start) + pair.turned(),
-                velocity: point.spin,
-                inv_mass: point.inv_mass,
+                velocity: pair.spin() + dot(tie.twist, alone),
+                inv_mass: tie.inv_mass,
             };
             angular = self.axis.solve::<L, BIAS>(stride, &soft, coordinate);
-            change = point.change(angular);
+            change = sub(alone, scale(tie.per_angular, angular));
+        } else {
+            change = sub(change, scale(old, soft.impulse_scale));
         }
         let impulse = add(old, change);
         stride.store2(impulse, &mut self.point.impulse_x, &mut self.point.impulse_y);

@@ -4,12 +4,12 @@
 //! C = (xB + rB - xA - rA, aB - aA),   J v = (vB + wB x rB - vA - wA x rA, wB - wA)
 //! ```
 //!
-//! The angle's mass is Schur's complement of the point where the point is rigid, as in
+//! The three rows are solved as one block where the point is rigid, as in
 //! [`revolute`](super::revolute).
 
 use super::JointKernel;
-use super::parts::{Pair, Soft, Start, Stride, add, scale, sub};
-use super::revolute::{Point, describe_angle};
+use super::parts::{Pair, Soft, Start, Stride, add, dot, scale, sub};
+use super::revolute::{Tie, describe_angle};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
 use crate::dynamics::WeldBlock;
@@ -52,17 +52,21 @@ impl JointKernel for WeldBlock {
         let inverse = pair.point_mass(stride);
 
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
-        let demand = linear.demand2(pair.anchor_velocity(), pair.gap(stride, &self.frame));
-        let alone =
-            sub(scale(inverse.apply(demand), -stride.one), scale(old, linear.impulse_scale));
-        let coupled = stride.load(&self.linear.rigid);
-        let point = Point::new(stride, &pair, &inverse, alone, coupled);
+        let demand =
+            linear.demand2(pair.anchor_velocity_in::<BIAS>(stride), pair.gap(stride, &self.frame));
+        let alone = scale(inverse.apply(demand), -stride.one);
+        let tie = Tie::new(stride, &pair, &inverse, stride.load(&self.linear.rigid));
 
         let old_twist = stride.load(&self.twist.impulse);
         let angle = stride.load(&self.angle.start) + pair.turned();
-        let demand = angular.demand(point.spin, angle);
-        let twist = -(stride.invert(point.inv_mass) * demand) - angular.impulse_scale * old_twist;
-        let change = point.change(twist);
+        // A rigid angle takes away all of the spin that the point's correction makes, a spring its part.
+        let rigid = stride.load(&self.angular.rigid);
+        let part = rigid + (stride.one - rigid) * angular.mass_scale;
+        let demand = angular.demand(pair.spin(), angle) + part * dot(tie.twist, alone);
+        let twist = -(stride.invert(tie.inv_mass) * demand) - angular.impulse_scale * old_twist;
+        let carried = add(old, scale(tie.per_angular, old_twist));
+        let change =
+            sub(sub(alone, scale(carried, linear.impulse_scale)), scale(tie.per_angular, twist));
 
         let impulse = add(old, change);
         stride.store2(impulse, &mut self.point.impulse_x, &mut self.point.impulse_y);

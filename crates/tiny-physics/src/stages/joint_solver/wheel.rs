@@ -88,7 +88,7 @@ impl JointKernel for WheelBlock {
         let old = stride.load(&self.rod.impulse);
         let mass = stride.invert(pair.inv_mass_along(&across));
         let demand = soft.demand(pair.velocity_along(&across), dot(gap, across.direction));
-        let mut change = -(mass * demand) - soft.impulse_scale * old;
+        let mut change = -(mass * demand);
         let mut slide = stride.zero;
         if extras {
             let coupling = pair.a[Slot::INV_INERTIA] * along.arm_a * across.arm_a
@@ -96,6 +96,8 @@ impl JointKernel for WheelBlock {
             let per_slide = mass * coupling;
             let free = pair.inv_mass_along(&along);
             let least = free * stride.splat(LEAST_COMPLEMENT);
+            let carried = old + per_slide * self.axis.total(stride);
+            change = change - soft.impulse_scale * carried;
             let coordinate = Coordinate {
                 value: dot(gap, direction),
                 velocity: pair.velocity_along(&along) + coupling * change,
@@ -103,6 +105,8 @@ impl JointKernel for WheelBlock {
             };
             slide = self.axis.solve::<L, BIAS>(stride, &soft, coordinate);
             change = change - per_slide * slide;
+        } else {
+            change = change - soft.impulse_scale * old;
         }
         stride.store(old + change, &mut self.rod.impulse);
         apply(&mut pair, [&along, &across], [slide, change], stride.zero);

@@ -1,0 +1,37 @@
+//! Runs rows of the suite on this engine: `quality [other] [row...]`.
+
+use std::time::Instant;
+use tiny_physics_quality::{Variant, our_engine, rows};
+
+fn main() {
+    let mut variant = Variant::Usual;
+    let mut wanted = Vec::new();
+    for argument in std::env::args().skip(1) {
+        match argument.parse::<u32>() {
+            Ok(id) => wanted.push(id),
+            Err(_) => variant = Variant::Other,
+        }
+    }
+    let mut passed = 0;
+    for row in rows().iter().filter(|row| wanted.is_empty() || wanted.contains(&row.id)) {
+        let start = Instant::now();
+        let report = row.run(&our_engine, variant, &mut |_, _| {});
+        passed += u32::from(report.pass);
+        let seconds = start.elapsed().as_secs_f64();
+        println!("{:2} {} ({seconds:.1} s)", report.id, report.name);
+        for measure in &report.measures {
+            let mark = if measure.pass { "ok  " } else { "MISS" };
+            println!(
+                "   {mark} {:60} {:>12.5} {} (target {}; {:.2}; {} | {})",
+                measure.metric,
+                measure.value,
+                measure.unit,
+                measure.target,
+                measure.use_of_target(),
+                measure.box2d_reference,
+                measure.rapier_reference
+            );
+        }
+    }
+    println!("{passed} rows pass");
+}

@@ -1,0 +1,24 @@
+//! The quality suite: 26 scenes whose right answer a formula or the best engine measured fixes in advance,
+//! and what an engine makes of them at its defaults.
+//!
+//! [`rows`] lists them; [`Row::run`] plays one on any engine that is a [`Subject`]. Each row has a second
+//! variant of other sizes, masses and speeds, which shows that no row passes by knowing its scene.
+//!
+//! ```
+//! use tiny_physics_quality::{Variant, find, our_engine};
+//! let report = find("free spin").unwrap().run(&our_engine, Variant::Usual, &mut |_, _| {});
+//! assert_eq!(report.id, 18);
+//! ```
+
+mod lab;
+mod report;
+mod rows;
+mod scenery;
+mod subject;
+mod target;
+
+pub use lab::{Lab, MakeSubject, Trial, Variant};
+pub use report::{Measure, Report};
+pub use rows::{Row, find, rows};
+pub use subject::{Subject, our_engine};
+pub use target::Target;

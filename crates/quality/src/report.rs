@@ -1,0 +1,105 @@
+//! What came of a row.
+
+use crate::target::Target;
+use serde::{Serialize, Serializer};
+
+/// One measured number of a row.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Measure {
+    /// What was measured.
+    pub metric: String,
+    /// The number; not finite where the scene fell apart.
+    #[serde(serialize_with = "finite")]
+    pub value: f64,
+    /// Its unit; empty for plain numbers.
+    pub unit: &'static str,
+    /// What it has to be.
+    #[serde(serialize_with = "as_text")]
+    pub target: Target,
+    /// Is it?
+    pub pass: bool,
+    /// What Box2D made of the same scene: a figure of QUALITY.md measured elsewhere, August 2026. Empty
+    /// where there is none.
+    pub box2d_reference: &'static str,
+    /// The same for Rapier 0.36.1.
+    pub rapier_reference: &'static str,
+}
+
+impl Measure {
+    /// A number and what it has to be.
+    pub fn new(metric: impl Into<String>, value: f64, unit: &'static str, target: Target) -> Self {
+        let pass = target.use_of(value) <= 1.0;
+        let metric = metric.into();
+        Self { metric, value, unit, target, pass, box2d_reference: "", rapier_reference: "" }
+    }
+
+    /// With what other engines reached, measured elsewhere.
+    pub fn reference(mut self, box2d: &'static str, rapier: &'static str) -> Self {
+        self.box2d_reference = box2d;
+        self.rapier_reference = rapier;
+        self
+    }
+
+    /// How much of what is allowed it uses up; up to 1 passes.
+    pub fn use_of_target(&self) -> f64 {
+        self.target.use_of(self.value)
+    }
+}
+
+/// What came of a row: the number that is furthest from its target stands for it.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Report {
+    /// Number of the row, from 1.
+    pub id: u32,
+    /// Its short name.
+    pub name: &'static str,
+    /// What was measured.
+    pub metric: String,
+    /// The number; not finite where the scene fell apart.
+    #[serde(serialize_with = "finite")]
+    pub value: f64,
+    /// Its unit.
+    pub unit: &'static str,
+    /// What it has to be.
+    #[serde(serialize_with = "as_text")]
+    pub target: Target,
+    /// Do all numbers of the row meet their targets?
+    pub pass: bool,
+    /// All numbers of the row.
+    pub measures: Vec<Measure>,
+}
+
+impl Report {
+    /// The report of a row with at least one number.
+    pub(crate) fn new(id: u32, name: &'static str, measures: Vec<Measure>) -> Self {
+        let worst = measures
+            .iter()
+            .reduce(|a, b| if b.use_of_target() > a.use_of_target() { b } else { a })
+            .cloned()
+            .unwrap_or_else(|| Measure::new("nothing", f64::NAN, "", Target::AtMost(0.0)));
+        Self {
+            id,
+            name,
+            metric: worst.metric,
+            value: worst.value,
+            unit: worst.unit,
+            target: worst.target,
+            pass: worst.pass,
+            measures,
+        }
+    }
+
+    /// How much of its targets the row uses up at worst; up to 1 passes.
+    pub fn use_of_target(&self) -> f64 {
+        self.target.use_of(self.value)
+    }
+}
+
+/// JSON has no infinity: `null` stands for a scene that fell apart.
+fn finite<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    value.is_finite().then_some(*value).serialize(serializer)
+}
+
+fn as_text<S: Serializer>(target: &Target, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(target)
+}

@@ -1,0 +1,185 @@
+//! Sensors: which shapes overlap them, after everything has moved.
+//!
+//! A sensor sees the shapes of other bodies that are no sensors and whose filters let them collide with
+//! it, dynamic and kinematic, awake and asleep; static ones too unless it is itself on a static body:
+//! neither of them moves. A fast body that went through a sensor within the step is seen in that step.
+//!
+//! A pair of which neither side is awake or was changed from outside overlaps if it did before; only the
+//! others are measured. The result does not depend on that, and not on threads: a sensor's list is sorted.
+
+use super::finalize::FastBody;
+use crate::broad_phase::BroadPhase;
+use crate::describe::BodyKind;
+use crate::dynamics::{Bodies, Overlap, Sensors, ShapeRecord, Shapes};
+use crate::geometry::{Sweep, ToiState, distance, time_of_impact};
+use crate::math::{Aabb, Pose, Transform, Vec2};
+use crate::threads::Team;
+use core::ops::ControlFlow;
+
+/// Sensors that one member of the team looks after at a time.
+const CHUNK: usize = 8;
+
+/// What sensors look at.
+#[derive(Clone, Copy)]
+pub(crate) struct Scene<'a> {
+    pub(crate) bodies: &'a Bodies,
+    pub(crate) shapes: &'a Shapes,
+    pub(crate) broad_phase: &'a BroadPhase,
+    pub(crate) sensors: &'a Sensors,
+}
+
+/// Finds all overlaps after the step, ascending. `fast` are the bodies that were swept, `found` is memory.
+pub(crate) fn find_overlaps(
+    team: &Team,
+    scene: Scene<'_>,
+    fast: &[FastBody],
+    found: &mut Vec<Vec<Overlap>>,
+    overlaps: &mut Vec<Overlap>,
+) {
+    overlaps.clear();
+    let sensors = &scene.sensors.shapes;
+    let chunks = team.map_chunks(sensors.len(), CHUNK, found, |range, found| {
+        found.clear();
+        sensors[range].iter().for_each(|&sensor| scene.look(sensor, found));
+    });
+    chunks.iter().for_each(|found| overlaps.extend_from_slice(found));
+    for body in fast {
+        scene.look_along(body, overlaps);
+    }
+    // Sweeps add to what is sorted already, if there are any.
+    overlaps.sort_unstable();
+    overlaps.dedup();
+}
+
+/// Calls `begin` and `end` for what is only in the new or only in the old list; both ascend.
+pub(crate) fn compare(
+    old: &[Overlap],
+    new: &[Overlap],
+    mut begin: impl FnMut(&Overlap),
+    mut end: impl FnMut(&Overlap),
+) {
+    let (mut i, mut k) = (0, 0);
+    while i < old.len() || k < new.len() {
+        match (old.get(i), new.get(k)) {
+            (Some(a), Some(b)) if a == b => (i, k) = (i + 1, k + 1),
+            (Some(a), b) if b.is_none_or(|b| a < b) => {
+                end(a);
+                i += 1;
+            }
+            (_, Some(b)) => {
+                begin(b);
+                k += 1;
+            }
+            (_, None) => return,
+        }
+    }
+}
+
+impl Scene<'_> {
+    /// Appends what a sensor overlaps, ascending.
+    fn look(&self, sensor: u32, found: &mut Vec<Overlap>) {
+        let record = &self.shapes.records[sensor as usize];
+        let start = found.len();
+        let Some(fat) = self.broad_phase.fat_aabb(self.shapes.proxy(sensor)) else { return };
+        let place = self.place(record);
+        let awake = self.is_restless(sensor, record);
+        // The fat box holds the tight one; what is only in the fat box fails the test of distance.
+        self.broad_phase.query(&fat, self.tree_mask(record), |visitor| {
+            let other = &self.shapes.records[visitor as usize];
+            if self.may_see(record, other) {
+                let overlap = self.overlap(sensor, visitor);
+                let overlaps = if awake || self.is_restless(visitor, other) {
+                    let gap = self.place(other).relative_to(place);
+                    distance(&record.shape, &other.shape, gap).separation <= 0.0
+                } else {
+                    self.sensors.saw(&overlap)
+                };
+                if overlaps {
+                    found.push(overlap);
+                }
+            }
+            ControlFlow::Continue(())
+        });
+        found[start..].sort_unstable();
+    }
+
+    /// May its overlaps differ from those of the last step?
+    fn is_restless(&self, shape: u32, record: &ShapeRecord) -> bool {
+        self.bodies.infos[record.body as usize].awake || self.sensors.has_changed(shape)
+    }
+
+    fn place(&self, record: &ShapeRecord) -> Pose {
+        self.bodies.poses[record.body as usize].compose(record.central)
+    }
+
+    fn overlap(&self, sensor: u32, visitor: u32) -> Overlap {
+        let generation = |shape: u32| self.shapes.records[shape as usize].generation;
+        Overlap {
+            sensor,
+            sensor_generation: generation(sensor),
+            visitor,
+            visitor_generation: generation(visitor),
+        }
+    }
+
+    fn tree_mask(&self, record: &ShapeRecord) -> u64 {
+        record.filter.reach().1
+    }
+
+    fn may_see(&self, sensor: &ShapeRecord, other: &ShapeRecord) -> bool {
+        let kind = |record: &ShapeRecord| self.bodies.infos[record.body as usize].kind;
+        !other.sensor
+            && other.body != sensor.body
+            && sensor.filter.collides(&other.filter)
+            && (kind(sensor) != BodyKind::Static || kind(other) != BodyKind::Static)
+    }
+
+    /// Appends the overlaps that a fast body had on its way: of its shapes with sensors, of its sensors with
+    /// shapes.
+    fn look_along(&self, fast: &FastBody, overlaps: &mut Vec<Overlap>) {
+        if self.sensors.shapes.is_empty() {
+            return;
+        }
+        let info = &self.bodies.infos[fast.body as usize];
+        let motion = fast.motion * fast.fraction;
+        let frame = Transform::new(Vec2::ZERO, fast.start.q);
+        let sweep = Sweep::new(frame, Vec2::ZERO, motion, fast.turn * fast.fraction);
+        let extent = Vec2::splat(info.max_extent);
+        let at = |p| Aabb::rounded_out(p - extent, p + extent);
+        let path = at(fast.start.p).union(&at(fast.start.p + motion));
+        for shape in self.shapes.of_body(info.first_shape) {
+            let record = &self.shapes.records[shape as usize];
+            let moving = sweep.child(record.central);
+            self.broad_phase.query(&path, self.tree_mask(record), |other| {
+                let overlap = self.on_the_way(fast, (shape, &moving), other);
+                overlaps.extend(overlap);
+                ControlFlow::Continue(())
+            });
+        }
+    }
+
+    /// The overlap of a swept shape with another, if one of them is a sensor that sees the other and they
+    /// met on the way. What they had before the step and lost is none.
+    fn on_the_way(
+        &self,
+        fast: &FastBody,
+        (shape, moving): (u32, &Sweep),
+        other: u32,
+    ) -> Option<Overlap> {
+        let record = |i: u32| &self.shapes.records[i as usize];
+        let (sensor, visitor) = if record(shape).sensor { (shape, other) } else { (other, shape) };
+        if !record(sensor).sensor || !self.may_see(record(sensor), record(visitor)) {
+            return None;
+        }
+        let overlap = self.overlap(sensor, visitor);
+        let pose = self.bodies.poses[record(other).body as usize];
+        let place = Transform::new(pose.p.relative_to(fast.start.p), pose.q);
+        let fixed = Sweep::fixed(place.compose(record(other).central));
+        let toi = time_of_impact(&record(shape).shape, moving, &record(other).shape, &fixed, 1.0);
+        match toi.state {
+            ToiState::Separated => None,
+            ToiState::Hit | ToiState::Limit => Some(overlap),
+            ToiState::Touching => (!self.sensors.saw(&overlap)).then_some(overlap),
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! What a query sees.
+
+use crate::describe::Filter;
+use crate::world::{BodyId, ShapeId};
+use core::fmt;
+
+/// Decides which shapes a query sees. The default sees everything but sensors.
+///
+/// ```
+/// use tiny_physics::QueryFilter;
+/// const WALLS: u64 = 1 << 3;
+/// let only_walls = QueryFilter::new().mask(WALLS);
+/// let round = |shape: tiny_physics::ShapeId| shape.index() % 2 == 0;
+/// let some = QueryFilter::new().sensors().predicate(&round);
+/// # let _ = (only_walls, some);
+/// ```
+#[derive(Clone, Copy)]
+pub struct QueryFilter<'a> {
+    /// What the query is, what it sees, and its group: it sees the shapes whose filter would let them
+    /// collide with a shape of this filter. The default sees all.
+    pub filter: Filter,
+    /// A body whose shapes are not seen: that of the character who looks.
+    pub exclude_body: Option<BodyId>,
+    /// Are sensors seen too?
+    pub sensors: bool,
+    /// Called for shapes that pass all else, in no fixed order and perhaps not for all: `false` hides the
+    /// shape. For batches it is called on several threads. It has to give the same answer for the same shape.
+    pub predicate: Option<&'a (dyn Fn(ShapeId) -> bool + Sync)>,
+}
+
+impl Default for QueryFilter<'_> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<'a> QueryFilter<'a> {
+    /// Sees everything but sensors.
+    pub const fn new() -> Self {
+        let filter = Filter { category: u64::MAX, mask: u64::MAX, group: 0 };
+        Self { filter, exclude_body: None, sensors: false, predicate: None }
+    }
+
+    /// Sets what the query is, as bits: shapes whose mask has none of them are not seen.
+    pub fn category(mut self, category: u64) -> Self {
+        self.filter.category = category;
+        self
+    }
+
+    /// Sets what the query sees, as bits of the shapes' categories.
+    pub fn mask(mut self, mask: u64) -> Self {
+        self.filter.mask = mask;
+        self
+    }
+
+    /// Sets the group, as in [`Filter::group`].
+    pub fn group(mut self, group: i32) -> Self {
+        self.filter.group = group;
+        self
+    }
+
+    /// Hides a body.
+    pub fn exclude(mut self, body: BodyId) -> Self {
+        self.exclude_body = Some(body);
+        self
+    }
+
+    /// Shows sensors too.
+    pub fn sensors(mut self) -> Self {
+        self.sensors = true;
+        self
+    }
+
+    /// Sets [`QueryFilter::predicate`].
+    pub fn predicate(mut self, predicate: &'a (dyn Fn(ShapeId) -> bool + Sync)) -> Self {
+        self.predicate = Some(predicate);
+        self
+    }
+
+    /// Category bits that the broad phase may skip the rest of.
+    pub(crate) fn tree_mask(&self) -> u64 {
+        self.filter.reach().1
+    }
+}
+
+impl From<Filter> for QueryFilter<'_> {
+    fn from(filter: Filter) -> Self {
+        Self { filter, ..Self::new() }
+    }
+}
+
+impl fmt::Debug for QueryFilter<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("QueryFilter")
+            .field("filter", &self.filter)
+            .field("exclude_body", &self.exclude_body)
+            .field("sensors", &self.sensors)
+            .field("predicate", &self.predicate.is_some())
+            .finish()
+    }
+}

@@ -1,0 +1,287 @@
+//! The searches behind the queries: the broad phase offers shapes, the filter and the geometry decide.
+
+use super::{ClosestPoint, QueryFilter, RayCastHit, ShapeCastHit};
+use crate::broad_phase::BoxCast;
+use crate::dynamics::ShapeRecord;
+use crate::geometry::{Ray, RayHit, Shape, distance, shape_cast};
+use crate::math::{Aabb, DVec2, Pose, Vec2};
+use crate::world::World;
+use core::ops::ControlFlow;
+
+/// First radius of the search for closest points, metres; multiplied by the length unit.
+const FIRST_RADIUS: f32 = 1.0;
+/// Factor on the radius when nothing was near enough.
+const RADIUS_GROWTH: f32 = 4.0;
+/// Everything is nearer than this, metres.
+const LAST_RADIUS: f32 = 1.0e18;
+
+/// Shapes this close to each other touch in a shape cast, metres.
+const TOUCH: f32 = 2.0e-4;
+
+/// A query under way.
+pub(super) struct Finder<'a> {
+    pub(super) world: &'a World,
+    pub(super) filter: &'a QueryFilter<'a>,
+}
+
+/// The best of several hits: the smallest key, then the smallest index.
+struct Best<T> {
+    key: f32,
+    shape: u32,
+    hit: Option<T>,
+}
+
+impl<T> Best<T> {
+    fn new() -> Self {
+        Self { key: f32::INFINITY, shape: u32::MAX, hit: None }
+    }
+
+    fn offer(&mut self, key: f32, shape: u32, hit: T) {
+        if key < self.key || (key == self.key && shape < self.shape) {
+            *self = Self { key, shape, hit: Some(hit) };
+        }
+    }
+}
+
+impl Finder<'_> {
+    /// Does the filter let the query see a shape?
+    fn sees(&self, index: u32) -> bool {
+        let filter = self.filter;
+        let record = &self.world.shapes.records[index as usize];
+        (filter.sensors || !record.sensor)
+            && filter.filter.collides(&record.filter)
+            && filter.exclude_body.is_none_or(|body| body != self.world.body_id(record.body))
+            && filter.predicate.is_none_or(|predicate| predicate(self.world.shape_id(index)))
+    }
+
+    /// A shape and its frame in the world.
+    fn place(&self, index: u32) -> (&ShapeRecord, Pose) {
+        let record = &self.world.shapes.records[index as usize];
+        (record, self.world.bodies.poses[record.body as usize].compose(record.central))
+    }
+
+    /// Where a ray enters a shape, normal in the world.
+    fn ray_hit(&self, index: u32, origin: DVec2, translation: Vec2) -> Option<RayHit> {
+        let (record, pose) = self.place(index);
+        let ray = Ray::new(pose.unapply(origin), pose.q.unrotate(translation));
+        let hit = record.shape.ray_cast(&ray)?;
+        Some(RayHit { normal: pose.q.rotate(hit.normal), ..hit })
+    }
+
+    fn report_ray(&self, index: u32, hit: RayHit, origin: DVec2, translation: Vec2) -> RayCastHit {
+        RayCastHit {
+            shape: self.world.shape_id(index),
+            body: self.world.body_id(self.world.shapes.records[index as usize].body),
+            point: origin + translation * hit.fraction,
+            normal: hit.normal,
+            fraction: hit.fraction,
+        }
+    }
+
+    /// Offers every seen shape near a ray together with its hit, until the visitor returns 0.
+    fn walk_ray(
+        &self,
+        origin: DVec2,
+        translation: Vec2,
+        mut visit: impl FnMut(u32, RayHit, f32) -> f32,
+    ) {
+        if !origin.is_finite() || !translation.is_finite() {
+            return;
+        }
+        let cast = box_cast(origin, translation, Vec2::ZERO);
+        self.world.broad_phase.cast(&cast, 1.0, self.filter.tree_mask(), |index, limit| {
+            let hit =
+                if self.sees(index) { self.ray_hit(index, origin, translation) } else { None };
+            hit.map_or(limit, |hit| visit(index, hit, limit))
+        });
+    }
+
+    pub(super) fn first_on_ray(&self, origin: DVec2, translation: Vec2) -> Option<RayCastHit> {
+        let mut best = Best::new();
+        self.walk_ray(origin, translation, |index, hit, limit| {
+            best.offer(hit.fraction, index, hit);
+            narrower(limit, hit.fraction)
+        });
+        let shape = best.shape;
+        best.hit.map(|hit| self.report_ray(shape, hit, origin, translation))
+    }
+
+    pub(super) fn any_on_ray(&self, origin: DVec2, translation: Vec2) -> bool {
+        let mut found = false;
+        self.walk_ray(origin, translation, |_, _, _| {
+            found = true;
+            0.0
+        });
+        found
+    }
+
+    pub(super) fn all_on_ray(&self, origin: DVec2, translation: Vec2) -> Vec<RayCastHit> {
+        let mut hits = Vec::new();
+        self.walk_ray(origin, translation, |index, hit, limit| {
+            hits.push(self.report_ray(index, hit, origin, translation));
+            limit
+        });
+        hits.sort_unstable_by(|a, b| a.fraction.total_cmp(&b.fraction).then(a.shape.cmp(&b.shape)));
+        hits
+    }
+
+    pub(super) fn first_on_way(
+        &self,
+        shape: &Shape,
+        pose: Pose,
+        translation: Vec2,
+    ) -> Option<ShapeCastHit> {
+        if !pose.is_finite() || !translation.is_finite() || shape.validate().is_err() {
+            return None;
+        }
+        let bounds = shape.world_aabb(pose);
+        let reach = bounds.half_extents() + Vec2::splat(TOUCH);
+        let cast = box_cast(bounds.center().into(), translation, reach);
+        let mut best = Best::new();
+        self.world.broad_phase.cast(&cast, 1.0, self.filter.tree_mask(), |index, limit| {
+            let hit =
+                if self.sees(index) { self.way_hit(index, shape, pose, translation) } else { None };
+            let Some(hit) = hit else { return limit };
+            let fraction = hit.fraction;
+            best.offer(fraction, index, hit);
+            narrower(limit, fraction)
+        });
+        best.hit
+    }
+
+    fn way_hit(
+        &self,
+        index: u32,
+        shape: &Shape,
+        pose: Pose,
+        translation: Vec2,
+    ) -> Option<ShapeCastHit> {
+        let (record, place) = self.place(index);
+        let start = pose.relative_to(place);
+        let hit = shape_cast(&record.shape, shape, start, place.q.unrotate(translation))?;
+        Some(ShapeCastHit {
+            shape: self.world.shape_id(index),
+            body: self.world.body_id(record.body),
+            point: place.apply(hit.point),
+            normal: place.q.rotate(hit.normal),
+            fraction: hit.fraction,
+        })
+    }
+
+    /// The seen shapes that pass a test and whose fat boxes overlap a box, in index order.
+    fn collect(&self, bounds: &Aabb, passes: impl Fn(&ShapeRecord, Pose) -> bool) -> Vec<u32> {
+        let mut found = Vec::new();
+        self.world.broad_phase.query(bounds, self.filter.tree_mask(), |index| {
+            let (record, place) = self.place(index);
+            if self.sees(index) && passes(record, place) {
+                found.push(index);
+            }
+            ControlFlow::Continue(())
+        });
+        found.sort_unstable();
+        found
+    }
+
+    fn ids(&self, found: Vec<u32>) -> Vec<super::ShapeId> {
+        found.into_iter().map(|index| self.world.shape_id(index)).collect()
+    }
+
+    pub(super) fn overlapping(&self, shape: &Shape, pose: Pose) -> Vec<super::ShapeId> {
+        if !pose.is_finite() || shape.validate().is_err() {
+            return Vec::new();
+        }
+        let found = self.collect(&shape.world_aabb(pose), |record, place| {
+            distance(&record.shape, shape, pose.relative_to(place)).separation <= 0.0
+        });
+        self.ids(found)
+    }
+
+    pub(super) fn overlapping_box(&self, aabb: Aabb) -> Vec<super::ShapeId> {
+        if !aabb.is_valid() {
+            return Vec::new();
+        }
+        let center = (DVec2::from(aabb.min) + DVec2::from(aabb.max)) * 0.5;
+        let half_extents = aabb.half_extents();
+        // Not validated: a box without width or height is a fine question.
+        let (shape, pose) = (Shape::Aabb { half_extents }, Pose::new(center, Default::default()));
+        let found = self.collect(&aabb, |record, place| {
+            distance(&record.shape, &shape, pose.relative_to(place)).separation <= 0.0
+        });
+        self.ids(found)
+    }
+
+    pub(super) fn holding(&self, point: DVec2) -> Vec<super::ShapeId> {
+        if !point.is_finite() {
+            return Vec::new();
+        }
+        let found = self.collect(&Aabb::rounded_out(point, point), |record, place| {
+            record.shape.contains(place.unapply(point))
+        });
+        self.ids(found)
+    }
+
+    /// Looks in a small box first, then in larger ones: the nearest is usually near.
+    pub(super) fn closest(&self, point: DVec2, max_distance: f32) -> Option<ClosestPoint> {
+        if !point.is_finite() || max_distance.is_nan() || max_distance < 0.0 {
+            return None;
+        }
+        let last = if max_distance < LAST_RADIUS { max_distance } else { LAST_RADIUS };
+        let mut radius = FIRST_RADIUS * self.world.settings.length_unit;
+        loop {
+            let reach = if radius < last { radius } else { last };
+            let best = self.closest_within(point, reach);
+            if best.key <= reach {
+                return best.hit;
+            }
+            if radius >= last || !radius.is_finite() {
+                return None;
+            }
+            radius *= RADIUS_GROWTH;
+        }
+    }
+
+    fn closest_within(&self, point: DVec2, reach: f32) -> Best<ClosestPoint> {
+        let side = DVec2::new(f64::from(reach), f64::from(reach));
+        let bounds = Aabb::rounded_out(point - side, point + side);
+        let mut best = Best::new();
+        self.world.broad_phase.query(&bounds, self.filter.tree_mask(), |index| {
+            if self.sees(index) {
+                let (record, place) = self.place(index);
+                let local = place.unapply(point);
+                let closest = record.shape.closest_point(local);
+                let distance = closest.distance(local);
+                let hit = ClosestPoint {
+                    shape: self.world.shape_id(index),
+                    body: self.world.body_id(record.body),
+                    point: if distance == 0.0 { point } else { place.apply(closest) },
+                    distance,
+                };
+                best.offer(distance, index, hit);
+            }
+            ControlFlow::Continue(())
+        });
+        best
+    }
+}
+
+/// The cast of a box for the broad phase, a little larger than asked: the origin is rounded to 32 bits
+/// there, and so is every place on the way.
+fn box_cast(origin: DVec2, translation: Vec2, half_extents: Vec2) -> BoxCast {
+    let center = origin.to_vec2();
+    let slack = 2.0 * f32::EPSILON;
+    let grown = |extent: f32, at: f32, way: f32| {
+        extent + slack * (at.abs() + way.abs() + extent) + f32::MIN_POSITIVE
+    };
+    let half_extents = Vec2::new(
+        grown(half_extents.x, center.x, translation.x),
+        grown(half_extents.y, center.y, translation.y),
+    );
+    BoxCast { origin: center, translation, half_extents }
+}
+
+/// The limit of a cast after a hit. A hit at the start must not end the search: another shape may be hit
+/// there too, with a smaller index.
+fn narrower(limit: f32, fraction: f32) -> f32 {
+    let fraction = if fraction > f32::MIN_POSITIVE { fraction } else { f32::MIN_POSITIVE };
+    if fraction < limit { fraction } else { limit }
+}

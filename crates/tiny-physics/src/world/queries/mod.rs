@@ -1,0 +1,216 @@
+//! Questions about where shapes are: rays, moved shapes, overlaps, closest points.
+//!
+//! Queries see the world as the last step left it, and what was changed since. They change nothing, so any
+//! number of threads may ask at once. Answers are the same whatever the state of the search trees: of two
+//! hits at one distance, the shape with the smaller index comes first. Origins are in 64 bits; distances
+//! from them in 32. Questions with numbers that are not finite find nothing.
+
+mod filter;
+mod find;
+#[cfg(test)]
+mod tests;
+
+pub use filter::QueryFilter;
+
+use super::World;
+use super::ids::{BodyId, ShapeId};
+use crate::geometry::Shape;
+use crate::math::{Aabb, DVec2, Pose, Vec2};
+use find::Finder;
+
+/// A ray in the world, for [`World::ray_casts`].
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct RayCast {
+    /// Start: world, metres.
+    pub origin: DVec2,
+    /// From the start to the end, metres.
+    pub translation: Vec2,
+}
+
+impl RayCast {
+    /// A ray by its start and the vector to its end.
+    pub fn new(origin: impl Into<DVec2>, translation: Vec2) -> Self {
+        Self { origin: origin.into(), translation }
+    }
+}
+
+/// Where a ray enters a shape.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct RayCastHit {
+    /// What it enters.
+    pub shape: ShapeId,
+    /// The body of the shape.
+    pub body: BodyId,
+    /// Where: world, metres.
+    pub point: DVec2,
+    /// Outward unit normal of the surface there, world.
+    pub normal: Vec2,
+    /// Part of the translation until the hit, 0 to 1.
+    pub fraction: f32,
+}
+
+/// Where a moved shape first touches another.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ShapeCastHit {
+    /// What it touches.
+    pub shape: ShapeId,
+    /// The body of that shape.
+    pub body: BodyId,
+    /// Where, on the surface of the shape that stands still: world, metres.
+    pub point: DVec2,
+    /// Unit normal out of the shape that stands still, world.
+    pub normal: Vec2,
+    /// Part of the translation until the hit, 0 to 1; 0 where they overlap at the start.
+    pub fraction: f32,
+}
+
+/// The point of a shape that is closest to another point.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ClosestPoint {
+    /// The shape.
+    pub shape: ShapeId,
+    /// Its body.
+    pub body: BodyId,
+    /// The closest point of the shape: world, metres. The point asked for itself where that is inside.
+    pub point: DVec2,
+    /// Metres; 0 where the point asked for is inside.
+    pub distance: f32,
+}
+
+/// Rays that one member of the team casts at a time.
+const CHUNK: usize = 16;
+
+impl World {
+    /// The first shape that a ray enters on its way from `origin` along `translation` (metres). Shapes
+    /// that hold the origin are not entered, so they are not hit.
+    ///
+    /// ```
+    /// use tiny_physics::{QueryFilter, RigidBody, Shape, Vec2, World};
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let mut world = World::new(Vec2::ZERO);
+    /// world.add_body(RigidBody::fixed().shape(Shape::rect(1.0, 1.0)?))?;
+    /// let (from, way) = (Vec2::new(-5.0, 0.0), Vec2::new(8.0, 0.0));
+    /// let hit = world.ray_cast(from, way, &QueryFilter::new()).unwrap();
+    /// assert_eq!((hit.fraction, hit.normal), (0.5, -Vec2::X));
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn ray_cast(
+        &self,
+        origin: impl Into<DVec2>,
+        translation: Vec2,
+        filter: &QueryFilter<'_>,
+    ) -> Option<RayCastHit> {
+        Finder { world: self, filter }.first_on_ray(origin.into(), translation)
+    }
+
+    /// All shapes that a ray enters, nearest first: see [`World::ray_cast`].
+    pub fn ray_cast_all(
+        &self,
+        origin: impl Into<DVec2>,
+        translation: Vec2,
+        filter: &QueryFilter<'_>,
+    ) -> Vec<RayCastHit> {
+        Finder { world: self, filter }.all_on_ray(origin.into(), translation)
+    }
+
+    /// Does a ray enter any shape? Cheaper than [`World::ray_cast`]: for lines of sight.
+    pub fn ray_cast_any(
+        &self,
+        origin: impl Into<DVec2>,
+        translation: Vec2,
+        filter: &QueryFilter<'_>,
+    ) -> bool {
+        Finder { world: self, filter }.any_on_ray(origin.into(), translation)
+    }
+
+    /// Many ray casts at once, on all threads of the world. `hits` gets the answers in the order of the
+    /// rays (its old contents are dropped), each exactly that of [`World::ray_cast`].
+    pub fn ray_casts(
+        &self,
+        rays: &[RayCast],
+        filter: &QueryFilter<'_>,
+        hits: &mut Vec<Option<RayCastHit>>,
+    ) {
+        hits.clear();
+        hits.resize(rays.len(), None);
+        self.pool.scope(|team| {
+            team.for_each_chunk_mut(hits, CHUNK, |chunk, hits| {
+                for (hit, ray) in hits.iter_mut().zip(&rays[chunk * CHUNK..]) {
+                    *hit = self.ray_cast(ray.origin, ray.translation, filter);
+                }
+            });
+        });
+    }
+
+    /// The first shape that a shape touches when it is moved from `pose` along `translation` (metres)
+    /// without turning. Shapes that overlap it at the start are hits at fraction 0.
+    ///
+    /// ```
+    /// use tiny_physics::{Pose, QueryFilter, RigidBody, Shape, Transform, Vec2, World};
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let mut world = World::new(Vec2::ZERO);
+    /// world.add_body(RigidBody::fixed().shape(Shape::rect(10.0, 1.0)?))?;
+    /// let foot = Shape::circle(0.5)?;
+    /// let start = Transform::from_angle(Vec2::new(0.0, 3.0), 0.0);
+    /// let hit = world.cast_shape(&foot, start, Vec2::new(0.0, -3.0), &QueryFilter::new()).unwrap();
+    /// assert!((hit.fraction - 0.5).abs() < 1e-4 && hit.normal == Vec2::Y);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn cast_shape(
+        &self,
+        shape: &Shape,
+        pose: impl Into<Pose>,
+        translation: Vec2,
+        filter: &QueryFilter<'_>,
+    ) -> Option<ShapeCastHit> {
+        Finder { world: self, filter }.first_on_way(shape, pose.into(), translation)
+    }
+
+    /// The shapes that overlap a shape, in index order. Touching counts.
+    ///
+    /// ```
+    /// use tiny_physics::{QueryFilter, RigidBody, Shape, Transform, Vec2, World};
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let mut world = World::new(Vec2::ZERO);
+    /// let body = world.add_body(RigidBody::fixed().shape(Shape::rect(1.0, 1.0)?))?;
+    /// let area = Shape::circle(0.5)?;
+    /// let at = |x| Transform::from_angle(Vec2::new(x, 0.0), 0.0);
+    /// let found = world.overlap_shape(&area, at(1.4), &QueryFilter::new());
+    /// assert_eq!(world.shape(found[0]).unwrap().body(), body);
+    /// assert!(world.overlap_shape(&area, at(1.6), &QueryFilter::new()).is_empty());
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn overlap_shape(
+        &self,
+        shape: &Shape,
+        pose: impl Into<Pose>,
+        filter: &QueryFilter<'_>,
+    ) -> Vec<ShapeId> {
+        Finder { world: self, filter }.overlapping(shape, pose.into())
+    }
+
+    /// The shapes that overlap a box (world, metres), in index order. The shapes themselves count, not
+    /// their boxes.
+    pub fn overlap_aabb(&self, aabb: Aabb, filter: &QueryFilter<'_>) -> Vec<ShapeId> {
+        Finder { world: self, filter }.overlapping_box(aabb)
+    }
+
+    /// The shapes that hold a point, in index order.
+    pub fn overlap_point(&self, point: impl Into<DVec2>, filter: &QueryFilter<'_>) -> Vec<ShapeId> {
+        Finder { world: self, filter }.holding(point.into())
+    }
+
+    /// The point of any shape that is closest to `point`, if there is one within `max_distance` metres
+    /// (which may be infinite).
+    pub fn closest_point(
+        &self,
+        point: impl Into<DVec2>,
+        max_distance: f32,
+        filter: &QueryFilter<'_>,
+    ) -> Option<ClosestPoint> {
+        Finder { world: self, filter }.closest(point.into(), max_distance)
+    }
+}
