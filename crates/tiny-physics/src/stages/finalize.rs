@@ -124,10 +124,10 @@ fn finalize_body(
     }
     for shape in shapes.of_body(info.first_shape) {
         let tight = shape_box(shapes, shape, *pose);
-        if !shapes.fat[shape as usize].contains(&tight) {
-            if let Some(fat) = boxes.needed_fat_aabb(shapes.proxy(shape), tight, motion) {
-                found.moved.push((shape, fat));
-            }
+        if !shapes.fat[shape as usize].contains(&tight)
+            && let Some(fat) = boxes.needed_fat_aabb(shapes.proxy(shape), tight, motion)
+        {
+            found.moved.push((shape, fat));
         }
     }
 }

@@ -379,7 +379,7 @@ fn write_constraint<L: Lanes, K: PairKernel>(
     });
     let zero = L::splat(token, 0.0);
     let mut approach = [zero; 2];
-    for k in 0..K::POINTS {
+    for (k, approach) in approach.iter_mut().enumerate().take(K::POINTS) {
         let valid = geometry.valid[k];
         let same = [geometry.id[k].eq(old_id[0]), geometry.id[k].eq(old_id[1])];
         let carry = |kind: usize| {
@@ -389,7 +389,7 @@ fn write_constraint<L: Lanes, K: PairKernel>(
         let (normal_impulse, tangent_impulse) = (carry(0), carry(1));
         let arms = Arms::compute(geometry, k);
         let (normal_mass, tangent_mass) = arms.masses(token, &body_a, &body_b);
-        approach[k] = geometry.normal[0] * (body_b[0] - body_a[0])
+        *approach = geometry.normal[0] * (body_b[0] - body_a[0])
             + geometry.normal[1] * (body_b[1] - body_a[1])
             + arms.normal[1] * body_b[2]
             - arms.normal[0] * body_a[2];

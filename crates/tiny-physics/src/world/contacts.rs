@@ -139,13 +139,11 @@ impl World {
         let ids = [manifold.id_1[lane], manifold.id_2[lane]];
         let approach = [surface.approach_1[lane], surface.approach_2[lane]];
         let peak = [surface.peak_1[lane], surface.peak_2[lane]];
-        let mut point = 0;
-        for k in (0..2).filter(|&k| ids[k] >= 0.0) {
+        for (point, k) in (0..2).filter(|&k| ids[k] >= 0.0).enumerate() {
             let speed = -approach[k];
             if peak[k] > 0.0 && speed > threshold && fastest.is_none_or(|(_, most)| speed > most) {
                 fastest = Some((point, speed));
             }
-            point += 1;
         }
         let (point, speed) = fastest?;
         let view = self.view(bucket, slot);

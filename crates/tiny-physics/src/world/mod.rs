@@ -103,6 +103,7 @@ struct Scratch {
     findings: Vec<Findings>,
     fast: Vec<FastBody>,
     islands: Vec<u32>,
+    occupied: Vec<(usize, PairClass)>,
     overlaps: Vec<Overlap>,
     found_overlaps: Vec<Vec<Overlap>>,
     broken_joints: Vec<u32>,
@@ -269,6 +270,10 @@ impl World {
     fn solve(&mut self, team: &Team, lengths: StepLengths) {
         let parameters = self.contact_parameters(lengths);
         self.inv_h = parameters.inv_h;
+        if self.bodies.awake.is_empty() {
+            return;
+        }
+        self.graph.list_occupied(&mut self.scratch.occupied);
         self.prepare_joints(team, lengths.h);
         integrate::prepare(team, &mut self.bodies, self.gravity, lengths.h);
         let max_speed = self.settings.max_speed * self.settings.length_unit;
@@ -311,14 +316,16 @@ impl World {
         if pass == Pass::WarmStartJointed && self.joint_graph.count() == 0 {
             return;
         }
-        let rows = SharedRows::new(&mut self.bodies.rows);
-        let (colours, rest) = self.graph.buckets.split_at_mut(OVERFLOW);
-        for (bucket, class) in rest[0].iter_mut().zip(PairClass::ALL) {
-            contact_solver::run_in_order(pass, parameters, rows, bucket, class.max_points());
-        }
-        for (bucket, class) in colours.iter_mut().flat_map(|c| c.iter_mut().zip(PairClass::ALL)) {
+        let Self { bodies, graph, scratch, level, .. } = self;
+        let rows = SharedRows::new(&mut bodies.rows);
+        for &(colour, class) in &scratch.occupied {
+            let bucket = &mut graph.buckets[colour][class as usize];
             let points = class.max_points();
-            contact_solver::run(team, self.level, pass, parameters, rows, bucket, points);
+            if colour == OVERFLOW {
+                contact_solver::run_in_order(pass, parameters, rows, bucket, points);
+            } else {
+                contact_solver::run(team, *level, pass, parameters, rows, bucket, points);
+            }
         }
     }
 
@@ -371,7 +378,7 @@ impl World {
 
     /// Looks for islands at rest now and then, and lets them sleep.
     fn put_resting_islands_to_sleep(&mut self) {
-        if !self.settings.sleep || self.step_count % sleep::INTERVAL != 0 {
+        if !self.settings.sleep || !self.step_count.is_multiple_of(sleep::INTERVAL) {
             return;
         }
         let mut islands = core::mem::take(&mut self.scratch.islands);
