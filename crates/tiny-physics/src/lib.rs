@@ -59,6 +59,7 @@ mod error;
 mod fixed_step;
 pub mod geometry;
 pub mod math;
+pub mod record;
 mod simd;
 mod stages;
 mod threads;

@@ -1,8 +1,8 @@
 //! Descriptions as data of a saved frame.
 
 use super::{
-    BodyKind, Break, Filter, JointDef, JointKind, Limits, Locks, Material, Mix, Motor, Settings,
-    Spring,
+    BodyKind, Break, Filter, JointDef, JointKind, Limits, Locks, Material, Mix, Motor, RigidBody,
+    Settings, ShapeDef, Spring,
 };
 use crate::codec::{data, data_enum};
 
@@ -26,6 +26,37 @@ data!(Settings {
     continuous,
     friction_mix,
     restitution_mix,
+});
+data!(ShapeDef {
+    shape,
+    offset,
+    angle,
+    material,
+    filter,
+    sensor,
+    one_way,
+    contact_events,
+    hit_events,
+    user_data
+});
+data!(RigidBody {
+    kind,
+    position,
+    angle,
+    velocity,
+    angular_velocity,
+    linear_damping,
+    angular_damping,
+    gravity_scale,
+    locks,
+    shapes,
+    mass,
+    can_sleep,
+    awake,
+    sleep_speed,
+    bullet,
+    enabled,
+    user_data
 });
 data!(Spring { hertz, damping_ratio });
 data!(Motor { speed, max });

@@ -68,7 +68,7 @@ fn check_header(bytes: &[u8]) -> Result<&[u8], Error> {
         return Err(bad("it was written by another version of the engine"));
     }
     let (length, hash) = (u64::load(&mut reader)?, u64::load(&mut reader)?);
-    if reader.0.len() as u64 != length {
+    if reader.0.len() as u64 != length && !cfg!(fuzzing) {
         return Err(bad("it ends too early or too late"));
     }
     if hash_bytes(reader.0) != hash && !cfg!(fuzzing) {

@@ -8,6 +8,7 @@ mod contacts;
 mod debug_draw;
 mod events;
 mod frame;
+mod freeze;
 mod hash;
 mod ids;
 mod joints;
