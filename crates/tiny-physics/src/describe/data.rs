@@ -1,8 +1,8 @@
 //! Descriptions as data of a saved frame.
 
 use super::{
-    BodyKind, Break, Filter, JointDef, JointKind, Limits, Locks, Material, Mix, Motor, RigidBody,
-    Settings, ShapeDef, Spring,
+    BodyKind, Break, ChainLink, Filter, JointDef, JointKind, Limits, Locks, Material, Mix, Motor,
+    RigidBody, Settings, ShapeDef, Spring, Tile, TileForm, TileGrid,
 };
 use crate::codec::{data, data_enum};
 
@@ -37,7 +37,8 @@ data!(ShapeDef {
     one_way,
     contact_events,
     hit_events,
-    user_data
+    user_data,
+    link
 });
 data!(RigidBody {
     kind,
@@ -94,3 +95,7 @@ data!(JointDef {
     break_at,
     user_data,
 });
+data!(ChainLink { previous, next });
+data_enum!(TileForm { 0 => Full, 1 => Half, 2 => Side, 3 => Slope, 4 => GentleLow, 5 => GentleHigh });
+data!(Tile { form, mirror_x, mirror_y, material, filter, one_way, user_data });
+data!(TileGrid { position, angle, cell_size, width, height, palette, cells });

@@ -20,11 +20,11 @@ pub(crate) use blocks::{
     BlockHead, ConstraintBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags,
 };
 pub(crate) use bodies::{Bodies, BodyInfo, Motion, NULL, Slot};
-pub(crate) use clone::clone_by_field;
+pub(crate) use clone::{Serial, clone_by_field};
 pub(crate) use contacts::{Contact, Contacts, Place, SavedPoint};
 pub(crate) use graph::{Bucket, COLOURS, Graph, IDLE, OVERFLOW};
 pub(crate) use joint_blocks::*;
 pub(crate) use joint_graph::{JOINT_OVERFLOW, JointBlocks, JointBucket, JointGraph};
 pub(crate) use joints::{JointLoad, JointPlace, JointRecord, Joints};
 pub(crate) use sensors::{Overlap, Sensors};
-pub(crate) use shapes::{ShapeRecord, Shapes};
+pub(crate) use shapes::{ShapeRecord, Shapes, guard};

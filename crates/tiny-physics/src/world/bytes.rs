@@ -4,6 +4,7 @@
 //! can be derived at little cost is left out. Reading checks the hash, which finds accidents; then every link
 //! of the stores, which finds the rest.
 
+use super::hooks::Hooks;
 use super::{Scratch, Stats, World};
 use crate::codec::{Data, Reader, Sink, Writer, bad};
 use crate::error::Error;
@@ -18,7 +19,7 @@ const VERSION: u32 = 1;
 const HEADER: usize = 4 + 4 + 8 + 8;
 
 impl World {
-    /// The whole world as bytes, for [`World::from_bytes`] in another process, build or platform. Threads,
+    /// The whole world as bytes, for [`World::from_bytes`] in another process or platform. Hooks, threads,
     /// SIMD level and statistics are not part of it.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut writer = Writer(vec![0; HEADER]);
@@ -47,12 +48,13 @@ impl World {
     }
 
     /// Goes back to the world of [`World::to_bytes`] in place: what [`Clone::clone_from`] is for frames in
-    /// memory. Keeps threads, SIMD level and statistics.
+    /// memory. Keeps hooks, threads, SIMD level and statistics.
     ///
     /// # Errors
     /// As [`World::from_bytes`]; this world has not changed then.
     pub fn restore_bytes(&mut self, bytes: &[u8]) -> Result<(), Error> {
-        let world = Self::from_bytes(bytes)?;
+        let mut world = Self::from_bytes(bytes)?;
+        world.hooks.clone_from(&self.hooks);
         self.clone_from(&world);
         Ok(())
     }
@@ -108,10 +110,13 @@ impl Data for World {
             joints,
             joint_graph,
             broad_phase,
+            tiles,
             sensors,
+            hooks: _,
             events,
             step_count,
             inv_h,
+            dt,
             level: _,
             pool: _,
             stats: _,
@@ -126,10 +131,12 @@ impl Data for World {
         joints.save(sink);
         joint_graph.save(sink);
         broad_phase.save(sink);
+        tiles.save(sink);
         sensors.save(sink);
         events.save(sink);
         step_count.save(sink);
         inv_h.save(sink);
+        dt.save(sink);
     }
 
     fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
@@ -143,10 +150,13 @@ impl Data for World {
             joints: Data::load(reader)?,
             joint_graph: Data::load(reader)?,
             broad_phase: Data::load(reader)?,
+            tiles: Data::load(reader)?,
             sensors: Data::load(reader)?,
+            hooks: Hooks::default(),
             events: Data::load(reader)?,
             step_count: Data::load(reader)?,
             inv_h: Data::load(reader)?,
+            dt: Data::load(reader)?,
             level: SimdLevel::detect(),
             pool: Pool::default(),
             stats: Stats::default(),

@@ -7,7 +7,7 @@ use crate::broad_phase::ProxyId;
 use crate::describe::BodyKind;
 use crate::dynamics::{
     Bucket, Contact, FrameLanes, IDLE, JOINT_OVERFLOW, JointBucket, JointClass, JointLanes,
-    JointPlace, JointRecord, NULL, Place,
+    JointPlace, JointRecord, NULL, Place, guard,
 };
 use crate::geometry::manifold::{PairClass, ShapeClass};
 use crate::simd::BLOCK;
@@ -100,7 +100,10 @@ impl World {
     fn check_shapes(&self) -> Check {
         let shapes = &self.shapes;
         let count = shapes.records.len();
-        ensure(shapes.rows.len() == count && shapes.fat.len() == count, "shapes are missing")?;
+        ensure(
+            shapes.rows.len() == count && shapes.fat.len() == count && shapes.guards.len() == count,
+            "shapes are missing",
+        )?;
         ensure(
             shapes.records.iter().filter(|r| r.alive).count() == shapes.count,
             "shapes are miscounted",
@@ -114,6 +117,8 @@ impl World {
         {
             ensure(self.is_body(record.body), "a shape hangs on nothing")?;
             ensure(record.class == ShapeClass::of(&record.shape), "a shape is of another class")?;
+            let own = shapes.guards[index] & !0xffff;
+            ensure(own == guard::of(record), "a shape is guarded wrongly")?;
             if record.proxy != NULL {
                 let user = self.broad_phase.user(ProxyId(record.proxy));
                 ensure(user == Some(index as u32), "a shape is not in the broad phase")?;

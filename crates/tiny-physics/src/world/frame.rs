@@ -38,10 +38,13 @@ impl Clone for World {
             joints: self.joints.clone(),
             joint_graph: self.joint_graph.clone(),
             broad_phase: self.broad_phase.clone(),
+            tiles: self.tiles.clone(),
             sensors: self.sensors.clone(),
+            hooks: self.hooks.clone(),
             events: self.events.clone(),
             step_count: self.step_count,
             inv_h: self.inv_h,
+            dt: self.dt,
             level: self.level,
             pool: self.pool.clone(),
             stats: Stats::default(),
@@ -60,10 +63,13 @@ impl Clone for World {
             joints,
             joint_graph,
             broad_phase,
+            tiles,
             sensors,
+            hooks,
             events,
             step_count,
             inv_h,
+            dt,
             level: _,
             pool: _,
             stats: _,
@@ -73,6 +79,9 @@ impl Clone for World {
         *settings = source.settings;
         *step_count = source.step_count;
         *inv_h = source.inv_h;
+        *dt = source.dt;
+        tiles.clone_from(&source.tiles);
+        hooks.clone_from(&source.hooks);
         bodies.clone_from(&source.bodies);
         shapes.clone_from(&source.shapes);
         contacts.clone_from(&source.contacts);

@@ -41,6 +41,7 @@ impl World {
         self.hash_joints(&mut hasher);
         self.sensors.save(&mut hasher);
         self.events.save(&mut hasher);
+        self.tiles.save(&mut hasher);
         hasher.0
     }
 

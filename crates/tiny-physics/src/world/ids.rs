@@ -52,6 +52,10 @@ handle! {
     ShapeId, "shape"
 }
 handle! {
+    /// Handle of a tile map. It goes stale when the map is removed and never means another map.
+    TileGridId, "tile grid"
+}
+handle! {
     /// Handle of a joint. It goes stale when the joint is removed and never means another joint.
     JointId, "joint"
 }
@@ -59,3 +63,4 @@ handle! {
 crate::codec::data!(BodyId { index } apart { generation });
 crate::codec::data!(ShapeId { index } apart { generation });
 crate::codec::data!(JointId { index } apart { generation });
+crate::codec::data!(TileGridId { index } apart { generation });
