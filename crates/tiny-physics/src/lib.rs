@@ -54,6 +54,7 @@
 //! descriptions and settings to files.
 
 pub mod broad_phase;
+mod codec;
 mod debug_draw;
 mod describe;
 mod dynamics;
@@ -61,6 +62,7 @@ mod error;
 mod fixed_step;
 pub mod geometry;
 pub mod math;
+pub mod record;
 mod simd;
 mod stages;
 mod threads;
