@@ -6,10 +6,10 @@
 //! next step, when there is a contact. The time that is lost is at most a step.
 
 use super::finalize::{FastBody, update_boxes};
-use super::surfaces;
+use super::surfaces::{self, Ground, Seams};
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes};
-use crate::geometry::{Shape, Sweep, ToiState, time_of_impact};
+use crate::geometry::{Shape, Sweep, ToiState, distance, time_of_impact};
 use crate::math::{Aabb, Pose, Rot, Transform, Vec2};
 use core::ops::ControlFlow;
 
@@ -20,11 +20,12 @@ pub(crate) fn run(
     shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
+    length_unit: f32,
 ) {
     for bullets in [false, true] {
         for body in fast.iter_mut() {
             if bodies.infos[body.body as usize].bullet == bullets {
-                sweep(body, bodies, shapes, joints, broad_phase);
+                sweep(body, bodies, shapes, joints, broad_phase, length_unit);
             }
         }
     }
@@ -37,8 +38,10 @@ fn sweep(
     shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
+    length_unit: f32,
 ) {
-    let fraction = Impact { fast, bodies, shapes, joints, broad_phase }.first_fraction();
+    let fraction =
+        Impact { fast, bodies, shapes, joints, broad_phase, length_unit }.first_fraction();
     fast.fraction = fraction;
     if fraction < 1.0 {
         let position = fast.start.p + fast.motion * fraction;
@@ -81,6 +84,7 @@ struct Impact<'a> {
     shapes: &'a Shapes,
     joints: &'a Joints,
     broad_phase: &'a BroadPhase,
+    length_unit: f32,
 }
 
 impl Impact<'_> {
@@ -131,6 +135,7 @@ impl Impact<'_> {
         other: u32,
         first: f32,
     ) -> f32 {
+        let index = other;
         let other = &self.shapes.records[other as usize];
         if !self.may_collide(record, other) {
             return first;
@@ -145,10 +150,31 @@ impl Impact<'_> {
         let fixed = Sweep::fixed(at);
         let toi = time_of_impact(&record.shape, moving, &other.shape, &fixed, first);
         match toi.state {
-            ToiState::Hit | ToiState::Limit => toi.fraction,
+            ToiState::Hit | ToiState::Limit
+                if !self.is_ghost(record, index, moving.at(toi.fraction).relative_to(at)) =>
+            {
+                toi.fraction
+            }
             ToiState::Separated => first,
-            ToiState::Touching => inner.first_fraction(&other.shape, &fixed, first),
+            ToiState::Hit | ToiState::Limit | ToiState::Touching => {
+                inner.first_fraction(&other.shape, &fixed, first)
+            }
         }
+    }
+
+    /// Does a shape at this place (in the other's frame) only hit a seam between static shapes?
+    fn is_ghost(&self, record: &ShapeRecord, other: u32, place: Transform) -> bool {
+        if self.shapes.guards[other as usize] == 0 {
+            return false;
+        }
+        let Self { broad_phase, length_unit, .. } = *self;
+        let (shapes, guards) = (&self.shapes.records, &self.shapes.guards);
+        let ground = Ground { shapes, guards, poses: &self.bodies.poses, broad_phase, length_unit };
+        let hit = &shapes[other as usize];
+        let gap = distance(&hit.shape, &record.shape, place);
+        let point = hit.box_frame.unapply(gap.point_a);
+        let normal = hit.box_frame.q.unrotate(gap.normal);
+        Seams::new(ground, other, record).is_ghost([Some(point), None], normal)
     }
 
     fn may_collide(&self, record: &ShapeRecord, other: &ShapeRecord) -> bool {

@@ -121,95 +121,36 @@ enum Verdict {
     Replace(Manifold),
 }
 
-/// A contact seen from the guarded shape.
-struct View<'a> {
-    context: &'a Context<'a>,
-    pair: Pair,
+/// Where static shapes are found.
+#[derive(Clone, Copy)]
+pub(crate) struct Ground<'a> {
+    pub(crate) shapes: &'a [ShapeRecord],
+    pub(crate) guards: &'a [u32],
+    pub(crate) poses: &'a [Pose],
+    pub(crate) broad_phase: &'a BroadPhase,
+    pub(crate) length_unit: f32,
+}
+
+/// A guarded shape among its neighbours, as another shape meets it. Everything is in the frame of the
+/// guarded shape's rounded box.
+pub(crate) struct Seams<'a> {
+    ground: Ground<'a>,
     own: u32,
     record: &'a ShapeRecord,
     other: &'a ShapeRecord,
     guard: u32,
-    /// Frame of the guarded shape's rounded box: everything below is in it.
-    frame: Transform,
-    /// 1 where the guarded shape is A: the kernels' normal points out of it.
-    sign: f32,
     core: Core,
-    other_core: Core,
 }
 
-impl<'a> View<'a> {
-    fn new(
-        context: &'a Context<'a>,
-        pair: Pair,
-        own: u32,
-        other: u32,
-        frames: [Transform; 2],
-        side: usize,
-    ) -> Self {
-        let (record, other) = (&context.shapes[own as usize], &context.shapes[other as usize]);
-        let other_in_own = frames[1 - side].relative_to(frames[side]);
-        Self {
-            context,
-            pair,
-            own,
-            record,
-            other,
-            guard: context.surroundings.guards[own as usize],
-            frame: frames[side],
-            sign: if side == 0 { 1.0 } else { -1.0 },
-            core: boxed_core(record),
-            other_core: boxed_core(other).transformed(other_in_own),
-        }
+impl<'a> Seams<'a> {
+    pub(crate) fn new(ground: Ground<'a>, own: u32, other: &'a ShapeRecord) -> Self {
+        let record = &ground.shapes[own as usize];
+        let guard = ground.guards[own as usize];
+        Self { ground, own, record, other, guard, core: boxed_core(record) }
     }
 
-    fn judge(&self, lane: &LanePoints) -> Verdict {
-        let normal = self.frame.q.unrotate(lane.normal()) * self.sign;
-        if let Some(link) = self.record.link {
-            return self.judge_link(normal, [link.previous, link.next]);
-        }
-        if self.guard & guard::ONE_WAY != 0 {
-            if !self.pair.touched && !self.is_above() {
-                return Verdict::Drop;
-            }
-            let on_face = face_of(&self.core, normal).is_some_and(|face| self.is_solid(face));
-            if !on_face {
-                return self.best_face();
-            }
-        }
-        if self.is_ghost(lane, normal) { self.best_face() } else { Verdict::Keep }
-    }
-
-    /// A segment of a chain: its face, or the cone of normals at a corner that sticks out.
-    fn judge_link(&self, normal: Vec2, ends: [Option<Vec2>; 2]) -> Verdict {
-        let face = self.core.normal(0);
-        let (a, b) = (self.core.points[0], self.core.points[1]);
-        if face.dot(middle(&self.other_core) - a) < 0.0 {
-            return Verdict::Drop;
-        }
-        if face_of(&self.core, normal) == Some(0) {
-            return Verdict::Keep;
-        }
-        let (corner, end) = if normal.dot(b - a) < 0.0 { (a, ends[0]) } else { (b, ends[1]) };
-        let free = match end {
-            None => true,
-            Some(end) => {
-                let way = self.record.box_frame.unapply(end) - corner;
-                normal.dot(way) <= 1.0e-3 * way.length()
-            }
-        };
-        if free && normal.dot(face) > 0.0 {
-            return Verdict::Keep;
-        }
-        let manifold =
-            collide_face(&self.core, 0, &self.other_core, self.context.speculative_distance);
-        if manifold.count == 0 { Verdict::Drop } else { Verdict::Replace(manifold) }
-    }
-
-    /// Is a normal one that the surface made by all static shapes does not have there?
-    fn is_ghost(&self, lane: &LanePoints, normal: Vec2) -> bool {
-        let limit = self.context.speculative_distance;
-        let points =
-            [0, 1].map(|k| lane.is_valid(k, limit).then(|| self.frame.unapply(lane.point(k))));
+    /// Does the surface made by all static shapes lack this normal at these points of contact?
+    pub(crate) fn is_ghost(&self, points: [Option<Vec2>; 2], normal: Vec2) -> bool {
         if let Some(face) = face_of(&self.core, normal) {
             return self.guard & guard::face(face) != 0 && self.is_covered(face, points);
         }
@@ -220,7 +161,7 @@ impl<'a> View<'a> {
 
     /// Do other static shapes cover a face around all points of contact with it?
     fn is_covered(&self, face: usize, points: [Option<Vec2>; 2]) -> bool {
-        let unit = self.context.surroundings.length_unit;
+        let unit = self.ground.length_unit;
         let (start, end) = self.core.edge(face);
         let along = self.core.normal(face).perp();
         let length = along.dot(end - start);
@@ -251,7 +192,7 @@ impl<'a> View<'a> {
 
     /// Does another static shape go on from a corner in the direction of the normal?
     fn goes_on(&self, vertex: usize, normal: Vec2) -> bool {
-        let unit = self.context.surroundings.length_unit;
+        let unit = self.ground.length_unit;
         let corner = self.core.points[vertex];
         let mut ghost = false;
         self.each_neighbour(&[corner], |neighbour| {
@@ -261,12 +202,125 @@ impl<'a> View<'a> {
         ghost
     }
 
+    fn own_pose(&self) -> Pose {
+        boxed_pose(self.ground.poses, self.record)
+    }
+
+    /// Visits the cores of the static shapes near some points, in this frame and no fixed order.
+    fn each_neighbour(&self, points: &[Vec2], mut visit: impl FnMut(&Core)) {
+        let Ground { shapes, poses, broad_phase, length_unit, .. } = self.ground;
+        let pose = self.own_pose();
+        let bounds = world_box(pose, points, TOLERANCE * length_unit);
+        let any_way = self.record.one_way.is_some();
+        broad_phase.tree(ProxyKind::Static).query(&bounds, u64::MAX, |proxy| {
+            if let Some(index) = broad_phase.user(ProxyId(proxy)) {
+                let neighbour = &shapes[index as usize];
+                if index != self.own
+                    && is_ground(neighbour, any_way)
+                    && neighbour.body != self.other.body
+                    && neighbour.filter.collides(&self.other.filter)
+                {
+                    let place = boxed_pose(poses, neighbour).relative_to(pose);
+                    visit(&boxed_core(neighbour).transformed(place));
+                }
+            }
+            ControlFlow::Continue(())
+        });
+    }
+}
+
+/// A contact seen from the guarded shape.
+struct View<'a> {
+    context: &'a Context<'a>,
+    pair: Pair,
+    seams: Seams<'a>,
+    /// Frame of the guarded shape's rounded box: everything below is in it.
+    frame: Transform,
+    /// 1 where the guarded shape is A: the kernels' normal points out of it.
+    sign: f32,
+    other_core: Core,
+}
+
+impl<'a> View<'a> {
+    fn new(
+        context: &'a Context<'a>,
+        pair: Pair,
+        own: u32,
+        other: u32,
+        frames: [Transform; 2],
+        side: usize,
+    ) -> Self {
+        let other = &context.shapes[other as usize];
+        let other_in_own = frames[1 - side].relative_to(frames[side]);
+        let Surroundings { guards, broad_phase, length_unit, .. } = context.surroundings;
+        let (shapes, poses) = (context.shapes, context.poses);
+        let ground = Ground { shapes, guards, poses, broad_phase, length_unit };
+        Self {
+            context,
+            pair,
+            seams: Seams::new(ground, own, other),
+            frame: frames[side],
+            sign: if side == 0 { 1.0 } else { -1.0 },
+            other_core: boxed_core(other).transformed(other_in_own),
+        }
+    }
+
+    fn judge(&self, lane: &LanePoints) -> Verdict {
+        let normal = self.frame.q.unrotate(lane.normal()) * self.sign;
+        if let Some(link) = self.seams.record.link {
+            return self.judge_link(normal, [link.previous, link.next]);
+        }
+        if self.seams.guard & guard::ONE_WAY != 0 {
+            if !self.pair.touched && !self.is_above() {
+                return Verdict::Drop;
+            }
+            let on_face = face_of(&self.seams.core, normal).is_some_and(|face| self.is_solid(face));
+            if !on_face {
+                return self.best_face();
+            }
+        }
+        if self.is_ghost(lane, normal) { self.best_face() } else { Verdict::Keep }
+    }
+
+    /// A segment of a chain: its face, or the cone of normals at a corner that sticks out.
+    fn judge_link(&self, normal: Vec2, ends: [Option<Vec2>; 2]) -> Verdict {
+        let face = self.seams.core.normal(0);
+        let (a, b) = (self.seams.core.points[0], self.seams.core.points[1]);
+        if face.dot(middle(&self.other_core) - a) < 0.0 {
+            return Verdict::Drop;
+        }
+        if face_of(&self.seams.core, normal) == Some(0) {
+            return Verdict::Keep;
+        }
+        let (corner, end) = if normal.dot(b - a) < 0.0 { (a, ends[0]) } else { (b, ends[1]) };
+        let free = match end {
+            None => true,
+            Some(end) => {
+                let way = self.seams.record.box_frame.unapply(end) - corner;
+                normal.dot(way) <= 1.0e-3 * way.length()
+            }
+        };
+        if free && normal.dot(face) > 0.0 {
+            return Verdict::Keep;
+        }
+        let manifold =
+            collide_face(&self.seams.core, 0, &self.other_core, self.context.speculative_distance);
+        if manifold.count == 0 { Verdict::Drop } else { Verdict::Replace(manifold) }
+    }
+
+    fn is_ghost(&self, lane: &LanePoints, normal: Vec2) -> bool {
+        let limit = self.context.speculative_distance;
+        let points =
+            [0, 1].map(|k| lane.is_valid(k, limit).then(|| self.frame.unapply(lane.point(k))));
+        self.seams.is_ghost(points, normal)
+    }
+
     /// The contact with the highest solid face that is not covered.
     fn best_face(&self) -> Verdict {
         let mut tried = 0_u32;
         loop {
             let mut best: Option<(usize, f32, Manifold)> = None;
-            for face in 0..self.core.edge_count() {
+            for face in 0..self.seams.core.edge_count() {
                 if tried & 1 << face != 0 || !self.is_solid(face) {
                     continue;
                 }
@@ -279,7 +333,7 @@ impl<'a> View<'a> {
             }
             let Some((face, _, manifold)) = best else { return Verdict::Drop };
             let points = [0, 1].map(|k| manifold.points().get(k).map(|p| p.point));
-            if self.guard & guard::face(face) == 0 || !self.is_covered(face, points) {
+            if self.seams.guard & guard::face(face) == 0 || !self.seams.is_covered(face, points) {
                 return Verdict::Replace(manifold);
             }
             tried |= 1 << face;
@@ -287,60 +341,35 @@ impl<'a> View<'a> {
     }
 
     fn collide(&self, face: usize) -> Manifold {
-        collide_face(&self.core, face, &self.other_core, self.context.speculative_distance)
+        collide_face(&self.seams.core, face, &self.other_core, self.context.speculative_distance)
     }
 
     /// The direction of a one-way platform.
     fn way(&self) -> Option<Vec2> {
-        let way = self.record.one_way?;
-        let frame = self.record.central.compose(self.record.box_frame);
+        let way = self.seams.record.one_way?;
+        let frame = self.seams.record.central.compose(self.seams.record.box_frame);
         Some(frame.q.unrotate(way).normalized())
     }
 
     /// May something stand on this face?
     fn is_solid(&self, face: usize) -> bool {
-        self.way().is_none_or(|way| self.core.normal(face).dot(way) > ONE_WAY_COSINE)
+        self.way().is_none_or(|way| self.seams.core.normal(face).dot(way) > ONE_WAY_COSINE)
     }
 
     /// Was the other shape above the one-way platform in the last step?
     fn is_above(&self) -> bool {
         let Some(way) = self.way() else { return true };
-        let deepest = support_height(&self.core, way) + support_height(&self.other_core, -way);
+        let deepest =
+            support_height(&self.seams.core, way) + support_height(&self.other_core, -way);
         let rows = self.context.body_rows;
         let velocity = |body: u32| {
             let row = &rows[body as usize];
             Vec2::new(row[0], row[1])
         };
-        let relative = velocity(self.other.body) - velocity(self.record.body);
-        let speed = self.own_pose().q.unrotate(relative).dot(way);
+        let relative = velocity(self.seams.other.body) - velocity(self.seams.record.body);
+        let speed = self.seams.own_pose().q.unrotate(relative).dot(way);
         let Surroundings { dt, length_unit, .. } = self.context.surroundings;
         -deepest - speed * dt >= -ONE_WAY_DEPTH * length_unit
-    }
-
-    fn own_pose(&self) -> Pose {
-        boxed_pose(self.context.poses, self.record)
-    }
-
-    /// Visits the cores of the static shapes near some points, in this frame and no fixed order.
-    fn each_neighbour(&self, points: &[Vec2], mut visit: impl FnMut(&Core)) {
-        let Surroundings { broad_phase, length_unit, .. } = self.context.surroundings;
-        let pose = self.own_pose();
-        let bounds = world_box(pose, points, TOLERANCE * length_unit);
-        let any_way = self.record.one_way.is_some();
-        broad_phase.tree(ProxyKind::Static).query(&bounds, u64::MAX, |proxy| {
-            if let Some(index) = broad_phase.user(ProxyId(proxy)) {
-                let neighbour = &self.context.shapes[index as usize];
-                if index != self.own
-                    && is_ground(neighbour, any_way)
-                    && neighbour.body != self.other.body
-                    && neighbour.filter.collides(&self.other.filter)
-                {
-                    let place = boxed_pose(self.context.poses, neighbour).relative_to(pose);
-                    visit(&boxed_core(neighbour).transformed(place));
-                }
-            }
-            ControlFlow::Continue(())
-        });
     }
 }
 
@@ -385,18 +414,23 @@ pub(crate) fn refresh(
         return;
     }
     let changed = core::mem::take(&mut shapes.changed_ground);
-    let mut near = Vec::new();
+    // A bit a shape: much less than a sorted list where a large level is built.
+    let mut near = vec![0_u64; shapes.records.len().div_ceil(64)];
     for bounds in &changed {
         broad_phase.tree(ProxyKind::Static).query(bounds, u64::MAX, |proxy| {
-            near.extend(broad_phase.user(ProxyId(proxy)));
+            if let Some(index) = broad_phase.user(ProxyId(proxy)) {
+                near[index as usize / 64] |= 1 << (index % 64);
+            }
             ControlFlow::Continue(())
         });
     }
-    near.sort_unstable();
-    near.dedup();
-    for index in near {
-        let touched = touched_features(index, shapes, bodies, broad_phase, length_unit);
-        shapes.set_touched(index, touched);
+    for (word, mut bits) in near.into_iter().enumerate() {
+        while bits != 0 {
+            let index = word as u32 * 64 + bits.trailing_zeros();
+            bits &= bits - 1;
+            let touched = touched_features(index, shapes, bodies, broad_phase, length_unit);
+            shapes.set_touched(index, touched);
+        }
     }
 }
 

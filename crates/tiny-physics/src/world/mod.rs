@@ -391,8 +391,9 @@ impl World {
 
     /// Stops fast bodies where they would have gone through something.
     fn sweep_fast_bodies(&mut self) {
-        let Self { bodies, shapes, broad_phase, joints, scratch, .. } = self;
-        continuous::run(&mut scratch.fast, bodies, shapes, joints, broad_phase);
+        let Self { bodies, shapes, broad_phase, joints, scratch, settings, .. } = self;
+        let unit = settings.length_unit;
+        continuous::run(&mut scratch.fast, bodies, shapes, joints, broad_phase, unit);
     }
 
     /// Looks for islands at rest now and then, and lets them sleep.
