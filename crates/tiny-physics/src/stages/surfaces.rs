@@ -16,7 +16,7 @@
 
 use super::narrow_phase::Context;
 use crate::broad_phase::{BroadPhase, ProxyId, ProxyKind};
-use crate::describe::BodyKind;
+use crate::describe::{BodyKind, ChainLink};
 use crate::dynamics::{Bodies, ShapeRecord, Shapes, guard};
 use crate::geometry::manifold::{
     Manifold, collide_face, face_of, nearest_vertex, point_gap, support_height,
@@ -31,6 +31,8 @@ const TOLERANCE: f32 = 0.002;
 const REACH: f32 = 0.02;
 /// A corner's normal is free if the neighbours rise by no more than this above it, metres.
 const CONE_TOLERANCE: f32 = 5.0e-4;
+/// A corner of a chain has a normal if the next segment rises by no more than this sine above it.
+const LINK_TOLERANCE: f32 = 1.0e-3;
 /// Cosine of the greatest angle between a one-way platform's direction and a face that is solid.
 const ONE_WAY_COSINE: f32 = 0.5;
 /// Something that is this deep in a one-way platform is not on it yet, metres.
@@ -103,6 +105,10 @@ pub(crate) fn correct(context: &Context<'_>, pair: Pair, lane: &mut LanePoints) 
         if guards[shapes[side] as usize] == 0 || !lane.is_valid(0, f32::MAX * 0.5) {
             continue;
         }
+        let out = if side == 0 { lane.normal() } else { -pair.b_in_a.q.unrotate(lane.normal()) };
+        if guards[shapes[side] as usize] & guard::free(out) != 0 {
+            continue;
+        }
         let view = View::new(context, pair, shapes[side], shapes[1 - side], frames, side);
         match view.judge(lane) {
             Verdict::Keep => {}
@@ -151,12 +157,30 @@ impl<'a> Seams<'a> {
 
     /// Does the surface made by all static shapes lack this normal at these points of contact?
     pub(crate) fn is_ghost(&self, points: [Option<Vec2>; 2], normal: Vec2) -> bool {
+        if let Some(link) = self.record.link {
+            return !self.link_has(link, normal);
+        }
         if let Some(face) = face_of(&self.core, normal) {
             return self.guard & guard::face(face) != 0 && self.is_covered(face, points);
         }
         let Some(point) = points[0].or(points[1]) else { return false };
         let vertex = nearest_vertex(&self.core, point);
         self.guard & guard::corner(vertex) != 0 && self.goes_on(vertex, normal)
+    }
+
+    /// Has a segment of a chain this normal: that of its face, or one of a corner that sticks out?
+    fn link_has(&self, link: ChainLink, normal: Vec2) -> bool {
+        if face_of(&self.core, normal) == Some(0) {
+            return true;
+        }
+        let (a, b) = (self.core.points[0], self.core.points[1]);
+        let (corner, end) =
+            if normal.dot(b - a) < 0.0 { (a, link.previous) } else { (b, link.next) };
+        let free = end.is_none_or(|end| {
+            let way = self.record.box_frame.unapply(end) - corner;
+            normal.dot(way) <= LINK_TOLERANCE * way.length()
+        });
+        free && normal.dot(self.core.normal(0)) > 0.0
     }
 
     /// Do other static shapes cover a face around all points of contact with it?
@@ -268,7 +292,7 @@ impl<'a> View<'a> {
     fn judge(&self, lane: &LanePoints) -> Verdict {
         let normal = self.frame.q.unrotate(lane.normal()) * self.sign;
         if let Some(link) = self.seams.record.link {
-            return self.judge_link(normal, [link.previous, link.next]);
+            return self.judge_link(normal, link);
         }
         if self.seams.guard & guard::ONE_WAY != 0 {
             if !self.pair.touched && !self.is_above() {
@@ -283,24 +307,13 @@ impl<'a> View<'a> {
     }
 
     /// A segment of a chain: its face, or the cone of normals at a corner that sticks out.
-    fn judge_link(&self, normal: Vec2, ends: [Option<Vec2>; 2]) -> Verdict {
+    fn judge_link(&self, normal: Vec2, link: ChainLink) -> Verdict {
         let face = self.seams.core.normal(0);
-        let (a, b) = (self.seams.core.points[0], self.seams.core.points[1]);
+        let a = self.seams.core.points[0];
         if face.dot(middle(&self.other_core) - a) < 0.0 {
             return Verdict::Drop;
         }
-        if face_of(&self.seams.core, normal) == Some(0) {
-            return Verdict::Keep;
-        }
-        let (corner, end) = if normal.dot(b - a) < 0.0 { (a, ends[0]) } else { (b, ends[1]) };
-        let free = match end {
-            None => true,
-            Some(end) => {
-                let way = self.seams.record.box_frame.unapply(end) - corner;
-                normal.dot(way) <= 1.0e-3 * way.length()
-            }
-        };
-        if free && normal.dot(face) > 0.0 {
+        if self.seams.link_has(link, normal) {
             return Verdict::Keep;
         }
         let manifold =
@@ -462,7 +475,12 @@ fn touched_features(
         }
         ControlFlow::Continue(())
     });
-    bits
+    if bits == 0 || record.one_way.is_some() {
+        return bits;
+    }
+    let is_free = |face: &usize| bits & guard::face(*face) == 0;
+    let free = (0..core.edge_count()).filter(is_free);
+    free.fold(bits, |bits, face| bits | guard::free(core.normal(face)))
 }
 
 /// Faces and corners of `core` that `other` touches; rather one too many.
