@@ -17,7 +17,8 @@ pub struct Material {
     pub restitution: f32,
     /// Resistance of round shapes against rolling, as a fraction of their radius, 0 or above.
     pub rolling_resistance: f32,
-    /// Speed of the surface along itself, metres a second: a conveyor belt.
+    /// Speed of the surface along itself, metres a second: a conveyor belt. It runs clockwise round the shape,
+    /// so what lies on top goes to the right.
     pub tangent_speed: f32,
 }
 

@@ -6,12 +6,23 @@
 //! next step, when there is a contact. The time that is lost is at most a step.
 
 use super::finalize::{FastBody, update_boxes};
+use super::one_way;
+use super::pairs::PairRule;
 use super::surfaces::{self, Ground, Seams};
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes};
 use crate::geometry::{Shape, Sweep, ToiState, distance, time_of_impact};
 use crate::math::{Aabb, Pose, Rot, Transform, Vec2};
 use core::ops::ControlFlow;
+
+/// What decides about pairs besides filters.
+#[derive(Clone, Copy)]
+pub(crate) struct Rules<'a> {
+    /// The user's word on a pair of shapes, if there is any.
+    pub(crate) custom: Option<&'a dyn PairRule>,
+    /// See [`Settings::length_unit`](crate::Settings).
+    pub(crate) length_unit: f32,
+}
 
 /// Sweeps the fast bodies, bullets last: they see where all others have ended.
 pub(crate) fn run(
@@ -20,12 +31,12 @@ pub(crate) fn run(
     shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
-    length_unit: f32,
+    rules: Rules<'_>,
 ) {
     for bullets in [false, true] {
         for body in fast.iter_mut() {
             if bodies.infos[body.body as usize].bullet == bullets {
-                sweep(body, bodies, shapes, joints, broad_phase, length_unit);
+                sweep(body, bodies, shapes, joints, broad_phase, rules);
             }
         }
     }
@@ -38,10 +49,9 @@ fn sweep(
     shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
-    length_unit: f32,
+    rules: Rules<'_>,
 ) {
-    let fraction =
-        Impact { fast, bodies, shapes, joints, broad_phase, length_unit }.first_fraction();
+    let fraction = Impact { fast, bodies, shapes, joints, broad_phase, rules }.first_fraction();
     fast.fraction = fraction;
     if fraction < 1.0 {
         let position = fast.start.p + fast.motion * fraction;
@@ -84,7 +94,7 @@ struct Impact<'a> {
     shapes: &'a Shapes,
     joints: &'a Joints,
     broad_phase: &'a BroadPhase,
-    length_unit: f32,
+    rules: Rules<'a>,
 }
 
 impl Impact<'_> {
@@ -110,7 +120,7 @@ impl Impact<'_> {
                 }
                 self.broad_phase.tree(kind).query(&path, record.filter.reach().1, |proxy| {
                     if let Some(other) = self.broad_phase.user(crate::broad_phase::ProxyId(proxy)) {
-                        first = self.impact(record, &moving, &inner, other, first);
+                        first = self.impact((shape, record), &moving, &inner, other, first);
                     }
                     ControlFlow::Continue(())
                 });
@@ -129,15 +139,15 @@ impl Impact<'_> {
     /// The first impact so far, taking one more shape into account.
     fn impact(
         &self,
-        record: &ShapeRecord,
+        (shape, record): (u32, &ShapeRecord),
         moving: &Sweep,
         inner: &Inner,
-        other: u32,
+        index: u32,
         first: f32,
     ) -> f32 {
-        let index = other;
-        let other = &self.shapes.records[other as usize];
-        if !self.may_collide(record, other) {
+        let other = &self.shapes.records[index as usize];
+        let forbids = |rule: &dyn PairRule| !rule.allows(self.bodies, self.shapes, shape, index);
+        if !self.may_collide(record, other) || self.rules.custom.is_some_and(forbids) {
             return first;
         }
         let pose = self.bodies.poses[other.body as usize];
@@ -149,16 +159,25 @@ impl Impact<'_> {
         }
         let fixed = Sweep::fixed(at);
         let toi = time_of_impact(&record.shape, moving, &other.shape, &fixed, first);
+        // One-way platforms stop only what comes from their solid side.
+        let solid_along = |way: Vec2| {
+            one_way::is_solid_side(other, -way, pose.q)
+                && one_way::is_solid_side(record, way, self.fast.start.q)
+        };
         match toi.state {
             ToiState::Hit | ToiState::Limit
-                if !self.is_ghost(record, index, moving.at(toi.fraction).relative_to(at)) =>
+                if solid_along(toi.normal)
+                    && !self.is_ghost(record, index, moving.at(toi.fraction).relative_to(at)) =>
             {
                 toi.fraction
             }
-            ToiState::Separated => first,
-            ToiState::Hit | ToiState::Limit | ToiState::Touching => {
+            // What it touches it may be passing through from behind.
+            ToiState::Hit | ToiState::Limit | ToiState::Touching
+                if solid_along(self.fast.motion.normalized()) =>
+            {
                 inner.first_fraction(&other.shape, &fixed, first)
             }
+            ToiState::Hit | ToiState::Limit | ToiState::Separated | ToiState::Touching => first,
         }
     }
 
@@ -167,7 +186,8 @@ impl Impact<'_> {
         if self.shapes.guards[other as usize] == 0 {
             return false;
         }
-        let Self { broad_phase, length_unit, .. } = *self;
+        let Self { broad_phase, rules, .. } = *self;
+        let length_unit = rules.length_unit;
         let (shapes, guards) = (&self.shapes.records, &self.shapes.guards);
         let ground = Ground { shapes, guards, poses: &self.bodies.poses, broad_phase, length_unit };
         let hit = &shapes[other as usize];

@@ -9,6 +9,7 @@ pub(crate) mod finalize;
 pub(crate) mod integrate;
 pub(crate) mod joint_solver;
 pub(crate) mod narrow_phase;
+pub(crate) mod one_way;
 pub(crate) mod pairs;
 pub(crate) mod sensors;
 pub(crate) mod sleep;

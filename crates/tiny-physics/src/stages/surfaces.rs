@@ -35,16 +35,12 @@ const CONE_TOLERANCE: f32 = 5.0e-4;
 const LINK_TOLERANCE: f32 = 1.0e-3;
 /// Cosine of the greatest angle between a one-way platform's direction and a face that is solid.
 const ONE_WAY_COSINE: f32 = 0.5;
-/// Something that is this deep in a one-way platform is not on it yet, metres.
-const ONE_WAY_DEPTH: f32 = 0.01;
 
 /// What looking at surfaces needs beyond the narrow phase's own.
 #[derive(Clone, Copy)]
 pub(crate) struct Surroundings<'a> {
     pub(crate) guards: &'a [u32],
     pub(crate) broad_phase: &'a BroadPhase,
-    /// Length of the last step, seconds.
-    pub(crate) dt: f32,
     pub(crate) length_unit: f32,
 }
 
@@ -92,8 +88,6 @@ pub(crate) struct Pair {
     pub(crate) shape_b: u32,
     /// Frame of B's rounded box in that of A's.
     pub(crate) b_in_a: Transform,
-    /// Had the contact points in the last step?
-    pub(crate) touched: bool,
 }
 
 /// Corrects the manifold of a pair of which one shape at least is guarded.
@@ -109,7 +103,7 @@ pub(crate) fn correct(context: &Context<'_>, pair: Pair, lane: &mut LanePoints) 
         if guards[shapes[side] as usize] & guard::free(out) != 0 {
             continue;
         }
-        let view = View::new(context, pair, shapes[side], shapes[1 - side], frames, side);
+        let view = View::new(context, shapes[side], shapes[1 - side], frames, side);
         match view.judge(lane) {
             Verdict::Keep => {}
             Verdict::Drop => *lane = LanePoints::NONE,
@@ -256,7 +250,6 @@ impl<'a> Seams<'a> {
 /// A contact seen from the guarded shape.
 struct View<'a> {
     context: &'a Context<'a>,
-    pair: Pair,
     seams: Seams<'a>,
     /// Frame of the guarded shape's rounded box: everything below is in it.
     frame: Transform,
@@ -268,7 +261,6 @@ struct View<'a> {
 impl<'a> View<'a> {
     fn new(
         context: &'a Context<'a>,
-        pair: Pair,
         own: u32,
         other: u32,
         frames: [Transform; 2],
@@ -281,7 +273,6 @@ impl<'a> View<'a> {
         let ground = Ground { shapes, guards, poses, broad_phase, length_unit };
         Self {
             context,
-            pair,
             seams: Seams::new(ground, own, other),
             frame: frames[side],
             sign: if side == 0 { 1.0 } else { -1.0 },
@@ -295,9 +286,6 @@ impl<'a> View<'a> {
             return self.judge_link(normal, link);
         }
         if self.seams.guard & guard::ONE_WAY != 0 {
-            if !self.pair.touched && !self.is_above() {
-                return Verdict::Drop;
-            }
             let on_face = face_of(&self.seams.core, normal).is_some_and(|face| self.is_solid(face));
             if !on_face {
                 return self.best_face();
@@ -367,22 +355,6 @@ impl<'a> View<'a> {
     /// May something stand on this face?
     fn is_solid(&self, face: usize) -> bool {
         self.way().is_none_or(|way| self.seams.core.normal(face).dot(way) > ONE_WAY_COSINE)
-    }
-
-    /// Was the other shape above the one-way platform in the last step?
-    fn is_above(&self) -> bool {
-        let Some(way) = self.way() else { return true };
-        let deepest =
-            support_height(&self.seams.core, way) + support_height(&self.other_core, -way);
-        let rows = self.context.body_rows;
-        let velocity = |body: u32| {
-            let row = &rows[body as usize];
-            Vec2::new(row[0], row[1])
-        };
-        let relative = velocity(self.seams.other.body) - velocity(self.seams.record.body);
-        let speed = self.seams.own_pose().q.unrotate(relative).dot(way);
-        let Surroundings { dt, length_unit, .. } = self.context.surroundings;
-        -deepest - speed * dt >= -ONE_WAY_DEPTH * length_unit
     }
 }
 

@@ -188,6 +188,7 @@ impl BodyMut<'_> {
     pub fn set_velocity(&mut self, velocity: Vec2) {
         if self.info().kind != BodyKind::Static && self.accept(&[velocity.x, velocity.y]) {
             self.world.bodies.set_velocity(self.index, velocity);
+            self.wake_riders(velocity != Vec2::ZERO);
         }
     }
 
@@ -195,6 +196,14 @@ impl BodyMut<'_> {
     pub fn set_angular_velocity(&mut self, radians_per_second: f32) {
         if self.info().kind != BodyKind::Static && self.accept(&[radians_per_second]) {
             self.world.bodies.set_angular_velocity(self.index, radians_per_second);
+            self.wake_riders(radians_per_second != 0.0);
+        }
+    }
+
+    /// Wakes what touches a platform that begins to move.
+    fn wake_riders(&mut self, moves: bool) {
+        if moves && self.info().kind == BodyKind::Kinematic {
+            self.world.wake_neighbours(self.index);
         }
     }
 

@@ -404,7 +404,7 @@ fn check_body(body: &RigidBody) -> Result<(), Error> {
     body.shapes.iter().try_for_each(check_shape)
 }
 
-fn check_shape(shape: &ShapeDef) -> Result<(), Error> {
+pub(super) fn check_shape(shape: &ShapeDef) -> Result<(), Error> {
     shape.shape.validate()?;
     Error::check_finite_vec("offset", shape.offset)?;
     Error::check_finite("angle", shape.angle)?;

@@ -96,6 +96,11 @@ impl World {
             hasher.word(u64::from(record.filter.group.cast_unsigned()) << 1);
             hasher.word(switches([record.sensor, record.one_way.is_some()]));
             hasher.vector(record.one_way.unwrap_or_default());
+            if let Some(link) = record.link {
+                hasher.word(switches([link.previous.is_some(), link.next.is_some()]));
+                hasher.vector(link.previous.unwrap_or_default());
+                hasher.vector(link.next.unwrap_or_default());
+            }
             // When pairs are found depends on the fat box.
             if let Some(fat) = self.broad_phase.fat_aabb(self.shapes.proxy(index)) {
                 hasher.vector(fat.min);

@@ -1,28 +1,37 @@
 //! The world: the one facade over everything below.
 
 mod bodies;
+mod body_changes;
 mod build;
 mod contacts;
 mod debug_draw;
 mod events;
+mod forces;
 mod hash;
+mod hooks;
 mod ids;
 mod joints;
 mod mover;
 mod queries;
 mod sensors;
+mod shape_changes;
 mod shapes;
 mod stats;
+#[cfg(test)]
+mod tests;
 mod tiles;
 mod validate;
 
 pub use bodies::{Body, BodyMut};
 pub use contacts::{ContactPoint, ContactView};
 pub use events::{ContactBegin, ContactEnd, Events, Hit, JointBreak, SensorBegin, SensorEnd};
+pub use forces::{Explosion, ForceZone, Water, Wind, ZoneForce};
+pub use hooks::{ContactRules, ShapePair};
 pub use ids::{BodyId, JointId, ShapeId, TileGridId};
 pub use joints::JointRef;
 pub use mover::{CharacterMover, MoverGround, MoverInput};
 pub use queries::{ClosestPoint, QueryFilter, RayCast, RayCastHit, ShapeCastHit};
+pub use shape_changes::ShapeMut;
 pub use shapes::ShapeRef;
 pub use stats::{Stage, Stats};
 
@@ -84,12 +93,11 @@ pub struct World {
     broad_phase: BroadPhase,
     tiles: tiles::TileGrids,
     sensors: Sensors,
+    hooks: hooks::Hooks,
     events: Events,
     step_count: u64,
     /// 1 / substep length of the last step.
     inv_h: f32,
-    /// Length of the step, seconds.
-    dt: f32,
     level: SimdLevel,
     pool: Pool,
     stats: Stats,
@@ -141,10 +149,10 @@ impl World {
             broad_phase: BroadPhase::new(),
             tiles: tiles::TileGrids::default(),
             sensors: Sensors::default(),
+            hooks: hooks::Hooks::default(),
             events: Events::default(),
             step_count: 0,
             inv_h: 0.0,
-            dt: 0.0,
             level: SimdLevel::detect(),
             pool: Pool::default(),
             stats: Stats::default(),
@@ -163,7 +171,8 @@ impl World {
     /// Moves the world on by `dt` seconds.
     ///
     /// # Errors
-    /// `dt` or gravity is not finite, or `dt` not above 0. The world has not changed then.
+    /// `dt` or gravity is not finite, `dt` not above 0, or a setting out of range. The world has not changed
+    /// then.
     pub fn try_step(&mut self, dt: f32) -> Result<(), Error> {
         let lengths = self.step_lengths(dt)?;
         let pool = self.pool.clone();
@@ -177,14 +186,14 @@ impl World {
         let mut watch = Stopwatch::start();
         self.events.clear();
         self.bodies.sort_awake();
-        self.dt = lengths.dt;
         self.refresh_surfaces();
 
         self.update_pairs(team);
         watch.lap(&mut self.stats, Stage::Pairs);
         self.update_manifolds(team);
         watch.lap(&mut self.stats, Stage::NarrowPhase);
-        self.update_touching();
+        self.update_touching(lengths.dt);
+        self.call_pre_solve(team);
         watch.lap(&mut self.stats, Stage::Touching);
         self.solve(team, lengths);
         watch.lap(&mut self.stats, Stage::Solve);
@@ -201,6 +210,7 @@ impl World {
     /// Checks the step's numbers and divides them up.
     fn step_lengths(&self, dt: f32) -> Result<StepLengths, Error> {
         Error::check_positive("dt", dt)?;
+        self.settings.validate()?;
         Error::check_finite_vec("gravity", self.gravity)?;
         let substeps = self.settings.substeps.clamp(1, 1000);
         let iterations = self.settings.iterations.clamp(1, 1000);
@@ -210,9 +220,11 @@ impl World {
     /// Drops contacts of shapes that left their fat boxes and their partners; finds new partners.
     fn update_pairs(&mut self, team: &Team) {
         self.stats.moved_shapes = self.broad_phase.moved().len();
-        let Self { broad_phase, shapes, bodies, contacts, graph, joints, scratch, .. } = self;
+        let Self { broad_phase, shapes, bodies, contacts, graph, joints, hooks, scratch, .. } =
+            self;
         pairs::find_parted(broad_phase, bodies, shapes, contacts, graph, &mut scratch.parted);
-        let stores = pairs::Partners { shapes, bodies, contacts, joints };
+        let custom = hooks.pair_filter();
+        let stores = pairs::Partners { shapes, bodies, contacts, joints, custom };
         pairs::find_new(team, broad_phase, &stores, &mut scratch.found_pairs, &mut scratch.pairs);
         self.stats.candidate_pairs = scratch.pairs.len();
 
@@ -249,7 +261,6 @@ impl World {
             surroundings: surfaces::Surroundings {
                 guards: &self.shapes.guards,
                 broad_phase: &self.broad_phase,
-                dt: self.dt,
                 length_unit: self.settings.length_unit,
             },
         };
@@ -268,10 +279,11 @@ impl World {
     }
 
     /// Moves contacts that began or ended to where they belong; wakes what was touched.
-    fn update_touching(&mut self) {
+    fn update_touching(&mut self, dt: f32) {
         let mut changes = core::mem::take(&mut self.scratch.changes);
         touching::find_changes(&self.graph, &mut changes);
         changes.ended.iter().for_each(|&index| self.end_contact(index));
+        changes.began.retain(|&index| self.may_begin(index, dt));
         changes.began.iter().for_each(|&index| self.begin_contact(index));
         self.stats.contacts_begun = changes.began.len();
         self.stats.contacts_ended = changes.ended.len();
@@ -391,9 +403,10 @@ impl World {
 
     /// Stops fast bodies where they would have gone through something.
     fn sweep_fast_bodies(&mut self) {
-        let Self { bodies, shapes, broad_phase, joints, scratch, settings, .. } = self;
-        let unit = settings.length_unit;
-        continuous::run(&mut scratch.fast, bodies, shapes, joints, broad_phase, unit);
+        let Self { bodies, shapes, broad_phase, joints, hooks, scratch, settings, .. } = self;
+        let rules =
+            continuous::Rules { custom: hooks.pair_filter(), length_unit: settings.length_unit };
+        continuous::run(&mut scratch.fast, bodies, shapes, joints, broad_phase, rules);
     }
 
     /// Looks for islands at rest now and then, and lets them sleep.
