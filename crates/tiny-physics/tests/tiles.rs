@@ -162,9 +162,6 @@ fn slopes_are_smooth() {
             assert!(across.abs() < 0.05, "{across}");
             let place = world.body(body).unwrap().position();
             assert!(world.step_count() < 600, "it is stuck at {place:?}");
-            if world.step_count() % 20 == 0 {
-                println!("{place:?} {:?}", world.body(body).unwrap().velocity());
-            }
         }
         world.validate().unwrap();
         let lost = 1.0 - (energy(&world) - 10.0) / (10.0 * start.y - 10.0);

@@ -316,13 +316,20 @@ impl<'a> View<'a> {
         self.seams.is_ghost(points, normal)
     }
 
-    /// The contact with the highest solid face that is not covered.
+    /// The contact with the highest solid face that is not covered and has the other shape's middle in
+    /// front of it.
     fn best_face(&self) -> Verdict {
+        let middle = middle(&self.other_core);
         let mut tried = 0_u32;
         loop {
             let mut best: Option<(usize, f32, Manifold)> = None;
             for face in 0..self.seams.core.edge_count() {
                 if tried & 1 << face != 0 || !self.is_solid(face) {
+                    continue;
+                }
+                // Out through the far side is no way out.
+                let start = self.seams.core.points[face];
+                if self.seams.core.normal(face).dot(middle - start) <= 0.0 {
                     continue;
                 }
                 let manifold = self.collide(face);
