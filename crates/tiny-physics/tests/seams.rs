@@ -69,7 +69,7 @@ fn check(name: &str, world: &World) {
         let ride = ride(world, shape, height);
         assert!(ride.kept > 0.999, "{name}: {mover} keeps {} of its speed", ride.kept);
         assert!(ride.hop < 0.001, "{name}: {mover} hops {} m", ride.hop);
-        assert!(ride.way > 0.998, "{name}: {mover} makes {} of its way", ride.way);
+        assert!(ride.way > 0.999, "{name}: {mover} makes {} of its way", ride.way);
     }
 }
 

@@ -160,7 +160,8 @@ fn slopes_are_smooth() {
             let across = world.body(body).unwrap().velocity().dot(normal);
             // Gravity of a step and settling in the first.
             assert!(across.abs() < 0.05, "{across}");
-            assert!(world.step_count() < 600, "it is stuck");
+            let place = world.body(body).unwrap().position();
+            assert!(world.step_count() < 600, "it is stuck at {place:?}");
         }
         world.validate().unwrap();
         let lost = 1.0 - (energy(&world) - 10.0) / (10.0 * start.y - 10.0);

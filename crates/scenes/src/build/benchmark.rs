@@ -6,7 +6,7 @@ use crate::random::Lcg;
 use crate::scene::Scene;
 use crate::script::{Queries, Rain, Script, Terrain, WakeSleepers};
 use crate::shapes;
-use tiny_physics::{Filter, JointDef, RigidBody, Rot, Shape, ShapeDef, Vec2};
+use tiny_physics::{ChainDef, Filter, JointDef, RigidBody, Rot, Shape, ShapeDef, Vec2};
 
 /// A net of circles, held by a few of them, that collide with nothing.
 pub(crate) fn joint_grid(options: Options) -> Scene {
@@ -133,7 +133,7 @@ pub(crate) fn spinner(options: Options) -> Scene {
 }
 
 /// 360 segments around (0, 32), clockwise. The turn is a little more than a degree, so the ring overlaps
-/// itself by five degrees, as in the original, where it is one closed chain.
+/// itself by five degrees, as in the original; one closed chain, solid from inside.
 fn ring() -> RigidBody {
     let turn = Rot { c: 0.999_842_35, s: -0.017_757_336 };
     let mut point = Vec2::new(40.0, 0.0);
@@ -142,11 +142,8 @@ fn ring() -> RigidBody {
         points.push(point + Vec2::new(0.0, 32.0));
         point = turn.rotate(point);
     }
-    let mut body = RigidBody::fixed();
-    for (i, a) in points.iter().enumerate() {
-        body = body.shape(Shape::Segment { a: *a, b: points[(i + 1) % points.len()] });
-    }
-    body.friction(0.1)
+    let chain = ChainDef::closed(&points).friction(0.1);
+    RigidBody::fixed().chain(&chain).expect("the points of the ring are apart")
 }
 
 fn stirred(i: u32, place: Vec2) -> RigidBody {

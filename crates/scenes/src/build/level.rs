@@ -5,7 +5,7 @@ use crate::random::Random;
 use crate::scene::Scene;
 use crate::script::{Script, Walkers};
 use crate::shapes;
-use tiny_physics::{RigidBody, Shape, Vec2};
+use tiny_physics::{ChainDef, RigidBody, Shape, ShapeDef, TileGrid, Vec2};
 
 const COLUMNS: u32 = 400;
 const ROWS: u32 = 60;
@@ -38,6 +38,52 @@ pub(crate) fn tiles(options: Options) -> Scene {
     scene.script = Some(Script::Walkers(walkers));
     scene
 }
+
+/// Balls and crates on hills, stairs and platforms of a tile map, beside a chain; size is their number.
+pub(crate) fn tile_map(options: Options) -> Scene {
+    let count = options.size_or(24, 2000);
+    let mut random = Random::new(options.seed);
+    let mut scene =
+        Scene::new("tile_map", "Balls and crates roll over tiles and slide on a chain.");
+    scene.gravity = Vec2::new(0.0, -10.0);
+    let grid = TileGrid::parse(1.0, &MAP).expect("the map is drawn with known letters");
+    grid.bodies().into_iter().for_each(|body| {
+        scene.body(body);
+    });
+    let width = grid.width as f32;
+    let hills = (0..=40).rev().map(|i| {
+        let x = i as f32 * 0.5;
+        Vec2::new(width + x, 3.0 + 2.0 * tiny_physics::math::sin(x * 0.8) - 0.1 * x)
+    });
+    let hills = ChainDef::open(&hills.collect::<Vec<_>>()).friction(0.1);
+    let hills = RigidBody::fixed().chain(&hills).expect("the points of the hills are apart");
+    scene.body(hills);
+    for i in 0..count {
+        let place = Vec2::new(random.range(2.0, width + 16.0), random.range(9.0, 14.0));
+        let shape = match i % 3 {
+            0 => shapes::circle(random.range(0.2, 0.45)),
+            1 => shapes::rect(random.range(0.2, 0.45), random.range(0.2, 0.45)),
+            _ => Shape::Capsule { a: Vec2::new(-0.2, 0.0), b: Vec2::new(0.2, 0.0), radius: 0.2 },
+        };
+        let velocity = Vec2::new(random.range(-4.0, 4.0), 0.0);
+        let shape = ShapeDef::new(shape).friction(0.2);
+        scene.body(RigidBody::dynamic().position(place).velocity(velocity).shape(shape));
+    }
+    scene
+}
+
+/// The map, top row first: see [`TileGrid::parse`].
+const MAP: [&str; 9] = [
+    "#.......................................",
+    "#.......................................",
+    "#..........----..............lhHL.......",
+    "#\\...........................##........",
+    "##\\................/\\..................",
+    "###HL...........lh##\\........_____.....",
+    "#####HL......lh######\\.............../#",
+    "#######HL__lh##########HL..__....lh####.",
+    "#######################################.",
+];
 
 /// Movers start in the free rows over the floors, spread over the level.
 fn mover(i: u32, random: &mut Random) -> RigidBody {

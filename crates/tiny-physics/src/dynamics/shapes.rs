@@ -46,6 +46,7 @@ const _: () = assert!(core::mem::offset_of!(ShapeRecord, material) <= 64);
 /// shapes touch, chains, one-way platforms.
 pub(crate) mod guard {
     use super::ShapeRecord;
+    use crate::math::Vec2;
 
     pub(crate) const CHAIN: u32 = 1 << 16;
     pub(crate) const ONE_WAY: u32 = 1 << 17;
@@ -56,6 +57,24 @@ pub(crate) mod guard {
 
     pub(crate) fn corner(index: usize) -> u32 {
         1 << (8 + index)
+    }
+
+    /// The bit that says that the face with this normal (in the frame of the rounded box) is touched by
+    /// nothing; 0 for normals that are not along an axis.
+    #[inline]
+    pub(crate) fn free(normal: Vec2) -> u32 {
+        const ALONG: f32 = 1.0 - 1.0e-6;
+        if normal.y > ALONG {
+            1 << 20
+        } else if normal.y < -ALONG {
+            1 << 21
+        } else if normal.x > ALONG {
+            1 << 22
+        } else if normal.x < -ALONG {
+            1 << 23
+        } else {
+            0
+        }
     }
 
     /// Those that a shape has by itself.
@@ -112,7 +131,7 @@ impl Shapes {
         index
     }
 
-    /// Notes which faces and corners of a static shape others touch.
+    /// Notes which faces and corners of a static shape others touch, and which they do not.
     pub(crate) fn set_touched(&mut self, index: u32, touched: u32) {
         self.guards[index as usize] = guard::of(&self.records[index as usize]) | touched;
         self.mark_row(index);

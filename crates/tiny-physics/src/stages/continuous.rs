@@ -8,12 +8,21 @@
 use super::finalize::{FastBody, update_boxes};
 use super::one_way;
 use super::pairs::PairRule;
-use super::surfaces;
+use super::surfaces::{self, Ground, Seams};
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes};
-use crate::geometry::{Shape, Sweep, ToiState, time_of_impact};
+use crate::geometry::{Shape, Sweep, ToiState, distance, time_of_impact};
 use crate::math::{Aabb, Pose, Rot, Transform, Vec2};
 use core::ops::ControlFlow;
+
+/// What decides about pairs besides filters.
+#[derive(Clone, Copy)]
+pub(crate) struct Rules<'a> {
+    /// The user's word on a pair of shapes, if there is any.
+    pub(crate) custom: Option<&'a dyn PairRule>,
+    /// See [`Settings::length_unit`](crate::Settings).
+    pub(crate) length_unit: f32,
+}
 
 /// Sweeps the fast bodies, bullets last: they see where all others have ended.
 pub(crate) fn run(
@@ -22,12 +31,12 @@ pub(crate) fn run(
     shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
-    custom: Option<&dyn PairRule>,
+    rules: Rules<'_>,
 ) {
     for bullets in [false, true] {
         for body in fast.iter_mut() {
             if bodies.infos[body.body as usize].bullet == bullets {
-                sweep(body, bodies, shapes, joints, broad_phase, custom);
+                sweep(body, bodies, shapes, joints, broad_phase, rules);
             }
         }
     }
@@ -40,9 +49,9 @@ fn sweep(
     shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
-    custom: Option<&dyn PairRule>,
+    rules: Rules<'_>,
 ) {
-    let fraction = Impact { fast, bodies, shapes, joints, broad_phase, custom }.first_fraction();
+    let fraction = Impact { fast, bodies, shapes, joints, broad_phase, rules }.first_fraction();
     fast.fraction = fraction;
     if fraction < 1.0 {
         let position = fast.start.p + fast.motion * fraction;
@@ -85,8 +94,7 @@ struct Impact<'a> {
     shapes: &'a Shapes,
     joints: &'a Joints,
     broad_phase: &'a BroadPhase,
-    /// The user's word on a pair of shapes, if there is any.
-    custom: Option<&'a dyn PairRule>,
+    rules: Rules<'a>,
 }
 
 impl Impact<'_> {
@@ -139,7 +147,7 @@ impl Impact<'_> {
     ) -> f32 {
         let other = &self.shapes.records[index as usize];
         let forbids = |rule: &dyn PairRule| !rule.allows(self.bodies, self.shapes, shape, index);
-        if !self.may_collide(record, other) || self.custom.is_some_and(forbids) {
+        if !self.may_collide(record, other) || self.rules.custom.is_some_and(forbids) {
             return first;
         }
         let pose = self.bodies.poses[other.body as usize];
@@ -157,13 +165,36 @@ impl Impact<'_> {
                 && one_way::is_solid_side(record, way, self.fast.start.q)
         };
         match toi.state {
-            ToiState::Hit | ToiState::Limit if solid_along(toi.normal) => toi.fraction,
+            ToiState::Hit | ToiState::Limit
+                if solid_along(toi.normal)
+                    && !self.is_ghost(record, index, moving.at(toi.fraction).relative_to(at)) =>
+            {
+                toi.fraction
+            }
             // What it touches it may be passing through from behind.
-            ToiState::Touching if solid_along(self.fast.motion.normalized()) => {
+            ToiState::Hit | ToiState::Limit | ToiState::Touching
+                if solid_along(self.fast.motion.normalized()) =>
+            {
                 inner.first_fraction(&other.shape, &fixed, first)
             }
             ToiState::Hit | ToiState::Limit | ToiState::Separated | ToiState::Touching => first,
         }
+    }
+
+    /// Does a shape at this place (in the other's frame) only hit a seam between static shapes?
+    fn is_ghost(&self, record: &ShapeRecord, other: u32, place: Transform) -> bool {
+        if self.shapes.guards[other as usize] == 0 {
+            return false;
+        }
+        let Self { broad_phase, rules, .. } = *self;
+        let length_unit = rules.length_unit;
+        let (shapes, guards) = (&self.shapes.records, &self.shapes.guards);
+        let ground = Ground { shapes, guards, poses: &self.bodies.poses, broad_phase, length_unit };
+        let hit = &shapes[other as usize];
+        let gap = distance(&hit.shape, &record.shape, place);
+        let point = hit.box_frame.unapply(gap.point_a);
+        let normal = hit.box_frame.q.unrotate(gap.normal);
+        Seams::new(ground, other, record).is_ghost([Some(point), None], normal)
     }
 
     fn may_collide(&self, record: &ShapeRecord, other: &ShapeRecord) -> bool {

@@ -375,8 +375,7 @@ fn surfaces_of_lanes(
         }
         let p = Vec2::new(lanes[10][i], lanes[11][i]);
         let b_in_a = Transform::new(p, Rot { c: lanes[12][i], s: lanes[13][i] });
-        let touched = block.id_1[at + i] >= 0.0 || block.id_2[at + i] >= 0.0;
-        let pair = surfaces::Pair { shape_a, shape_b, b_in_a, touched };
+        let pair = surfaces::Pair { shape_a, shape_b, b_in_a };
         surfaces::correct(context, pair, &mut points);
         for (lane, value) in lanes.iter_mut().zip(points.values) {
             lane[i] = value;

@@ -16,7 +16,7 @@
 
 use super::narrow_phase::Context;
 use crate::broad_phase::{BroadPhase, ProxyId, ProxyKind};
-use crate::describe::BodyKind;
+use crate::describe::{BodyKind, ChainLink};
 use crate::dynamics::{Bodies, ShapeRecord, Shapes, guard};
 use crate::geometry::manifold::{
     Manifold, collide_face, face_of, nearest_vertex, point_gap, support_height,
@@ -31,18 +31,16 @@ const TOLERANCE: f32 = 0.002;
 const REACH: f32 = 0.02;
 /// A corner's normal is free if the neighbours rise by no more than this above it, metres.
 const CONE_TOLERANCE: f32 = 5.0e-4;
+/// A corner of a chain has a normal if the next segment rises by no more than this sine above it.
+const LINK_TOLERANCE: f32 = 1.0e-3;
 /// Cosine of the greatest angle between a one-way platform's direction and a face that is solid.
 const ONE_WAY_COSINE: f32 = 0.5;
-/// Something that is this deep in a one-way platform is not on it yet, metres.
-const ONE_WAY_DEPTH: f32 = 0.01;
 
 /// What looking at surfaces needs beyond the narrow phase's own.
 #[derive(Clone, Copy)]
 pub(crate) struct Surroundings<'a> {
     pub(crate) guards: &'a [u32],
     pub(crate) broad_phase: &'a BroadPhase,
-    /// Length of the last step, seconds.
-    pub(crate) dt: f32,
     pub(crate) length_unit: f32,
 }
 
@@ -90,8 +88,6 @@ pub(crate) struct Pair {
     pub(crate) shape_b: u32,
     /// Frame of B's rounded box in that of A's.
     pub(crate) b_in_a: Transform,
-    /// Had the contact points in the last step?
-    pub(crate) touched: bool,
 }
 
 /// Corrects the manifold of a pair of which one shape at least is guarded.
@@ -103,7 +99,11 @@ pub(crate) fn correct(context: &Context<'_>, pair: Pair, lane: &mut LanePoints) 
         if guards[shapes[side] as usize] == 0 || !lane.is_valid(0, f32::MAX * 0.5) {
             continue;
         }
-        let view = View::new(context, pair, shapes[side], shapes[1 - side], frames, side);
+        let out = if side == 0 { lane.normal() } else { -pair.b_in_a.q.unrotate(lane.normal()) };
+        if guards[shapes[side] as usize] & guard::free(out) != 0 {
+            continue;
+        }
+        let view = View::new(context, shapes[side], shapes[1 - side], frames, side);
         match view.judge(lane) {
             Verdict::Keep => {}
             Verdict::Drop => *lane = LanePoints::NONE,
@@ -121,95 +121,39 @@ enum Verdict {
     Replace(Manifold),
 }
 
-/// A contact seen from the guarded shape.
-struct View<'a> {
-    context: &'a Context<'a>,
-    pair: Pair,
+/// Where static shapes are found.
+#[derive(Clone, Copy)]
+pub(crate) struct Ground<'a> {
+    pub(crate) shapes: &'a [ShapeRecord],
+    pub(crate) guards: &'a [u32],
+    pub(crate) poses: &'a [Pose],
+    pub(crate) broad_phase: &'a BroadPhase,
+    pub(crate) length_unit: f32,
+}
+
+/// A guarded shape among its neighbours, as another shape meets it. Everything is in the frame of the
+/// guarded shape's rounded box.
+pub(crate) struct Seams<'a> {
+    ground: Ground<'a>,
     own: u32,
     record: &'a ShapeRecord,
     other: &'a ShapeRecord,
     guard: u32,
-    /// Frame of the guarded shape's rounded box: everything below is in it.
-    frame: Transform,
-    /// 1 where the guarded shape is A: the kernels' normal points out of it.
-    sign: f32,
     core: Core,
-    other_core: Core,
 }
 
-impl<'a> View<'a> {
-    fn new(
-        context: &'a Context<'a>,
-        pair: Pair,
-        own: u32,
-        other: u32,
-        frames: [Transform; 2],
-        side: usize,
-    ) -> Self {
-        let (record, other) = (&context.shapes[own as usize], &context.shapes[other as usize]);
-        let other_in_own = frames[1 - side].relative_to(frames[side]);
-        Self {
-            context,
-            pair,
-            own,
-            record,
-            other,
-            guard: context.surroundings.guards[own as usize],
-            frame: frames[side],
-            sign: if side == 0 { 1.0 } else { -1.0 },
-            core: boxed_core(record),
-            other_core: boxed_core(other).transformed(other_in_own),
-        }
+impl<'a> Seams<'a> {
+    pub(crate) fn new(ground: Ground<'a>, own: u32, other: &'a ShapeRecord) -> Self {
+        let record = &ground.shapes[own as usize];
+        let guard = ground.guards[own as usize];
+        Self { ground, own, record, other, guard, core: boxed_core(record) }
     }
 
-    fn judge(&self, lane: &LanePoints) -> Verdict {
-        let normal = self.frame.q.unrotate(lane.normal()) * self.sign;
+    /// Does the surface made by all static shapes lack this normal at these points of contact?
+    pub(crate) fn is_ghost(&self, points: [Option<Vec2>; 2], normal: Vec2) -> bool {
         if let Some(link) = self.record.link {
-            return self.judge_link(normal, [link.previous, link.next]);
+            return !self.link_has(link, normal);
         }
-        if self.guard & guard::ONE_WAY != 0 {
-            if !self.pair.touched && !self.is_above() {
-                return Verdict::Drop;
-            }
-            let on_face = face_of(&self.core, normal).is_some_and(|face| self.is_solid(face));
-            if !on_face {
-                return self.best_face();
-            }
-        }
-        if self.is_ghost(lane, normal) { self.best_face() } else { Verdict::Keep }
-    }
-
-    /// A segment of a chain: its face, or the cone of normals at a corner that sticks out.
-    fn judge_link(&self, normal: Vec2, ends: [Option<Vec2>; 2]) -> Verdict {
-        let face = self.core.normal(0);
-        let (a, b) = (self.core.points[0], self.core.points[1]);
-        if face.dot(middle(&self.other_core) - a) < 0.0 {
-            return Verdict::Drop;
-        }
-        if face_of(&self.core, normal) == Some(0) {
-            return Verdict::Keep;
-        }
-        let (corner, end) = if normal.dot(b - a) < 0.0 { (a, ends[0]) } else { (b, ends[1]) };
-        let free = match end {
-            None => true,
-            Some(end) => {
-                let way = self.record.box_frame.unapply(end) - corner;
-                normal.dot(way) <= 1.0e-3 * way.length()
-            }
-        };
-        if free && normal.dot(face) > 0.0 {
-            return Verdict::Keep;
-        }
-        let manifold =
-            collide_face(&self.core, 0, &self.other_core, self.context.speculative_distance);
-        if manifold.count == 0 { Verdict::Drop } else { Verdict::Replace(manifold) }
-    }
-
-    /// Is a normal one that the surface made by all static shapes does not have there?
-    fn is_ghost(&self, lane: &LanePoints, normal: Vec2) -> bool {
-        let limit = self.context.speculative_distance;
-        let points =
-            [0, 1].map(|k| lane.is_valid(k, limit).then(|| self.frame.unapply(lane.point(k))));
         if let Some(face) = face_of(&self.core, normal) {
             return self.guard & guard::face(face) != 0 && self.is_covered(face, points);
         }
@@ -218,9 +162,24 @@ impl<'a> View<'a> {
         self.guard & guard::corner(vertex) != 0 && self.goes_on(vertex, normal)
     }
 
+    /// Has a segment of a chain this normal: that of its face, or one of a corner that sticks out?
+    fn link_has(&self, link: ChainLink, normal: Vec2) -> bool {
+        if face_of(&self.core, normal) == Some(0) {
+            return true;
+        }
+        let (a, b) = (self.core.points[0], self.core.points[1]);
+        let (corner, end) =
+            if normal.dot(b - a) < 0.0 { (a, link.previous) } else { (b, link.next) };
+        let free = end.is_none_or(|end| {
+            let way = self.record.box_frame.unapply(end) - corner;
+            normal.dot(way) <= LINK_TOLERANCE * way.length()
+        });
+        free && normal.dot(self.core.normal(0)) > 0.0
+    }
+
     /// Do other static shapes cover a face around all points of contact with it?
     fn is_covered(&self, face: usize, points: [Option<Vec2>; 2]) -> bool {
-        let unit = self.context.surroundings.length_unit;
+        let unit = self.ground.length_unit;
         let (start, end) = self.core.edge(face);
         let along = self.core.normal(face).perp();
         let length = along.dot(end - start);
@@ -251,7 +210,7 @@ impl<'a> View<'a> {
 
     /// Does another static shape go on from a corner in the direction of the normal?
     fn goes_on(&self, vertex: usize, normal: Vec2) -> bool {
-        let unit = self.context.surroundings.length_unit;
+        let unit = self.ground.length_unit;
         let corner = self.core.points[vertex];
         let mut ghost = false;
         self.each_neighbour(&[corner], |neighbour| {
@@ -261,13 +220,116 @@ impl<'a> View<'a> {
         ghost
     }
 
-    /// The contact with the highest solid face that is not covered.
+    fn own_pose(&self) -> Pose {
+        boxed_pose(self.ground.poses, self.record)
+    }
+
+    /// Visits the cores of the static shapes near some points, in this frame and no fixed order.
+    fn each_neighbour(&self, points: &[Vec2], mut visit: impl FnMut(&Core)) {
+        let Ground { shapes, poses, broad_phase, length_unit, .. } = self.ground;
+        let pose = self.own_pose();
+        let bounds = world_box(pose, points, TOLERANCE * length_unit);
+        let any_way = self.record.one_way.is_some();
+        broad_phase.tree(ProxyKind::Static).query(&bounds, u64::MAX, |proxy| {
+            if let Some(index) = broad_phase.user(ProxyId(proxy)) {
+                let neighbour = &shapes[index as usize];
+                if index != self.own
+                    && is_ground(neighbour, any_way)
+                    && neighbour.body != self.other.body
+                    && neighbour.filter.collides(&self.other.filter)
+                {
+                    let place = boxed_pose(poses, neighbour).relative_to(pose);
+                    visit(&boxed_core(neighbour).transformed(place));
+                }
+            }
+            ControlFlow::Continue(())
+        });
+    }
+}
+
+/// A contact seen from the guarded shape.
+struct View<'a> {
+    context: &'a Context<'a>,
+    seams: Seams<'a>,
+    /// Frame of the guarded shape's rounded box: everything below is in it.
+    frame: Transform,
+    /// 1 where the guarded shape is A: the kernels' normal points out of it.
+    sign: f32,
+    other_core: Core,
+}
+
+impl<'a> View<'a> {
+    fn new(
+        context: &'a Context<'a>,
+        own: u32,
+        other: u32,
+        frames: [Transform; 2],
+        side: usize,
+    ) -> Self {
+        let other = &context.shapes[other as usize];
+        let other_in_own = frames[1 - side].relative_to(frames[side]);
+        let Surroundings { guards, broad_phase, length_unit, .. } = context.surroundings;
+        let (shapes, poses) = (context.shapes, context.poses);
+        let ground = Ground { shapes, guards, poses, broad_phase, length_unit };
+        Self {
+            context,
+            seams: Seams::new(ground, own, other),
+            frame: frames[side],
+            sign: if side == 0 { 1.0 } else { -1.0 },
+            other_core: boxed_core(other).transformed(other_in_own),
+        }
+    }
+
+    fn judge(&self, lane: &LanePoints) -> Verdict {
+        let normal = self.frame.q.unrotate(lane.normal()) * self.sign;
+        if let Some(link) = self.seams.record.link {
+            return self.judge_link(normal, link);
+        }
+        if self.seams.guard & guard::ONE_WAY != 0 {
+            let on_face = face_of(&self.seams.core, normal).is_some_and(|face| self.is_solid(face));
+            if !on_face {
+                return self.best_face();
+            }
+        }
+        if self.is_ghost(lane, normal) { self.best_face() } else { Verdict::Keep }
+    }
+
+    /// A segment of a chain: its face, or the cone of normals at a corner that sticks out.
+    fn judge_link(&self, normal: Vec2, link: ChainLink) -> Verdict {
+        let face = self.seams.core.normal(0);
+        let a = self.seams.core.points[0];
+        if face.dot(middle(&self.other_core) - a) < 0.0 {
+            return Verdict::Drop;
+        }
+        if self.seams.link_has(link, normal) {
+            return Verdict::Keep;
+        }
+        let manifold =
+            collide_face(&self.seams.core, 0, &self.other_core, self.context.speculative_distance);
+        if manifold.count == 0 { Verdict::Drop } else { Verdict::Replace(manifold) }
+    }
+
+    fn is_ghost(&self, lane: &LanePoints, normal: Vec2) -> bool {
+        let limit = self.context.speculative_distance;
+        let points =
+            [0, 1].map(|k| lane.is_valid(k, limit).then(|| self.frame.unapply(lane.point(k))));
+        self.seams.is_ghost(points, normal)
+    }
+
+    /// The contact with the highest solid face that is not covered and has the other shape's middle in
+    /// front of it.
     fn best_face(&self) -> Verdict {
+        let middle = middle(&self.other_core);
         let mut tried = 0_u32;
         loop {
             let mut best: Option<(usize, f32, Manifold)> = None;
-            for face in 0..self.core.edge_count() {
+            for face in 0..self.seams.core.edge_count() {
                 if tried & 1 << face != 0 || !self.is_solid(face) {
+                    continue;
+                }
+                // Out through the far side is no way out.
+                let start = self.seams.core.points[face];
+                if self.seams.core.normal(face).dot(middle - start) <= 0.0 {
                     continue;
                 }
                 let manifold = self.collide(face);
@@ -279,7 +341,7 @@ impl<'a> View<'a> {
             }
             let Some((face, _, manifold)) = best else { return Verdict::Drop };
             let points = [0, 1].map(|k| manifold.points().get(k).map(|p| p.point));
-            if self.guard & guard::face(face) == 0 || !self.is_covered(face, points) {
+            if self.seams.guard & guard::face(face) == 0 || !self.seams.is_covered(face, points) {
                 return Verdict::Replace(manifold);
             }
             tried |= 1 << face;
@@ -287,60 +349,19 @@ impl<'a> View<'a> {
     }
 
     fn collide(&self, face: usize) -> Manifold {
-        collide_face(&self.core, face, &self.other_core, self.context.speculative_distance)
+        collide_face(&self.seams.core, face, &self.other_core, self.context.speculative_distance)
     }
 
     /// The direction of a one-way platform.
     fn way(&self) -> Option<Vec2> {
-        let way = self.record.one_way?;
-        let frame = self.record.central.compose(self.record.box_frame);
+        let way = self.seams.record.one_way?;
+        let frame = self.seams.record.central.compose(self.seams.record.box_frame);
         Some(frame.q.unrotate(way).normalized())
     }
 
     /// May something stand on this face?
     fn is_solid(&self, face: usize) -> bool {
-        self.way().is_none_or(|way| self.core.normal(face).dot(way) > ONE_WAY_COSINE)
-    }
-
-    /// Was the other shape above the one-way platform in the last step?
-    fn is_above(&self) -> bool {
-        let Some(way) = self.way() else { return true };
-        let deepest = support_height(&self.core, way) + support_height(&self.other_core, -way);
-        let rows = self.context.body_rows;
-        let velocity = |body: u32| {
-            let row = &rows[body as usize];
-            Vec2::new(row[0], row[1])
-        };
-        let relative = velocity(self.other.body) - velocity(self.record.body);
-        let speed = self.own_pose().q.unrotate(relative).dot(way);
-        let Surroundings { dt, length_unit, .. } = self.context.surroundings;
-        -deepest - speed * dt >= -ONE_WAY_DEPTH * length_unit
-    }
-
-    fn own_pose(&self) -> Pose {
-        boxed_pose(self.context.poses, self.record)
-    }
-
-    /// Visits the cores of the static shapes near some points, in this frame and no fixed order.
-    fn each_neighbour(&self, points: &[Vec2], mut visit: impl FnMut(&Core)) {
-        let Surroundings { broad_phase, length_unit, .. } = self.context.surroundings;
-        let pose = self.own_pose();
-        let bounds = world_box(pose, points, TOLERANCE * length_unit);
-        let any_way = self.record.one_way.is_some();
-        broad_phase.tree(ProxyKind::Static).query(&bounds, u64::MAX, |proxy| {
-            if let Some(index) = broad_phase.user(ProxyId(proxy)) {
-                let neighbour = &self.context.shapes[index as usize];
-                if index != self.own
-                    && is_ground(neighbour, any_way)
-                    && neighbour.body != self.other.body
-                    && neighbour.filter.collides(&self.other.filter)
-                {
-                    let place = boxed_pose(self.context.poses, neighbour).relative_to(pose);
-                    visit(&boxed_core(neighbour).transformed(place));
-                }
-            }
-            ControlFlow::Continue(())
-        });
+        self.way().is_none_or(|way| self.seams.core.normal(face).dot(way) > ONE_WAY_COSINE)
     }
 }
 
@@ -385,18 +406,23 @@ pub(crate) fn refresh(
         return;
     }
     let changed = core::mem::take(&mut shapes.changed_ground);
-    let mut near = Vec::new();
+    // A bit a shape: much less than a sorted list where a large level is built.
+    let mut near = vec![0_u64; shapes.records.len().div_ceil(64)];
     for bounds in &changed {
         broad_phase.tree(ProxyKind::Static).query(bounds, u64::MAX, |proxy| {
-            near.extend(broad_phase.user(ProxyId(proxy)));
+            if let Some(index) = broad_phase.user(ProxyId(proxy)) {
+                near[index as usize / 64] |= 1 << (index % 64);
+            }
             ControlFlow::Continue(())
         });
     }
-    near.sort_unstable();
-    near.dedup();
-    for index in near {
-        let touched = touched_features(index, shapes, bodies, broad_phase, length_unit);
-        shapes.set_touched(index, touched);
+    for (word, mut bits) in near.into_iter().enumerate() {
+        while bits != 0 {
+            let index = word as u32 * 64 + bits.trailing_zeros();
+            bits &= bits - 1;
+            let touched = touched_features(index, shapes, bodies, broad_phase, length_unit);
+            shapes.set_touched(index, touched);
+        }
     }
 }
 
@@ -428,7 +454,12 @@ fn touched_features(
         }
         ControlFlow::Continue(())
     });
-    bits
+    if bits == 0 || record.one_way.is_some() {
+        return bits;
+    }
+    let is_free = |face: &usize| bits & guard::face(*face) == 0;
+    let free = (0..core.edge_count()).filter(is_free);
+    free.fold(bits, |bits, face| bits | guard::free(core.normal(face)))
 }
 
 /// Faces and corners of `core` that `other` touches; rather one too many.

@@ -170,7 +170,9 @@ impl World {
             self.wake_index(partner);
             self.joint_graph.remove(&mut self.bodies, &mut self.joints, joint);
         }
+        self.note_ground_of(index);
         for shape in self.shapes_of(index) {
+            self.shapes.set_touched(shape, 0);
             self.broad_phase.destroy_proxy(self.shapes.proxy(shape));
             self.shapes.records[shape as usize].proxy = NULL;
         }

@@ -102,8 +102,6 @@ pub struct World {
     step_count: u64,
     /// 1 / substep length of the last step.
     inv_h: f32,
-    /// Length of the step, seconds.
-    dt: f32,
     level: SimdLevel,
     pool: Pool,
     stats: Stats,
@@ -159,7 +157,6 @@ impl World {
             events: Events::default(),
             step_count: 0,
             inv_h: 0.0,
-            dt: 0.0,
             level: SimdLevel::detect(),
             pool: Pool::default(),
             stats: Stats::default(),
@@ -193,7 +190,6 @@ impl World {
         let mut watch = Stopwatch::start();
         self.events.clear();
         self.bodies.sort_awake();
-        self.dt = lengths.dt;
         self.refresh_surfaces();
 
         self.update_pairs(team);
@@ -269,7 +265,6 @@ impl World {
             surroundings: surfaces::Surroundings {
                 guards: &self.shapes.guards,
                 broad_phase: &self.broad_phase,
-                dt: self.dt,
                 length_unit: self.settings.length_unit,
             },
         };
@@ -412,9 +407,10 @@ impl World {
 
     /// Stops fast bodies where they would have gone through something.
     fn sweep_fast_bodies(&mut self) {
-        let Self { bodies, shapes, broad_phase, joints, hooks, scratch, .. } = self;
-        let custom = hooks.pair_filter();
-        continuous::run(&mut scratch.fast, bodies, shapes, joints, broad_phase, custom);
+        let Self { bodies, shapes, broad_phase, joints, hooks, scratch, settings, .. } = self;
+        let rules =
+            continuous::Rules { custom: hooks.pair_filter(), length_unit: settings.length_unit };
+        continuous::run(&mut scratch.fast, bodies, shapes, joints, broad_phase, rules);
     }
 
     /// Looks for islands at rest now and then, and lets them sleep.

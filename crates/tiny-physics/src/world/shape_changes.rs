@@ -148,6 +148,12 @@ impl ShapeMut<'_> {
         world.wake_index(body);
         world.drop_contacts_of(index, |_, _, _| true);
         change(&mut world.shapes.records[index as usize]);
+        let record = &mut world.shapes.records[index as usize];
+        if !matches!(record.shape, Shape::Segment { .. }) {
+            record.link = None;
+        }
+        world.note_ground(index);
+        world.shapes.set_touched(index, 0);
         world.broad_phase.destroy_proxy(world.shapes.proxy(index));
         world.shapes.records[index as usize].proxy = NULL;
         world.update_mass(body);
