@@ -21,30 +21,34 @@ pub(crate) fn run(
     broad_phase: &mut BroadPhase,
 ) {
     for bullets in [false, true] {
-        for body in fast.iter_mut() {
-            if bodies.infos[body.body as usize].bullet == bullets {
-                sweep(body, bodies, shapes, joints, broad_phase);
+        for index in 0..fast.len() {
+            if bodies.infos[fast[index].body as usize].bullet == bullets {
+                fast[index].fraction = sweep(fast, index, bodies, shapes, joints, broad_phase);
             }
         }
     }
 }
 
-/// Sets one body back to its first impact, if it has one, and updates its boxes.
+/// Sets one body back to its first impact, if it has one, and updates its boxes; the part of its motion
+/// that it may have.
 fn sweep(
-    fast: &mut FastBody,
+    all: &[FastBody],
+    index: usize,
     bodies: &mut Bodies,
     shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
-) {
-    let fraction = Impact { fast, bodies, shapes, joints, broad_phase }.first_fraction();
-    fast.fraction = fraction;
+) -> f32 {
+    let fast = &all[index];
+    let fraction =
+        Impact { fast, all, index, bodies, shapes, joints, broad_phase }.first_fraction();
     if fraction < 1.0 {
         let position = fast.start.p + fast.motion * fraction;
         let rotation = fast.start.q.integrate(fast.turn * fraction);
         bodies.poses[fast.body as usize] = Pose::new(position, rotation);
     }
     update_boxes(bodies, shapes, broad_phase, fast.body, fast.motion * fraction);
+    fraction
 }
 
 /// A disk about the middle of a shape, half as thick as it. What a shape touches already at the start of
@@ -76,6 +80,9 @@ impl Inner {
 /// The search for the first impact of a body.
 struct Impact<'a> {
     fast: &'a FastBody,
+    /// All fast bodies by body, of which it is the one at `index`.
+    all: &'a [FastBody],
+    index: usize,
     bodies: &'a Bodies,
     shapes: &'a Shapes,
     joints: &'a Joints,
@@ -134,15 +141,42 @@ impl Impact<'_> {
         if !self.may_collide(record, other) {
             return first;
         }
-        let pose = self.bodies.poses[other.body as usize];
-        let place = Transform::new(pose.p.relative_to(self.fast.start.p), pose.q);
-        let fixed = Sweep::fixed(place.compose(other.central));
-        let toi = time_of_impact(&record.shape, moving, &other.shape, &fixed, first);
-        match toi.state {
-            ToiState::Hit | ToiState::Limit => toi.fraction,
-            ToiState::Separated => first,
-            ToiState::Touching => inner.first_fraction(&other.shape, &fixed, first),
+        let meet = |motion: &Sweep, first: f32| {
+            let toi = time_of_impact(&record.shape, moving, &other.shape, motion, first);
+            match toi.state {
+                ToiState::Hit | ToiState::Limit => toi.fraction,
+                ToiState::Separated => first,
+                ToiState::Touching => inner.first_fraction(&other.shape, motion, first),
+            }
+        };
+        let end = self.place(self.bodies.poses[other.body as usize]);
+        let end = Sweep::fixed(end.compose(other.central));
+        match self.bullet(other.body) {
+            // Its turn is still to come: it is met on its way.
+            Some(index) if index > self.index => meet(&self.motion(index, other), first),
+            // It has had its turn: if the two meet at all, it is met where it ended.
+            Some(index) if meet(&self.motion(index, other), 1.0) == 1.0 => first,
+            _ => meet(&end, first),
         }
+    }
+
+    /// A pose relative to where the body started.
+    fn place(&self, pose: Pose) -> Transform {
+        Transform::new(pose.p.relative_to(self.fast.start.p), pose.q)
+    }
+
+    /// Where in the list of fast bodies another one is, if it is a bullet among them.
+    fn bullet(&self, body: u32) -> Option<usize> {
+        let index = self.all.binary_search_by_key(&body, |fast| fast.body).ok()?;
+        let both = [self.fast.body, body].map(|body| self.bodies.infos[body as usize].bullet);
+        (both == [true, true]).then_some(index)
+    }
+
+    /// The motion of a shape of a fast body, as far as it is allowed by now.
+    fn motion(&self, index: usize, shape: &ShapeRecord) -> Sweep {
+        let fast = &self.all[index];
+        let (motion, turn) = (fast.motion * fast.fraction, fast.turn * fast.fraction);
+        Sweep::new(self.place(fast.start), Vec2::ZERO, motion, turn).child(shape.central)
     }
 
     fn may_collide(&self, record: &ShapeRecord, other: &ShapeRecord) -> bool {
