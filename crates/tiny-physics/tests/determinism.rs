@@ -195,7 +195,8 @@ fn what_the_next_step_depends_on_is_in_the_hash() {
         world
     };
     let id = start.body_ids().nth(2).unwrap();
-    let changes: [(&str, fn(&mut World, tiny_physics::BodyId)); 14] = [
+    type Change = fn(&mut World, tiny_physics::BodyId);
+    let changes: [(&str, Change); 14] = [
         ("gravity", |world, _| world.gravity.x = 1.0),
         ("substeps", |world, _| world.settings.substeps = 5),
         ("contact stiffness", |world, _| world.settings.contact_hertz = 20.0),

@@ -277,7 +277,7 @@ fn telling_a_static_body_to_move_does_nothing_but_a_teleport() {
         act(&mut world, floor, 3.0);
         let body = world.body(floor).unwrap();
         assert_eq!((body.velocity(), body.angular_velocity()), (Vec2::ZERO, 0.0), "{name}");
-        assert_eq!(body.is_awake(), false, "{name} wakes a static body");
+        assert!(!body.is_awake(), "{name} wakes a static body");
         steps(&mut world, 10);
         world.validate().unwrap_or_else(|error| panic!("{name}: {error}"));
     }

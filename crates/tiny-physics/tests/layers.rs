@@ -148,7 +148,7 @@ fn layer(module: &str) -> Option<usize> {
 }
 
 /// The first names of a path: one, or several where a group in braces follows.
-fn first_names<'a>(tokens: &[&'a str]) -> Vec<String> {
+fn first_names(tokens: &[&str]) -> Vec<String> {
     if tokens.first() != Some(&"{") {
         return tokens.first().map(|&name| name.to_owned()).into_iter().collect();
     }

@@ -1,6 +1,7 @@
 //! A body as described by the user.
 
-use super::ShapeDef;
+use super::{ChainDef, ShapeDef};
+use crate::error::Error;
 use crate::geometry::Shape;
 use crate::math::{DVec2, Vec2};
 
@@ -164,6 +165,15 @@ impl RigidBody {
     pub fn shape(mut self, shape: impl Into<ShapeDef>) -> Self {
         self.shapes.push(shape.into());
         self
+    }
+
+    /// Adds the segments of a chain.
+    ///
+    /// # Errors
+    /// Those of [`ChainDef::shapes`].
+    pub fn chain(mut self, chain: &ChainDef) -> Result<Self, Error> {
+        self.shapes.extend(chain.shapes()?);
+        Ok(self)
     }
 
     /// Sets [`RigidBody::mass`].

@@ -4,13 +4,18 @@
 //! written to a file. The world copies what it needs; changing a description later changes nothing.
 
 mod body;
+mod chain;
 mod filter;
 mod joint;
 mod settings;
 mod shape;
+mod tiles;
 
 pub use body::{BodyKind, Locks, RigidBody};
+pub use chain::{ChainDef, ChainLink};
 pub use filter::Filter;
 pub use joint::{Break, JointDef, JointKind, Limits, Motor, Spring};
 pub use settings::{Mix, Settings};
 pub use shape::{Material, ShapeDef};
+pub(crate) use tiles::{BLOCK_CELLS, Piece};
+pub use tiles::{Tile, TileForm, TileGrid};

@@ -1,5 +1,7 @@
 //! Numbers that govern a whole world.
 
+use crate::error::Error;
+
 /// How two materials make one coefficient.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -79,6 +81,28 @@ pub struct Settings {
     pub friction_mix: Mix,
     /// Restitution of a pair from the restitutions of its shapes.
     pub restitution_mix: Mix,
+}
+
+impl Settings {
+    /// Can a world run on these settings? Every step checks it.
+    ///
+    /// # Errors
+    /// Names the first number that is not finite or out of range.
+    pub fn validate(&self) -> Result<(), Error> {
+        for (name, value) in [("substeps", self.substeps), ("iterations", self.iterations)] {
+            if !(1..=1000).contains(&value) {
+                return Err(Error::OutOfRange { name, value: value.into(), allowed: "1 to 1000" });
+            }
+        }
+        Error::check_positive("length_unit", self.length_unit)?;
+        Error::check_not_negative("contact_hertz", self.contact_hertz)?;
+        Error::check_not_negative("contact_damping_ratio", self.contact_damping_ratio)?;
+        Error::check_not_negative("push_speed", self.push_speed)?;
+        Error::check_not_negative("restitution_threshold", self.restitution_threshold)?;
+        Error::check_not_negative("hit_event_threshold", self.hit_event_threshold)?;
+        Error::check_positive("max_speed", self.max_speed)?;
+        Error::check_not_negative("time_to_sleep", self.time_to_sleep)
+    }
 }
 
 impl Default for Settings {

@@ -1,6 +1,6 @@
 //! A shape on a body: geometry, place, material, filter.
 
-use super::Filter;
+use super::{ChainLink, Filter};
 use crate::geometry::Shape;
 use crate::math::Vec2;
 
@@ -17,7 +17,8 @@ pub struct Material {
     pub restitution: f32,
     /// Resistance of round shapes against rolling, as a fraction of their radius, 0 or above.
     pub rolling_resistance: f32,
-    /// Speed of the surface along itself, metres a second: a conveyor belt.
+    /// Speed of the surface along itself, metres a second: a conveyor belt. It runs clockwise round the shape,
+    /// so what lies on top goes to the right.
     pub tangent_speed: f32,
 }
 
@@ -65,6 +66,9 @@ pub struct ShapeDef {
     /// through from behind. `None` is solid from everywhere.
     #[cfg_attr(feature = "serde", serde(default))]
     pub one_way: Option<Vec2>,
+    /// For a segment that is part of a chain: its neighbours. [`ChainDef`](super::ChainDef) sets it.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub link: Option<ChainLink>,
     /// Are contact begin and end events sent for this shape?
     #[cfg_attr(feature = "serde", serde(default))]
     pub contact_events: bool,
@@ -87,6 +91,7 @@ impl ShapeDef {
             filter: Filter::default(),
             sensor: false,
             one_way: None,
+            link: None,
             contact_events: false,
             hit_events: false,
             user_data: 0,

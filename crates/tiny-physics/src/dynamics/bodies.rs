@@ -284,3 +284,33 @@ impl Bodies {
         Some((a, b))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_bodies_can_be_changed_at_once() {
+        let mut bodies = Bodies::new();
+        let a = bodies.insert(BodyInfo::default(), Pose::default());
+        let b = bodies.insert(BodyInfo::default(), Pose::default());
+        {
+            let (a, b) = bodies.pair_mut(a, b).expect("two different bodies");
+            core::mem::swap(&mut a.mass, &mut b.inertia);
+            a.mass = 2.0;
+            b.mass = 3.0;
+        }
+        assert_eq!((bodies.infos[a as usize].mass, bodies.infos[b as usize].mass), (2.0, 3.0));
+        assert!(bodies.pair_mut(a, a).is_none() && bodies.pair_mut(a, 99).is_none());
+    }
+
+    #[test]
+    fn a_reused_place_has_another_generation() {
+        let mut bodies = Bodies::new();
+        let a = bodies.insert(BodyInfo::default(), Pose::default());
+        let generation = bodies.infos[a as usize].generation;
+        bodies.remove(a);
+        assert_eq!(bodies.insert(BodyInfo::default(), Pose::default()), a);
+        assert_ne!(bodies.infos[a as usize].generation, generation);
+    }
+}

@@ -174,14 +174,17 @@ fn contact_flags(contact: &Contact) -> u8 {
         | flag(contact.hit_events, flags::HIT)
 }
 
+/// Where a block is: colour, class, index.
+pub(crate) type BlockAddress = (u8, u8, u32);
+
 /// All colours, the overflow and the idle contacts.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Graph {
     /// `buckets[colour][class]`.
     pub(crate) buckets: Vec<[Bucket; PairClass::COUNT]>,
     touching: usize,
-    /// Blocks (colour, class, block) that got a touching contact since the last narrow phase.
-    fresh: Vec<(u8, u8, u32)>,
+    /// Blocks that got a touching contact since the last narrow phase.
+    fresh: Vec<BlockAddress>,
 }
 
 impl Graph {
@@ -201,6 +204,18 @@ impl Graph {
     /// Contacts that touch and are awake.
     pub(crate) fn touching_count(&self) -> usize {
         self.touching
+    }
+
+    /// Lists the buckets that the solver has to visit, in its order: the overflow, then colour by colour.
+    pub(crate) fn list_occupied(&self, occupied: &mut Vec<(usize, PairClass)>) {
+        occupied.clear();
+        for colour in core::iter::once(OVERFLOW).chain(0..COLOURS) {
+            for (bucket, class) in self.buckets[colour].iter().zip(PairClass::ALL) {
+                if !bucket.contacts.is_empty() {
+                    occupied.push((colour, class));
+                }
+            }
+        }
     }
 
     /// Puts a contact into the graph: into a colour if it touches, else among the idle ones.
@@ -227,7 +242,7 @@ impl Graph {
     }
 
     /// The blocks whose constraints are not written yet: colour, class, block. Each once, in order.
-    pub(crate) fn take_fresh(&mut self) -> Vec<(u8, u8, u32)> {
+    pub(crate) fn take_fresh(&mut self) -> Vec<BlockAddress> {
         let mut fresh = core::mem::take(&mut self.fresh);
         fresh.sort_unstable();
         fresh.dedup();
@@ -272,10 +287,9 @@ fn take_colour(bodies: &mut Bodies, a: u32, b: u32) -> usize {
     } else {
         u32::BITS - 1 - free.leading_zeros()
     };
-    for (dynamic, i) in [(dynamic_a, a), (dynamic_b, b)] {
-        if dynamic {
-            bodies.infos[i as usize].contact_colours |= 1 << colour;
-        }
+    if let Some((a, b)) = bodies.pair_mut(a, b) {
+        a.contact_colours |= u32::from(dynamic_a) << colour;
+        b.contact_colours |= u32::from(dynamic_b) << colour;
     }
     colour as usize
 }

@@ -223,11 +223,13 @@ impl JointGraph {
     }
 
     /// Puts a joint into the graph with the impulses of its record. Does nothing where it is there
-    /// already or has nothing to solve.
+    /// already, has nothing to solve, or one of its bodies is not enabled.
     pub(crate) fn insert(&mut self, bodies: &mut Bodies, joints: &mut Joints, index: u32) {
         let record = &mut joints.records[index as usize];
         let Some(class) = record.class() else { return };
-        if record.place != JointPlace::Asleep {
+        let enabled = |body: u32| bodies.infos[body as usize].enabled;
+        if record.place != JointPlace::Asleep || !(enabled(record.body_a) && enabled(record.body_b))
+        {
             return;
         }
         let colour = take_colour(bodies, record.body_a, record.body_b);

@@ -23,6 +23,5 @@ pub(crate) use graph::{Bucket, COLOURS, Graph, IDLE, OVERFLOW};
 pub(crate) use joint_blocks::*;
 pub(crate) use joint_graph::{JOINT_OVERFLOW, JointBlocks, JointBucket, JointGraph};
 pub(crate) use joints::{JointLoad, JointPlace, JointRecord, Joints};
-pub(crate) use pair_table::PairTable;
 pub(crate) use sensors::{Overlap, Sensors};
-pub(crate) use shapes::{ShapeRecord, Shapes};
+pub(crate) use shapes::{ShapeRecord, Shapes, guard};

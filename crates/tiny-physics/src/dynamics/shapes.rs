@@ -2,7 +2,7 @@
 
 use super::bodies::NULL;
 use crate::broad_phase::ProxyId;
-use crate::describe::{Filter, Material};
+use crate::describe::{ChainLink, Filter, Material};
 use crate::geometry::Shape;
 use crate::geometry::manifold::ShapeClass;
 use crate::math::{Aabb, Transform, Vec2};
@@ -32,6 +32,7 @@ pub(crate) struct ShapeRecord {
     /// Frame of the shape as a rounded box (see [`Shapes::rows`]) in the shape's frame.
     pub(crate) box_frame: Transform,
     pub(crate) one_way: Option<Vec2>,
+    pub(crate) link: Option<ChainLink>,
     pub(crate) user_data: u64,
     /// Geometry in the shape's frame.
     pub(crate) shape: Shape,
@@ -39,16 +40,49 @@ pub(crate) struct ShapeRecord {
 
 const _: () = assert!(core::mem::offset_of!(ShapeRecord, material) <= 64);
 
+/// Bits that say why contacts with a shape are looked at again: faces and corners that other static
+/// shapes touch, chains, one-way platforms.
+pub(crate) mod guard {
+    use super::ShapeRecord;
+
+    pub(crate) const CHAIN: u32 = 1 << 16;
+    pub(crate) const ONE_WAY: u32 = 1 << 17;
+
+    pub(crate) fn face(index: usize) -> u32 {
+        1 << index
+    }
+
+    pub(crate) fn corner(index: usize) -> u32 {
+        1 << (8 + index)
+    }
+
+    /// Those that a shape has by itself.
+    pub(super) fn of(record: &ShapeRecord) -> u32 {
+        let chain = if record.link.is_some() { CHAIN } else { 0 };
+        chain | if record.one_way.is_some() { ONE_WAY } else { 0 }
+    }
+
+    /// The last value of a row without the mark of guards.
+    pub(crate) fn exact(value: f32) -> f32 {
+        if value >= 2.0 { value - 2.0 } else { value }
+    }
+}
+
 /// All shapes of a world, by stable index.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub(crate) struct Shapes {
     pub(crate) records: Vec<ShapeRecord>,
     /// The shape as a rounded box in the frame of the body's centre of mass, for the lane kernels:
     /// place x, y, rotation c, s, half extents x, y, radius, and 1 where this is all there is to the
-    /// shape (0 for general polygons, whose row is their own frame and a bounding circle).
+    /// shape (0 for general polygons, whose row is their own frame and a bounding circle), plus 2
+    /// where it has guards.
     pub(crate) rows: Vec<Row>,
     /// The fat boxes that the broad phase has, for a quick look.
     pub(crate) fat: Vec<Aabb>,
+    /// Which contacts are looked at again: see [`guard`].
+    pub(crate) guards: Vec<u32>,
+    /// Boxes in which static shapes came, went or moved since guards were last found.
+    pub(crate) changed_ground: Vec<Aabb>,
     free: Vec<u32>,
     count: usize,
 }
@@ -64,7 +98,27 @@ impl Shapes {
         (0..self.records.len() as u32).filter(|&i| self.records[i as usize].alive)
     }
 
-    pub(crate) fn insert(&mut self, mut record: ShapeRecord) -> u32 {
+    pub(crate) fn insert(&mut self, record: ShapeRecord) -> u32 {
+        let guards = guard::of(&record);
+        let index = self.insert_record(record);
+        self.guards.resize(self.records.len(), 0);
+        self.guards[index as usize] = guards;
+        index
+    }
+
+    /// Notes which faces and corners of a static shape others touch.
+    pub(crate) fn set_touched(&mut self, index: u32, touched: u32) {
+        self.guards[index as usize] = guard::of(&self.records[index as usize]) | touched;
+        self.mark_row(index);
+    }
+
+    /// Marks the row of a shape as its guards say.
+    pub(crate) fn mark_row(&mut self, index: u32) {
+        let value = &mut self.rows[index as usize][7];
+        *value = guard::exact(*value) + if self.guards[index as usize] != 0 { 2.0 } else { 0.0 };
+    }
+
+    fn insert_record(&mut self, mut record: ShapeRecord) -> u32 {
         self.count += 1;
         record.alive = true;
         if let Some(index) = self.free.pop() {

@@ -82,8 +82,6 @@ pub(crate) trait Lanes:
     fn not(a: Self::Mask) -> Self::Mask;
     /// Bit `i` set where lane `i` is.
     fn bits(mask: Self::Mask) -> u32;
-    /// Lane `i` set where bit `i` is.
-    fn from_bits(token: Self::Token, bits: u32) -> Self::Mask;
 
     /// The smaller, as `self < other ? self : other`.
     #[inline(always)]
@@ -173,10 +171,6 @@ impl Lanes for f32 {
         u32::from(mask)
     }
     #[inline(always)]
-    fn from_bits((): (), bits: u32) -> bool {
-        bits & 1 != 0
-    }
-    #[inline(always)]
     fn gather((): (), rows: impl RowSource, indices: &[u32]) -> [Self; 8] {
         rows.read(indices[0])
     }
@@ -244,10 +238,6 @@ macro_rules! portable_operations {
         #[inline(always)]
         fn bits(mask: Self::Mask) -> u32 {
             mask.to_bitmask() as u32
-        }
-        #[inline(always)]
-        fn from_bits(token: Self::Token, bits: u32) -> Self::Mask {
-            SimdMask::from_bitmask(token, u64::from(bits))
         }
     };
 }

@@ -6,6 +6,9 @@
 //! next step, when there is a contact. The time that is lost is at most a step.
 
 use super::finalize::{FastBody, update_boxes};
+use super::one_way;
+use super::pairs::PairRule;
+use super::surfaces;
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes};
 use crate::geometry::{Shape, Sweep, ToiState, time_of_impact};
@@ -19,11 +22,13 @@ pub(crate) fn run(
     shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
+    custom: Option<&dyn PairRule>,
 ) {
     for bullets in [false, true] {
         for index in 0..fast.len() {
             if bodies.infos[fast[index].body as usize].bullet == bullets {
-                fast[index].fraction = sweep(fast, index, bodies, shapes, joints, broad_phase);
+                fast[index].fraction =
+                    sweep(fast, index, bodies, shapes, joints, broad_phase, custom);
             }
         }
     }
@@ -38,10 +43,11 @@ fn sweep(
     shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
+    custom: Option<&dyn PairRule>,
 ) -> f32 {
     let fast = &all[index];
     let fraction =
-        Impact { fast, all, index, bodies, shapes, joints, broad_phase }.first_fraction();
+        Impact { fast, all, index, bodies, shapes, joints, broad_phase, custom }.first_fraction();
     if fraction < 1.0 {
         let position = fast.start.p + fast.motion * fraction;
         let rotation = fast.start.q.integrate(fast.turn * fraction);
@@ -87,6 +93,8 @@ struct Impact<'a> {
     shapes: &'a Shapes,
     joints: &'a Joints,
     broad_phase: &'a BroadPhase,
+    /// The user's word on a pair of shapes, if there is any.
+    custom: Option<&'a dyn PairRule>,
 }
 
 impl Impact<'_> {
@@ -112,7 +120,7 @@ impl Impact<'_> {
                 }
                 self.broad_phase.tree(kind).query(&path, record.filter.reach().1, |proxy| {
                     if let Some(other) = self.broad_phase.user(crate::broad_phase::ProxyId(proxy)) {
-                        first = self.impact(record, &moving, &inner, other, first);
+                        first = self.impact((shape, record), &moving, &inner, other, first);
                     }
                     ControlFlow::Continue(())
                 });
@@ -131,32 +139,45 @@ impl Impact<'_> {
     /// The first impact so far, taking one more shape into account.
     fn impact(
         &self,
-        record: &ShapeRecord,
+        (shape, record): (u32, &ShapeRecord),
         moving: &Sweep,
         inner: &Inner,
-        other: u32,
+        index: u32,
         first: f32,
     ) -> f32 {
-        let other = &self.shapes.records[other as usize];
-        if !self.may_collide(record, other) {
+        let other = &self.shapes.records[index as usize];
+        let forbids = |rule: &dyn PairRule| !rule.allows(self.bodies, self.shapes, shape, index);
+        if !self.may_collide(record, other) || self.custom.is_some_and(forbids) {
             return first;
         }
+        let pose = self.bodies.poses[other.body as usize];
+        let at = self.place(pose).compose(other.central);
+        let center = self.fast.start.q.rotate(record.central.p);
+        if surfaces::lets_pass(other, at, pose.q, center, self.fast.motion) {
+            return first;
+        }
+        // One-way platforms stop only what comes from their solid side.
+        let solid_along = |way: Vec2| {
+            one_way::is_solid_side(other, -way, pose.q)
+                && one_way::is_solid_side(record, way, self.fast.start.q)
+        };
         let meet = |motion: &Sweep, first: f32| {
             let toi = time_of_impact(&record.shape, moving, &other.shape, motion, first);
             match toi.state {
-                ToiState::Hit | ToiState::Limit => toi.fraction,
-                ToiState::Separated => first,
-                ToiState::Touching => inner.first_fraction(&other.shape, motion, first),
+                ToiState::Hit | ToiState::Limit if solid_along(toi.normal) => toi.fraction,
+                // What it touches it may be passing through from behind.
+                ToiState::Touching if solid_along(self.fast.motion.normalized()) => {
+                    inner.first_fraction(&other.shape, motion, first)
+                }
+                ToiState::Hit | ToiState::Limit | ToiState::Separated | ToiState::Touching => first,
             }
         };
-        let end = self.place(self.bodies.poses[other.body as usize]);
-        let end = Sweep::fixed(end.compose(other.central));
         match self.bullet(other.body) {
             // Its turn is still to come: it is met on its way.
             Some(index) if index > self.index => meet(&self.motion(index, other), first),
             // It has had its turn: if the two meet at all, it is met where it ended.
             Some(index) if meet(&self.motion(index, other), 1.0) == 1.0 => first,
-            _ => meet(&end, first),
+            _ => meet(&Sweep::fixed(at), first),
         }
     }
 

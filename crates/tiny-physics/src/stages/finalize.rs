@@ -2,7 +2,7 @@
 
 use crate::broad_phase::BroadPhase;
 use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, BodyInfo, NULL, Shapes, Slot};
+use crate::dynamics::{Bodies, BodyInfo, NULL, Shapes, Slot, guard};
 use crate::math::{Aabb, Pose, Vec2};
 use crate::simd::Row;
 use crate::threads::{SharedSlice, Team};
@@ -124,10 +124,10 @@ fn finalize_body(
     }
     for shape in shapes.of_body(info.first_shape) {
         let tight = shape_box(shapes, shape, *pose);
-        if !shapes.fat[shape as usize].contains(&tight) {
-            if let Some(fat) = boxes.needed_fat_aabb(shapes.proxy(shape), tight, motion) {
-                found.moved.push((shape, fat));
-            }
+        if !shapes.fat[shape as usize].contains(&tight)
+            && let Some(fat) = boxes.needed_fat_aabb(shapes.proxy(shape), tight, motion)
+        {
+            found.moved.push((shape, fat));
         }
     }
 }
@@ -172,7 +172,7 @@ pub(crate) fn update_boxes(
 /// The box of a shape on a body whose centre of mass has this pose.
 pub(crate) fn shape_box(shapes: &Shapes, shape: u32, pose: Pose) -> Aabb {
     let row = &shapes.rows[shape as usize];
-    if row[7] == 1.0 {
+    if guard::exact(row[7]) == 1.0 {
         rounded_box(row, pose)
     } else {
         let record = &shapes.records[shape as usize];

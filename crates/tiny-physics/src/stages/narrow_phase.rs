@@ -5,6 +5,7 @@
 //! iterates on. Running it twice on one block gives the same block, so blocks that got new contacts
 //! after the pass are simply run again.
 
+use super::surfaces::{self, LanePoints, Surroundings};
 use crate::dynamics::{
     BlockHead, BodyInfo, Bucket, ConstraintBlock, ManifoldBlock, NULL, ShapeRecord, SurfaceBlock,
     flags,
@@ -26,6 +27,8 @@ pub(crate) struct Context<'a> {
     pub(crate) infos: Option<&'a [BodyInfo]>,
     /// Points up to this far apart are contacts already, metres.
     pub(crate) speculative_distance: f32,
+    /// For contacts with guarded shapes.
+    pub(crate) surroundings: Surroundings<'a>,
 }
 
 /// Blocks of one bucket that are updated together.
@@ -293,7 +296,12 @@ impl<L: Lanes> Geometry<L> {
             a: [shape_a[4], shape_a[5], shape_a[6]],
             b: [shape_b[4], shape_b[5], shape_b[6]],
         };
-        let m = K::collide::<L>(token, context, block, at, &pair);
+        let mut m = K::collide::<L>(token, context, block, at, &pair);
+        let guarded = L::splat(token, 1.5);
+        let guarded = L::bits(L::or(shape_a[7].gt(guarded), shape_b[7].gt(guarded)));
+        if guarded != 0 {
+            correct_lanes::<L>(token, context, block, at, guarded, &pair, &mut m);
+        }
         let limit = L::splat(token, context.speculative_distance);
         let valid = [m.separation[0].le(limit), m.separation[1].le(limit)];
         let to_world = |point: [L; 2]| {
@@ -310,6 +318,68 @@ impl<L: Lanes> Geometry<L> {
             valid,
             between,
             touching,
+        }
+    }
+}
+
+/// Looks again at the contacts with guarded shapes.
+#[inline(always)]
+fn correct_lanes<L: Lanes>(
+    token: L::Token,
+    context: &Context<'_>,
+    block: &ManifoldBlock,
+    at: usize,
+    guarded: u32,
+    pair: &LanePair<L>,
+    m: &mut LaneManifold<L>,
+) {
+    let mut lanes = [[0.0; BLOCK]; 14];
+    m.normal[0].store(&mut lanes[0]);
+    m.normal[1].store(&mut lanes[1]);
+    for k in 0..2 {
+        m.points[k][0].store(&mut lanes[2 + 2 * k]);
+        m.points[k][1].store(&mut lanes[3 + 2 * k]);
+        m.separation[k].store(&mut lanes[6 + k]);
+        m.id[k].store(&mut lanes[8 + k]);
+        pair.p[k].store(&mut lanes[10 + k]);
+        pair.q[k].store(&mut lanes[12 + k]);
+    }
+    surfaces_of_lanes(context, block, at, guarded, &mut lanes);
+    m.normal = [L::load(token, &lanes[0]), L::load(token, &lanes[1])];
+    for k in 0..2 {
+        m.points[k] = [L::load(token, &lanes[2 + 2 * k]), L::load(token, &lanes[3 + 2 * k])];
+        m.separation[k] = L::load(token, &lanes[6 + k]);
+        m.id[k] = L::load(token, &lanes[8 + k]);
+    }
+}
+
+/// The scalar part of [`correct_lanes`]: ten rows of a manifold, then the frame of B in A's.
+fn surfaces_of_lanes(
+    context: &Context<'_>,
+    block: &ManifoldBlock,
+    at: usize,
+    mut guarded: u32,
+    lanes: &mut [[f32; BLOCK]; 14],
+) {
+    while guarded != 0 {
+        let i = guarded.trailing_zeros() as usize;
+        guarded &= guarded - 1;
+        let mut points = LanePoints { values: core::array::from_fn(|k| lanes[k][i]) };
+        let limit = context.speculative_distance;
+        if points.values[6] > limit && points.values[7] > limit {
+            continue;
+        }
+        let (shape_a, shape_b) = (block.shape_a[at + i], block.shape_b[at + i]);
+        if block.body_a[at + i] == block.body_b[at + i] {
+            continue; // An empty lane.
+        }
+        let p = Vec2::new(lanes[10][i], lanes[11][i]);
+        let b_in_a = Transform::new(p, Rot { c: lanes[12][i], s: lanes[13][i] });
+        let touched = block.id_1[at + i] >= 0.0 || block.id_2[at + i] >= 0.0;
+        let pair = surfaces::Pair { shape_a, shape_b, b_in_a, touched };
+        surfaces::correct(context, pair, &mut points);
+        for (lane, value) in lanes.iter_mut().zip(points.values) {
+            lane[i] = value;
         }
     }
 }
@@ -379,7 +449,7 @@ fn write_constraint<L: Lanes, K: PairKernel>(
     });
     let zero = L::splat(token, 0.0);
     let mut approach = [zero; 2];
-    for k in 0..K::POINTS {
+    for (k, approach) in approach.iter_mut().enumerate().take(K::POINTS) {
         let valid = geometry.valid[k];
         let same = [geometry.id[k].eq(old_id[0]), geometry.id[k].eq(old_id[1])];
         let carry = |kind: usize| {
@@ -389,7 +459,7 @@ fn write_constraint<L: Lanes, K: PairKernel>(
         let (normal_impulse, tangent_impulse) = (carry(0), carry(1));
         let arms = Arms::compute(geometry, k);
         let (normal_mass, tangent_mass) = arms.masses(token, &body_a, &body_b);
-        approach[k] = geometry.normal[0] * (body_b[0] - body_a[0])
+        *approach = geometry.normal[0] * (body_b[0] - body_a[0])
             + geometry.normal[1] * (body_b[1] - body_a[1])
             + arms.normal[1] * body_b[2]
             - arms.normal[0] * body_a[2];

@@ -31,6 +31,12 @@ pub(crate) fn find_new(
     broad_phase.clear_moved();
 }
 
+/// What the user has to say about pairs of shapes, beyond filters.
+pub(crate) trait PairRule: Sync {
+    /// May the two shapes collide?
+    fn allows(&self, bodies: &Bodies, shapes: &Shapes, a: u32, b: u32) -> bool;
+}
+
 /// What decides whether two shapes may meet.
 #[derive(Clone, Copy)]
 pub(crate) struct Partners<'a> {
@@ -38,6 +44,8 @@ pub(crate) struct Partners<'a> {
     pub(crate) bodies: &'a Bodies,
     pub(crate) contacts: &'a Contacts,
     pub(crate) joints: &'a Joints,
+    /// The user's word on a pair of shapes, if there is any.
+    pub(crate) custom: Option<&'a dyn PairRule>,
 }
 
 impl Partners<'_> {
@@ -51,6 +59,7 @@ impl Partners<'_> {
             && shape_a.filter.collides(&shape_b.filter)
             && self.contacts.pairs.get(a, b).is_none()
             && self.joints.may_collide(self.bodies, shape_a.body, shape_b.body)
+            && self.custom.is_none_or(|rule| rule.allows(self.bodies, self.shapes, a, b))
     }
 }
 
@@ -82,30 +91,48 @@ fn new_contact(a: u32, b: u32, settings: &Settings, shapes: &Shapes) -> Contact 
     let class = |i: u32| shapes.records[i as usize].class;
     let (a, b) = if class(a) < class(b) { (b, a) } else { (a, b) };
     let (shape_a, shape_b) = (&shapes.records[a as usize], &shapes.records[b as usize]);
-    let (material_a, material_b) = (&shape_a.material, &shape_b.material);
-    let radius = |i: u32| shapes.rows[i as usize][6];
-    let rolling = larger(
-        material_a.rolling_resistance * radius(a),
-        material_b.rolling_resistance * radius(b),
-    );
-    Contact {
+    let mut contact = Contact {
         alive: true,
         touching: false,
-        events: shape_a.contact_events || shape_b.contact_events,
-        hit_events: shape_a.hit_events || shape_b.hit_events,
+        events: false,
+        hit_events: false,
         class: PairClass::of(shape_a.class, shape_b.class),
         place: Place::Asleep,
         shape_a: a,
         shape_b: b,
         body_a: shape_a.body,
         body_b: shape_b.body,
-        friction: settings.friction_mix.apply(material_a.friction, material_b.friction),
-        restitution: settings.restitution_mix.apply(material_a.restitution, material_b.restitution),
-        rolling_resistance: rolling,
-        tangent_speed: material_a.tangent_speed + material_b.tangent_speed,
+        friction: 0.0,
+        restitution: 0.0,
+        rolling_resistance: 0.0,
+        tangent_speed: 0.0,
         saved: [SavedPoint::NONE; 2],
         links: [(NULL, NULL); 2],
+    };
+    mix_materials(&mut contact, settings, shapes);
+    contact
+}
+
+/// Sets what a contact has of the materials of its two shapes, and which events it sends. A contact that
+/// touches keeps sending begin and end events or not, so that these stay paired.
+pub(crate) fn mix_materials(contact: &mut Contact, settings: &Settings, shapes: &Shapes) {
+    let (a, b) = (contact.shape_a, contact.shape_b);
+    let (shape_a, shape_b) = (&shapes.records[a as usize], &shapes.records[b as usize]);
+    let (material_a, material_b) = (&shape_a.material, &shape_b.material);
+    let radius = |i: u32| shapes.rows[i as usize][6];
+    if !contact.touching {
+        contact.events = shape_a.contact_events || shape_b.contact_events;
     }
+    contact.hit_events = shape_a.hit_events || shape_b.hit_events;
+    contact.friction = settings.friction_mix.apply(material_a.friction, material_b.friction);
+    contact.restitution =
+        settings.restitution_mix.apply(material_a.restitution, material_b.restitution);
+    contact.rolling_resistance = larger(
+        material_a.rolling_resistance * radius(a),
+        material_b.rolling_resistance * radius(b),
+    );
+    // The solver's tangent points along the surface of A; a belt goes the other way round B.
+    contact.tangent_speed = -(material_a.tangent_speed + material_b.tangent_speed);
 }
 
 fn larger(a: f32, b: f32) -> f32 {

@@ -98,50 +98,6 @@ impl<'a> Team<'a> {
         });
     }
 
-    /// A stage over the blocks of two slices side by side: `f(chunk_index, block_a, block_b)`.
-    ///
-    /// # Panics
-    ///
-    /// When the slices differ in length.
-    #[inline]
-    pub(crate) fn for_each_chunk_mut2<A: Send, B: Send>(
-        &self,
-        a: &mut [A],
-        b: &mut [B],
-        chunk_len: usize,
-        f: impl Fn(usize, &mut [A], &mut [B]) + Sync,
-    ) {
-        assert_eq!(a.len(), b.len(), "slices side by side have the same length");
-        let (a, b) = (SharedBlocks::new(a, chunk_len), SharedBlocks::new(b, chunk_len));
-        self.run(a.count(), |index| {
-            // SAFETY: `run` gives each index once; equal lengths make equal counts.
-            let (a, b) = unsafe { (a.take(index), b.take(index)) };
-            f(index, a, b);
-        });
-    }
-
-    /// A stage over the blocks of three slices side by side.
-    ///
-    /// # Panics
-    ///
-    /// When the slices differ in length.
-    #[inline]
-    pub(crate) fn for_each_chunk_mut3<A: Send, B: Send, C: Send>(
-        &self,
-        (a, b, c): (&mut [A], &mut [B], &mut [C]),
-        chunk_len: usize,
-        f: impl Fn(usize, &mut [A], &mut [B], &mut [C]) + Sync,
-    ) {
-        assert!(a.len() == b.len() && b.len() == c.len(), "slices of the same length");
-        let (a, b) = (SharedBlocks::new(a, chunk_len), SharedBlocks::new(b, chunk_len));
-        let c = SharedBlocks::new(c, chunk_len);
-        self.run(a.count(), |index| {
-            // SAFETY: `run` gives each index once; equal lengths make equal counts.
-            let (a, b, c) = unsafe { (a.take(index), b.take(index), c.take(index)) };
-            f(index, a, b, c);
-        });
-    }
-
     /// A stage whose chunks each have an output: `f(range, output)`. Gives the outputs in chunk order.
     ///
     /// Outputs keep what they held, so that their memory is used again: `f` clears them. `outputs` grows

@@ -55,12 +55,6 @@ impl<'a, T> SharedSlice<'a, T> {
         }
     }
 
-    /// Number of elements.
-    #[inline(always)]
-    pub(crate) fn len(self) -> usize {
-        self.len
-    }
-
     /// A copy of element `index`.
     #[inline(always)]
     pub(crate) fn read(self, index: u32) -> T
@@ -189,7 +183,6 @@ mod tests {
         let shared = SharedSlice::new(&mut values);
         shared.write(0, shared.read(2));
         assert_eq!(shared.update(1, |value| core::mem::replace(value, 9)), 2);
-        assert_eq!(shared.len(), 3);
         assert_eq!(values, [3, 9, 3]);
     }
 

@@ -22,8 +22,9 @@ fn mix(team: &Team<'_>, len: usize, stage_count: u32) -> Vec<u64> {
                 }
             });
         }
-        team.for_each_chunk_mut2(&mut now, &mut next, chunk_len, |index, now, next| {
-            for (a, b) in now.iter_mut().zip(next) {
+        let next = &next;
+        team.for_each_chunk_mut(&mut now, chunk_len, |index, now| {
+            for (a, b) in now.iter_mut().zip(&next[index * chunk_len..]) {
                 *a = b.wrapping_add(index as u64);
             }
         });
@@ -67,15 +68,13 @@ fn every_index_is_visited_once_in_ranges_of_the_chunk_length() {
 fn blocks_come_with_their_index() {
     for thread_count in THREAD_COUNTS {
         let mut a = vec![0; 23];
-        let (mut b, mut c) = (a.clone(), a.clone());
+        let mut b = a.clone();
         Pool::new(thread_count).scope(|team| {
             team.for_each_chunk_mut(&mut a, 5, |index, block| block.fill(index));
-            team.for_each_chunk_mut3((&mut a, &mut b, &mut c), 4, |index, a, b, c| {
-                b.copy_from_slice(a);
-                c.fill(index);
-            });
+            let shared = SharedSlice::new(&mut b);
+            team.for_each_chunk(23, 4, |range| shared.range(range.clone()).fill(range.start / 4));
         });
-        assert!((0..23).all(|i| a[i] == i / 5 && b[i] == a[i] && c[i] == i / 4));
+        assert!((0..23).all(|i| a[i] == i / 5 && b[i] == i / 4));
     }
 }
 

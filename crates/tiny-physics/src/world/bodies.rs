@@ -171,6 +171,7 @@ impl BodyMut<'_> {
         let (world, index) = (&mut *self.world, self.index);
         world.wake_index(index);
         world.wake_neighbours(index);
+        world.note_ground_of(index);
         world.bodies.set_origin_pose(index, pose.p, pose.q.normalized());
         world.mark_shapes_changed(index);
         finalize::update_boxes(
@@ -180,12 +181,14 @@ impl BodyMut<'_> {
             index,
             Vec2::ZERO,
         );
+        world.note_ground_of(index);
     }
 
     /// Sets the velocity of the centre of mass, metres a second. Nothing happens to a static body.
     pub fn set_velocity(&mut self, velocity: Vec2) {
         if self.info().kind != BodyKind::Static && self.accept(&[velocity.x, velocity.y]) {
             self.world.bodies.set_velocity(self.index, velocity);
+            self.wake_riders(velocity != Vec2::ZERO);
         }
     }
 
@@ -193,6 +196,14 @@ impl BodyMut<'_> {
     pub fn set_angular_velocity(&mut self, radians_per_second: f32) {
         if self.info().kind != BodyKind::Static && self.accept(&[radians_per_second]) {
             self.world.bodies.set_angular_velocity(self.index, radians_per_second);
+            self.wake_riders(radians_per_second != 0.0);
+        }
+    }
+
+    /// Wakes what touches a platform that begins to move.
+    fn wake_riders(&mut self, moves: bool) {
+        if moves && self.info().kind == BodyKind::Kinematic {
+            self.world.wake_neighbours(self.index);
         }
     }
 

@@ -3,7 +3,7 @@
 use super::World;
 use super::ids::{BodyId, ShapeId};
 use crate::broad_phase::{ProxyDef, ProxyKind};
-use crate::describe::{BodyKind, RigidBody, ShapeDef};
+use crate::describe::{BodyKind, ChainDef, RigidBody, ShapeDef};
 use crate::dynamics::{BodyInfo, NULL, ShapeRecord};
 use crate::error::Error;
 use crate::geometry::manifold::{RoundedBox, ShapeClass};
@@ -97,6 +97,21 @@ impl World {
         Ok(self.shape_id(id))
     }
 
+    /// Adds the segments of a chain to a body and gives their handles in order.
+    ///
+    /// # Errors
+    /// The handle is stale, or the points make no chain. Nothing has been added then.
+    pub fn add_chain(&mut self, body: BodyId, chain: &ChainDef) -> Result<Vec<ShapeId>, Error> {
+        let index = self.body_index(body)?;
+        let shapes = chain.shapes()?;
+        shapes.iter().try_for_each(check_shape)?;
+        self.wake_index(index);
+        let ids: Vec<u32> = shapes.iter().map(|shape| self.insert_shape(index, shape)).collect();
+        self.update_mass(index);
+        self.create_proxies(index);
+        Ok(ids.into_iter().map(|id| self.shape_id(id)).collect())
+    }
+
     /// Removes a shape from its body; mass and inertia follow. What rested on it wakes.
     ///
     /// # Errors
@@ -145,6 +160,7 @@ impl World {
             filter: def.filter,
             sensor: def.sensor,
             one_way: def.one_way,
+            link: def.link,
             contact_events: def.contact_events,
             hit_events: def.hit_events,
             user_data: def.user_data,
@@ -179,6 +195,7 @@ impl World {
                 self.shapes.records[previous as usize].next = next;
             }
         }
+        self.note_ground(shape);
         self.broad_phase.destroy_proxy(self.shapes.proxy(shape));
         self.sensors.remove(shape);
         self.shapes.remove(shape);
@@ -244,6 +261,7 @@ impl World {
                 Vec2::new(row[0], row[1]).length() + Vec2::new(row[4], row[5]).length() + row[6];
             max_extent = max_extent.max(reach);
             self.shapes.rows[shape as usize] = row;
+            self.shapes.mark_row(shape);
         }
         let info = &mut self.bodies.infos[index as usize];
         info.min_extent = if min_extent == f32::MAX { 0.0 } else { min_extent };
@@ -275,7 +293,26 @@ impl World {
             let proxy = self.broad_phase.create_proxy(def, tight);
             self.shapes.records[shape as usize].proxy = proxy.0;
             self.shapes.fat[shape as usize] = self.broad_phase.fat_aabb(proxy).unwrap_or(tight);
+            if kind == ProxyKind::Static {
+                self.note_ground(shape);
+            }
         }
+    }
+
+    /// Notes that ground comes, goes or moves where the box of this shape is.
+    pub(super) fn note_ground(&mut self, shape: u32) {
+        let body = self.shapes.records[shape as usize].body;
+        let fat = self.broad_phase.fat_aabb(self.shapes.proxy(shape));
+        if self.bodies.infos[body as usize].kind == BodyKind::Static {
+            self.shapes.changed_ground.extend(fat);
+        }
+    }
+
+    /// Notes that all ground of a body is about to change, or has changed.
+    pub(super) fn note_ground_of(&mut self, body: u32) {
+        let shapes: Vec<u32> =
+            self.shapes.of_body(self.bodies.infos[body as usize].first_shape).collect();
+        shapes.into_iter().for_each(|shape| self.note_ground(shape));
     }
 
     /// The handle of a body that is alive.
@@ -367,7 +404,7 @@ fn check_body(body: &RigidBody) -> Result<(), Error> {
     body.shapes.iter().try_for_each(check_shape)
 }
 
-fn check_shape(shape: &ShapeDef) -> Result<(), Error> {
+pub(super) fn check_shape(shape: &ShapeDef) -> Result<(), Error> {
     shape.shape.validate()?;
     Error::check_finite_vec("offset", shape.offset)?;
     Error::check_finite("angle", shape.angle)?;
@@ -379,6 +416,14 @@ fn check_shape(shape: &ShapeDef) -> Result<(), Error> {
     Error::check_not_negative("restitution", shape.material.restitution)?;
     Error::check_not_negative("rolling_resistance", shape.material.rolling_resistance)?;
     Error::check_finite("tangent_speed", shape.material.tangent_speed)?;
+    if let Some(link) = shape.link {
+        if !matches!(shape.shape, Shape::Segment { .. }) {
+            return Err(Error::Unsupported { reason: "only segments are links of a chain" });
+        }
+        for end in [link.previous, link.next].into_iter().flatten() {
+            Error::check_finite_vec("link", end)?;
+        }
+    }
     shape.one_way.map_or(Ok(()), |direction| Error::check_finite_vec("one_way", direction))
 }
 

@@ -7,7 +7,7 @@ use crate::describe::BodyKind;
 use crate::dynamics::{Bucket, NULL, OVERFLOW, Place, flags};
 use crate::math::{DVec2, Vec2};
 use crate::simd::BLOCK;
-use crate::stages::sleep;
+use crate::stages::{one_way, pairs, sleep};
 
 /// One point of a contact.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -60,7 +60,7 @@ impl World {
         })
     }
 
-    fn view(&self, bucket: &Bucket, slot: usize) -> ContactView {
+    pub(super) fn view(&self, bucket: &Bucket, slot: usize) -> ContactView {
         let (block, lane) = (slot / BLOCK, slot % BLOCK);
         let contact = &self.contacts.records[bucket.contacts[slot] as usize];
         let (manifold, constraint) = (&bucket.manifolds[block], &bucket.constraints[block]);
@@ -139,13 +139,11 @@ impl World {
         let ids = [manifold.id_1[lane], manifold.id_2[lane]];
         let approach = [surface.approach_1[lane], surface.approach_2[lane]];
         let peak = [surface.peak_1[lane], surface.peak_2[lane]];
-        let mut point = 0;
-        for k in (0..2).filter(|&k| ids[k] >= 0.0) {
+        for (point, k) in (0..2).filter(|&k| ids[k] >= 0.0).enumerate() {
             let speed = -approach[k];
             if peak[k] > 0.0 && speed > threshold && fastest.is_none_or(|(_, most)| speed > most) {
                 fastest = Some((point, speed));
             }
-            point += 1;
         }
         let (point, speed) = fastest?;
         let view = self.view(bucket, slot);
@@ -168,7 +166,22 @@ impl World {
             let end = self.end_event(index);
             self.events.contact_end.push(end);
         }
+        // Changes of the shapes' events take effect between an end and the next begin.
+        let contact = &mut self.contacts.records[index as usize];
+        pairs::mix_materials(contact, &self.settings, &self.shapes);
         self.graph.insert(&mut self.bodies, &mut self.contacts, index);
+    }
+
+    /// May a contact that touches now begin? One-way platforms turn some down.
+    pub(super) fn may_begin(&self, index: u32, dt: f32) -> bool {
+        let length_unit = self.settings.length_unit;
+        let limits = one_way::Limits {
+            dt,
+            speculative_distance: super::SPECULATIVE_DISTANCE * length_unit,
+            length_unit,
+        };
+        let contact = &self.contacts.records[index as usize];
+        one_way::may_begin(contact, &self.bodies, &self.shapes, limits)
     }
 
     /// A contact of the graph has begun to touch.
@@ -223,8 +236,6 @@ impl World {
 
     /// Wakes the island of a body; with a kinematic body, also what rests on it or hangs on it.
     pub(super) fn wake_index(&mut self, index: u32) {
-        let info = &self.bodies.infos[index as usize];
-        let starts_to_carry = info.kind == BodyKind::Kinematic && !info.awake;
         let woken = sleep::wake(
             index,
             &mut self.bodies,
@@ -233,6 +244,9 @@ impl World {
             &mut self.joints,
             &mut self.joint_graph,
         );
+        // Not where it was awake already or is not enabled: this calls itself.
+        let info = &self.bodies.infos[index as usize];
+        let starts_to_carry = info.kind == BodyKind::Kinematic && !woken.is_empty();
         for body in woken {
             let body = self.body_id(body);
             self.events.pending_woke.push(body);

@@ -39,6 +39,9 @@ impl World {
         self.hash_contacts(&mut hasher);
         self.hash_joints(&mut hasher);
         self.hash_sensors(&mut hasher);
+        for cells in self.tile_values() {
+            cells.iter().for_each(|&value| hasher.word(value.into()));
+        }
         hasher.0
     }
 

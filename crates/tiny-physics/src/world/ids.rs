@@ -52,6 +52,10 @@ handle! {
     ShapeId, "shape"
 }
 handle! {
+    /// Handle of a tile map. It goes stale when the map is removed and never means another map.
+    TileGridId, "tile grid"
+}
+handle! {
     /// Handle of a joint. It goes stale when the joint is removed and never means another joint.
     JointId, "joint"
 }

@@ -1,25 +1,37 @@
 //! The world: the one facade over everything below.
 
 mod bodies;
+mod body_changes;
 mod build;
 mod contacts;
 mod debug_draw;
 mod events;
+mod forces;
 mod hash;
+mod hooks;
 mod ids;
 mod joints;
+mod mover;
 mod queries;
 mod sensors;
+mod shape_changes;
 mod shapes;
 mod stats;
+#[cfg(test)]
+mod tests;
+mod tiles;
 mod validate;
 
 pub use bodies::{Body, BodyMut};
 pub use contacts::{ContactPoint, ContactView};
 pub use events::{ContactBegin, ContactEnd, Events, Hit, JointBreak, SensorBegin, SensorEnd};
-pub use ids::{BodyId, JointId, ShapeId};
+pub use forces::{Explosion, ForceZone, Water, Wind, ZoneForce};
+pub use hooks::{ContactRules, ShapePair};
+pub use ids::{BodyId, JointId, ShapeId, TileGridId};
 pub use joints::JointRef;
+pub use mover::{CharacterMover, MoverGround, MoverInput};
 pub use queries::{ClosestPoint, QueryFilter, RayCast, RayCastHit, ShapeCastHit};
+pub use shape_changes::ShapeMut;
 pub use shapes::ShapeRef;
 pub use stats::{Stage, Stats};
 
@@ -36,7 +48,7 @@ use crate::stages::contact_solver::{self, Parameters, Pass, Softness};
 use crate::stages::finalize::{FastBody, Findings};
 use crate::stages::touching::Changes;
 use crate::stages::{
-    continuous, finalize, integrate, joint_solver, narrow_phase, pairs, sleep, touching,
+    continuous, finalize, integrate, joint_solver, narrow_phase, pairs, sleep, surfaces, touching,
 };
 use crate::threads::{Pool, SharedRows, Team};
 use stats::Stopwatch;
@@ -86,11 +98,15 @@ pub struct World {
     joints: Joints,
     joint_graph: JointGraph,
     broad_phase: BroadPhase,
+    tiles: tiles::TileGrids,
     sensors: Sensors,
+    hooks: hooks::Hooks,
     events: Events,
     step_count: u64,
     /// 1 / substep length of the last step.
     inv_h: f32,
+    /// Length of the step, seconds.
+    dt: f32,
     level: SimdLevel,
     pool: Pool,
     stats: Stats,
@@ -107,6 +123,7 @@ struct Scratch {
     findings: Vec<Findings>,
     fast: Vec<FastBody>,
     islands: Vec<u32>,
+    occupied: Vec<(usize, PairClass)>,
     overlaps: Vec<Overlap>,
     found_overlaps: Vec<Vec<Overlap>>,
     broken_joints: Vec<u32>,
@@ -139,10 +156,13 @@ impl World {
             joints: Joints::default(),
             joint_graph: JointGraph::new(),
             broad_phase: BroadPhase::new(),
+            tiles: tiles::TileGrids::default(),
             sensors: Sensors::default(),
+            hooks: hooks::Hooks::default(),
             events: Events::default(),
             step_count: 0,
             inv_h: 0.0,
+            dt: 0.0,
             level: SimdLevel::detect(),
             pool: Pool::default(),
             stats: Stats::default(),
@@ -161,7 +181,8 @@ impl World {
     /// Moves the world on by `dt` seconds.
     ///
     /// # Errors
-    /// `dt` or gravity is not finite, or `dt` not above 0. The world has not changed then.
+    /// `dt` or gravity is not finite, `dt` not above 0, or a setting out of range. The world has not changed
+    /// then.
     pub fn try_step(&mut self, dt: f32) -> Result<(), Error> {
         let lengths = self.step_lengths(dt)?;
         let pool = self.pool.clone();
@@ -175,12 +196,15 @@ impl World {
         let mut watch = Stopwatch::start();
         self.events.clear();
         self.bodies.sort_awake();
+        self.dt = lengths.dt;
+        self.refresh_surfaces();
 
         self.update_pairs(team);
         watch.lap(&mut self.stats, Stage::Pairs);
         self.update_manifolds(team);
         watch.lap(&mut self.stats, Stage::NarrowPhase);
-        self.update_touching();
+        self.update_touching(lengths.dt);
+        self.call_pre_solve(team);
         watch.lap(&mut self.stats, Stage::Touching);
         self.solve(team, lengths);
         watch.lap(&mut self.stats, Stage::Solve);
@@ -197,6 +221,7 @@ impl World {
     /// Checks the step's numbers and divides them up.
     fn step_lengths(&self, dt: f32) -> Result<StepLengths, Error> {
         Error::check_positive("dt", dt)?;
+        self.settings.validate()?;
         Error::check_finite_vec("gravity", self.gravity)?;
         let substeps = self.settings.substeps.clamp(1, 1000);
         let iterations = self.settings.iterations.clamp(1, 1000);
@@ -206,9 +231,11 @@ impl World {
     /// Drops contacts of shapes that left their fat boxes and their partners; finds new partners.
     fn update_pairs(&mut self, team: &Team) {
         self.stats.moved_shapes = self.broad_phase.moved().len();
-        let Self { broad_phase, shapes, bodies, contacts, graph, joints, scratch, .. } = self;
+        let Self { broad_phase, shapes, bodies, contacts, graph, joints, hooks, scratch, .. } =
+            self;
         pairs::find_parted(broad_phase, bodies, shapes, contacts, graph, &mut scratch.parted);
-        let stores = pairs::Partners { shapes, bodies, contacts, joints };
+        let custom = hooks.pair_filter();
+        let stores = pairs::Partners { shapes, bodies, contacts, joints, custom };
         pairs::find_new(team, broad_phase, &stores, &mut scratch.found_pairs, &mut scratch.pairs);
         self.stats.candidate_pairs = scratch.pairs.len();
 
@@ -226,6 +253,12 @@ impl World {
         );
     }
 
+    /// Finds which faces of static shapes are covered by others, where static shapes have changed.
+    fn refresh_surfaces(&mut self) {
+        let Self { shapes, bodies, broad_phase, settings, .. } = self;
+        surfaces::refresh(shapes, bodies, broad_phase, settings.length_unit);
+    }
+
     /// What the narrow phase reads, and the graph that it writes.
     fn narrow_phase(&mut self) -> (narrow_phase::Context<'_>, &mut Graph) {
         let context = narrow_phase::Context {
@@ -236,6 +269,12 @@ impl World {
             shapes: &self.shapes.records,
             infos: (self.joint_graph.count() > 0).then_some(&self.bodies.infos),
             speculative_distance: SPECULATIVE_DISTANCE * self.settings.length_unit,
+            surroundings: surfaces::Surroundings {
+                guards: &self.shapes.guards,
+                broad_phase: &self.broad_phase,
+                dt: self.dt,
+                length_unit: self.settings.length_unit,
+            },
         };
         (context, &mut self.graph)
     }
@@ -252,10 +291,11 @@ impl World {
     }
 
     /// Moves contacts that began or ended to where they belong; wakes what was touched.
-    fn update_touching(&mut self) {
+    fn update_touching(&mut self, dt: f32) {
         let mut changes = core::mem::take(&mut self.scratch.changes);
         touching::find_changes(&self.graph, &mut changes);
         changes.ended.iter().for_each(|&index| self.end_contact(index));
+        changes.began.retain(|&index| self.may_begin(index, dt));
         changes.began.iter().for_each(|&index| self.begin_contact(index));
         self.stats.contacts_begun = changes.began.len();
         self.stats.contacts_ended = changes.ended.len();
@@ -273,6 +313,10 @@ impl World {
     fn solve(&mut self, team: &Team, lengths: StepLengths) {
         let parameters = self.contact_parameters(lengths);
         self.inv_h = parameters.inv_h;
+        if self.bodies.awake.is_empty() {
+            return;
+        }
+        self.graph.list_occupied(&mut self.scratch.occupied);
         self.prepare_joints(team, lengths.h);
         integrate::prepare(team, &mut self.bodies, self.gravity, lengths.h);
         let max_speed = self.settings.max_speed * self.settings.length_unit;
@@ -335,14 +379,16 @@ impl World {
         if pass == Pass::WarmStartJointed && self.joint_graph.count() == 0 {
             return;
         }
-        let rows = SharedRows::new(&mut self.bodies.rows);
-        let (colours, rest) = self.graph.buckets.split_at_mut(OVERFLOW);
-        for (bucket, class) in rest[0].iter_mut().zip(PairClass::ALL) {
-            contact_solver::run_in_order(pass, parameters, rows, bucket, class.max_points());
-        }
-        for (bucket, class) in colours.iter_mut().flat_map(|c| c.iter_mut().zip(PairClass::ALL)) {
+        let Self { bodies, graph, scratch, level, .. } = self;
+        let rows = SharedRows::new(&mut bodies.rows);
+        for &(colour, class) in &scratch.occupied {
+            let bucket = &mut graph.buckets[colour][class as usize];
             let points = class.max_points();
-            contact_solver::run(team, self.level, pass, parameters, rows, bucket, points);
+            if colour == OVERFLOW {
+                contact_solver::run_in_order(pass, parameters, rows, bucket, points);
+            } else {
+                contact_solver::run(team, *level, pass, parameters, rows, bucket, points);
+            }
         }
     }
 
@@ -389,13 +435,14 @@ impl World {
 
     /// Stops fast bodies where they would have gone through something.
     fn sweep_fast_bodies(&mut self) {
-        let Self { bodies, shapes, broad_phase, joints, scratch, .. } = self;
-        continuous::run(&mut scratch.fast, bodies, shapes, joints, broad_phase);
+        let Self { bodies, shapes, broad_phase, joints, hooks, scratch, .. } = self;
+        let custom = hooks.pair_filter();
+        continuous::run(&mut scratch.fast, bodies, shapes, joints, broad_phase, custom);
     }
 
     /// Looks for islands at rest now and then, and lets them sleep.
     fn put_resting_islands_to_sleep(&mut self) {
-        if !self.settings.sleep || self.step_count % sleep::INTERVAL != 0 {
+        if !self.settings.sleep || !self.step_count.is_multiple_of(sleep::INTERVAL) {
             return;
         }
         let mut islands = core::mem::take(&mut self.scratch.islands);

@@ -5,7 +5,7 @@ use super::ids::{BodyId, ShapeId};
 use crate::describe::{Filter, Material};
 use crate::dynamics::ShapeRecord;
 use crate::geometry::Shape;
-use crate::math::{Aabb, Transform};
+use crate::math::{Aabb, Pose, Transform, Vec2};
 
 /// A shape of the world, to read.
 #[derive(Clone, Copy)]
@@ -16,6 +16,10 @@ pub struct ShapeRef<'a> {
 }
 
 impl<'a> ShapeRef<'a> {
+    pub(super) fn new(world: &'a World, index: u32) -> Self {
+        Self { world, record: &world.shapes.records[index as usize], index }
+    }
+
     /// Its handle.
     pub fn id(&self) -> ShapeId {
         self.world.shape_id(self.index)
@@ -51,6 +55,16 @@ impl<'a> ShapeRef<'a> {
         self.record.sensor
     }
 
+    /// Direction, in the body's frame, out of the solid side of a one-way platform.
+    pub fn one_way(&self) -> Option<Vec2> {
+        self.record.one_way
+    }
+
+    /// Its frame in the world.
+    pub fn pose(&self) -> Pose {
+        self.world.bodies.poses[self.record.body as usize].compose(self.record.central)
+    }
+
     /// The user's number.
     pub fn user_data(&self) -> u64 {
         self.record.user_data
@@ -67,7 +81,7 @@ impl World {
     /// A shape; `None` if it has been removed.
     pub fn shape(&self, id: ShapeId) -> Option<ShapeRef<'_>> {
         let index = self.shape_index(id).ok()?;
-        Some(ShapeRef { world: self, record: &self.shapes.records[index as usize], index })
+        Some(ShapeRef::new(self, index))
     }
 
     /// Handles of all shapes, in index order.

@@ -35,6 +35,7 @@ mod circle;
 mod class;
 mod collide;
 mod contact;
+mod face;
 mod general;
 mod lane;
 #[cfg(test)]
@@ -46,5 +47,6 @@ pub(crate) use circle::{box_circle, capsule_circle, circle_circle};
 pub(crate) use class::{PairClass, RoundedBox, ShapeClass};
 pub use collide::{Manifold, ManifoldPoint, collide};
 pub use contact::{Contact, contact};
+pub(crate) use face::{collide_face, face_of, nearest_vertex, point_gap, support_height};
 pub(crate) use general::collide_general;
 pub(crate) use lane::{LaneManifold, LanePair};

@@ -24,6 +24,15 @@ pub(super) struct Finder<'a> {
     pub(super) filter: &'a QueryFilter<'a>,
 }
 
+/// Does a filter let a query see a shape?
+pub(in crate::world) fn sees(world: &World, filter: &QueryFilter<'_>, index: u32) -> bool {
+    let record = &world.shapes.records[index as usize];
+    (filter.sensors || !record.sensor)
+        && filter.filter.collides(&record.filter)
+        && filter.exclude_body.is_none_or(|body| body != world.body_id(record.body))
+        && filter.predicate.is_none_or(|predicate| predicate(world.shape_id(index)))
+}
+
 /// The best of several hits: the smallest key, then the smallest index.
 struct Best<T> {
     key: f32,
@@ -46,12 +55,7 @@ impl<T> Best<T> {
 impl Finder<'_> {
     /// Does the filter let the query see a shape?
     fn sees(&self, index: u32) -> bool {
-        let filter = self.filter;
-        let record = &self.world.shapes.records[index as usize];
-        (filter.sensors || !record.sensor)
-            && filter.filter.collides(&record.filter)
-            && filter.exclude_body.is_none_or(|body| body != self.world.body_id(record.body))
-            && filter.predicate.is_none_or(|predicate| predicate(self.world.shape_id(index)))
+        sees(self.world, self.filter, index)
     }
 
     /// A shape and its frame in the world.

@@ -17,6 +17,7 @@ use super::ids::{BodyId, ShapeId};
 use crate::geometry::Shape;
 use crate::math::{Aabb, DVec2, Pose, Vec2};
 use find::Finder;
+pub(super) use find::sees;
 
 /// A ray in the world, for [`World::ray_casts`].
 #[derive(Clone, Copy, PartialEq, Debug)]

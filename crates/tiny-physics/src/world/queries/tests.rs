@@ -96,7 +96,7 @@ fn seen<'w>(
 
 /// Calls a test with random worlds, near and far from the origin, and with filters of all kinds.
 fn for_each_world(test: impl Fn(&mut Random, &World, DVec2, &QueryFilter<'_>)) {
-    let even = |shape: ShapeId| shape.index() % 2 == 0;
+    let even = |shape: ShapeId| shape.index().is_multiple_of(2);
     for seed in 0..40 {
         let mut random = Random(seed);
         let center =

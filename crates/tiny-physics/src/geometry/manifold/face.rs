@@ -1,0 +1,160 @@
+//! Contacts against one chosen face, and what a neighbour covers: for surfaces made of several shapes.
+
+use super::{Manifold, ManifoldPoint};
+use crate::geometry::Core;
+use crate::math::Vec2;
+
+/// Ids of these points begin here, above those of every other kernel.
+const FIRST_ID: u16 = 4096;
+
+/// Signed distance of a point from the surface of a core, metres; beyond a corner of a polygon it is
+/// less than the true distance.
+pub(crate) fn point_gap(core: &Core, point: Vec2) -> f32 {
+    if core.count <= 2 {
+        let (a, b) = (core.points[0], core.points[core.count - 1]);
+        let edge = b - a;
+        let (along, length_sq) = (edge.dot(point - a), edge.length_sq());
+        let fraction = if along <= 0.0 {
+            0.0
+        } else if along >= length_sq {
+            1.0
+        } else {
+            along / length_sq
+        };
+        return (point - (a + edge * fraction)).length() - core.radius;
+    }
+    let mut gap = f32::NEG_INFINITY;
+    for i in 0..core.count {
+        let height = core.normal(i).dot(point - core.points[i]);
+        gap = if height > gap { height } else { gap };
+    }
+    gap - core.radius
+}
+
+/// Height of the farthest point of a core along a unit direction, metres.
+pub(crate) fn support_height(core: &Core, direction: Vec2) -> f32 {
+    core.points[core.support(direction)].dot(direction) + core.radius
+}
+
+/// Index of the face with this normal, if there is one.
+pub(crate) fn face_of(core: &Core, normal: Vec2) -> Option<usize> {
+    (0..core.edge_count()).find(|&i| core.normal(i).dot(normal) > 1.0 - 1.0e-6)
+}
+
+/// Index of the core point closest to `point`; the first of equals.
+pub(crate) fn nearest_vertex(core: &Core, point: Vec2) -> usize {
+    let mut best = (0, f32::INFINITY);
+    for (i, vertex) in core.points().iter().enumerate() {
+        let distance_sq = (*vertex - point).length_sq();
+        if distance_sq < best.1 {
+            best = (i, distance_sq);
+        }
+    }
+    best.0
+}
+
+/// Where `other` touches one face of `core`, both in the frame of `core`; the normal is the face's. Empty
+/// where the side of `other` that looks at the face lies beside it or too high above.
+pub(crate) fn collide_face(
+    core: &Core,
+    face: usize,
+    other: &Core,
+    max_separation: f32,
+) -> Manifold {
+    let ((start, end), normal) = (core.edge(face), core.normal(face));
+    let along = normal.perp();
+    let length = along.dot(end - start);
+    let (edge, (low, high)) = facing_edge(other, normal);
+    let place = |p: Vec2| {
+        let height = normal.dot(p - start) - core.radius - other.radius;
+        (along.dot(p - start), height)
+    };
+    let ends = [place(low), place(high)];
+    let mut manifold = Manifold { normal, ..Manifold::EMPTY };
+    let Some(ends) = clip(ends, length) else { return Manifold::EMPTY };
+    let single = (ends[0].0 - ends[1].0).abs() <= 1.0e-5 * (1.0 + length);
+    let first = usize::from(single && ends[1].1 < ends[0].1);
+    let count = if single { 1 } else { 2 };
+    for (i, &(across, height)) in ends[first..].iter().take(count).enumerate() {
+        if height <= max_separation {
+            let point = start + along * across + normal * (core.radius + 0.5 * height);
+            let id = FIRST_ID + (face * 32 + edge * 2 + i) as u16;
+            manifold.push(ManifoldPoint { point, separation: height, id });
+        }
+    }
+    if manifold.count == 0 { Manifold::EMPTY } else { manifold }
+}
+
+/// The edge most opposed to a direction, by its index; a single point is an edge without length.
+fn facing_edge(core: &Core, direction: Vec2) -> (usize, (Vec2, Vec2)) {
+    if core.count < 2 {
+        return (0, (core.points[0], core.points[0]));
+    }
+    let mut best = (0, f32::INFINITY);
+    for i in 0..core.edge_count() {
+        let facing = core.normal(i).dot(direction);
+        if facing < best.1 {
+            best = (i, facing);
+        }
+    }
+    (best.0, core.edge(best.0))
+}
+
+/// The part of a line between (across, height) points that lies over 0 to `length`.
+fn clip(ends: [(f32, f32); 2], length: f32) -> Option<[(f32, f32); 2]> {
+    let [(u, h), (v, k)] = ends;
+    let (low, high) = if u < v { (u, v) } else { (v, u) };
+    if high < 0.0 || low > length {
+        return None;
+    }
+    let at = |across: f32, own: f32| {
+        let limited = if across < 0.0 {
+            0.0
+        } else if across > length {
+            length
+        } else {
+            return (across, own);
+        };
+        (limited, h + (k - h) * ((limited - u) / (v - u)))
+    };
+    Some([at(u, h), at(v, k)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Shape;
+    use crate::math::{Rot, Transform};
+
+    fn at(shape: Shape, x: f32, y: f32) -> Core {
+        shape.core().transformed(Transform::new(Vec2::new(x, y), Rot::IDENTITY))
+    }
+
+    #[test]
+    fn a_box_on_a_face_is_cut_off_at_its_end() {
+        let tile = Shape::rect(0.5, 0.5).unwrap().core();
+        let crate_ = at(Shape::rect(0.5, 0.5).unwrap(), 0.25, 0.99);
+        let top = face_of(&tile, Vec2::Y).unwrap();
+        let manifold = collide_face(&tile, top, &crate_, 0.02);
+        assert_eq!((manifold.count, manifold.normal), (2, Vec2::Y));
+        let mut across = [manifold.points[0].point.x, manifold.points[1].point.x];
+        across.sort_by(f32::total_cmp);
+        assert_eq!(across, [-0.25, 0.5]);
+        assert!(manifold.points().iter().all(|p| (p.separation + 0.01).abs() < 1e-6));
+        let beside = at(Shape::circle(0.2).unwrap(), 0.51, 0.7);
+        assert_eq!(collide_face(&tile, top, &beside, 0.02), Manifold::EMPTY);
+        let above = at(Shape::circle(0.2).unwrap(), 0.49, 0.71);
+        assert_eq!(collide_face(&tile, top, &above, 0.02).count, 1);
+    }
+
+    #[test]
+    fn gaps_are_signed() {
+        let tile = Shape::rect(0.5, 0.5).unwrap().core();
+        assert_eq!(point_gap(&tile, Vec2::new(0.75, 0.0)), 0.25);
+        assert_eq!(point_gap(&tile, Vec2::new(0.25, 0.0)), -0.25);
+        let line = Shape::segment(Vec2::ZERO, Vec2::X).unwrap().core();
+        assert_eq!(point_gap(&line, Vec2::new(2.0, 0.0)), 1.0);
+        assert_eq!(support_height(&tile, Vec2::X), 0.5);
+        assert_eq!(nearest_vertex(&tile, Vec2::new(1.0, 1.0)), 2);
+    }
+}

@@ -1,0 +1,74 @@
+//! One-way platforms: a contact with one may only begin from its solid side.
+//!
+//! A pair that starts to touch is judged by its manifold: the normal must point out of the solid side, the shapes
+//! must not part, and the overlap must not be deeper than what the shapes came nearer in the last step. What is turned down waits
+//! among the contacts that do not touch, and is judged again in the next step; what is accepted stays so until
+//! it ends. So a body that rises through a platform meets nothing until it is out on top, and one that stands
+//! on a platform stays there however that moves.
+
+use crate::dynamics::{Bodies, Contact, ShapeRecord, Shapes};
+use crate::geometry::{LINEAR_SLOP, collide};
+use crate::math::{Rot, Vec2};
+
+/// The normal may be this far from the solid direction, as a cosine: 60 degrees.
+const LEAST_COSINE: f32 = 0.5;
+
+/// What parts faster than this is still on its way out, metres a second; multiplied by the length unit.
+const PARTING_SPEED: f32 = 0.1;
+
+/// How the last step moved things, and what counts as touching.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Limits {
+    /// Length of the step, seconds.
+    pub(crate) dt: f32,
+    /// Points up to this far apart are contacts, metres.
+    pub(crate) speculative_distance: f32,
+    /// See [`Settings::length_unit`](crate::Settings).
+    pub(crate) length_unit: f32,
+}
+
+/// May this contact, which touches now and did not before, begin?
+pub(crate) fn may_begin(
+    contact: &Contact,
+    bodies: &Bodies,
+    shapes: &Shapes,
+    limits: Limits,
+) -> bool {
+    let record = |i: u32| &shapes.records[i as usize];
+    let (a, b) = (record(contact.shape_a), record(contact.shape_b));
+    if a.one_way.is_none() && b.one_way.is_none() {
+        return true;
+    }
+    let pose = |shape: &ShapeRecord| bodies.poses[shape.body as usize].compose(shape.central);
+    let (frame_a, frame_b) = (pose(a), pose(b));
+    let b_in_a = frame_b.relative_to(frame_a);
+    let manifold = collide(&a.shape, &b.shape, b_in_a, limits.speculative_distance);
+    let normal = frame_a.q.rotate(manifold.normal);
+    let (mut depth, mut point) = (f32::NEG_INFINITY, frame_a.p);
+    for p in manifold.points() {
+        if -p.separation > depth {
+            (depth, point) = (-p.separation, frame_a.apply(p.point));
+        }
+    }
+    let velocity = |body: u32| {
+        let arm = point.relative_to(bodies.poses[body as usize].p);
+        bodies.velocity(body) + arm.perp() * bodies.angular_velocity(body)
+    };
+    let approach = velocity(contact.body_a) - velocity(contact.body_b);
+    let turn = |body: u32| bodies.poses[body as usize].q;
+    let sides = [(a, normal, turn(contact.body_a)), (b, -normal, turn(contact.body_b))];
+    sides.into_iter().all(|(platform, outward, q)| {
+        let closing = approach.dot(normal);
+        let came = if closing > 0.0 { closing * limits.dt } else { 0.0 };
+        is_solid_side(platform, outward, q)
+            && closing >= -PARTING_SPEED * limits.length_unit
+            && depth <= LINEAR_SLOP * limits.length_unit + came
+    })
+}
+
+/// Does a normal out of a shape point out of its solid side? `q` is the rotation of its body.
+pub(crate) fn is_solid_side(shape: &ShapeRecord, outward: Vec2, q: Rot) -> bool {
+    shape
+        .one_way
+        .is_none_or(|direction| q.rotate(direction.normalized()).dot(outward) >= LEAST_COSINE)
+}

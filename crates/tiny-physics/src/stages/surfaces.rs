@@ -1,0 +1,472 @@
+//! Surfaces made of several shapes: contacts that only the seams between the shapes make are corrected.
+//!
+//! Two boxes side by side make one floor, but each box knows only itself: something that slides over them
+//! catches on the side of the next one, which is inside the floor. So static shapes are *guarded* where
+//! others touch them (tile beside tile, across bodies too), and so are segments of a chain and one-way
+//! platforms. After the kernels, a contact with a guarded shape is looked at again:
+//!
+//! - a normal out of a face is a ghost if another static shape covers the face there;
+//! - a normal from a corner is a ghost if another static shape goes on in its direction: it is then not
+//!   in the normal cone of both shapes together;
+//! - a ghost is replaced by the contact with the highest face that is not covered, or by none.
+//!
+//! Which faces and corners are touched by others is found when static shapes come, go or are moved, so
+//! the usual contact (on a free face) costs a look at a few bits. Worlds without static neighbours pay one
+//! comparison a stride of lanes.
+
+use super::narrow_phase::Context;
+use crate::broad_phase::{BroadPhase, ProxyId, ProxyKind};
+use crate::describe::BodyKind;
+use crate::dynamics::{Bodies, ShapeRecord, Shapes, guard};
+use crate::geometry::manifold::{
+    Manifold, collide_face, face_of, nearest_vertex, point_gap, support_height,
+};
+use crate::geometry::{Core, Shape};
+use crate::math::{Aabb, DVec2, Pose, Transform, Vec2};
+use core::ops::ControlFlow;
+
+/// Shapes this close to each other make one surface, metres; multiplied by the length unit.
+const TOLERANCE: f32 = 0.002;
+/// A face counts as covered at a point if it is so this far to both sides, metres; multiplied likewise.
+const REACH: f32 = 0.02;
+/// A corner's normal is free if the neighbours rise by no more than this above it, metres.
+const CONE_TOLERANCE: f32 = 5.0e-4;
+/// Cosine of the greatest angle between a one-way platform's direction and a face that is solid.
+const ONE_WAY_COSINE: f32 = 0.5;
+/// Something that is this deep in a one-way platform is not on it yet, metres.
+const ONE_WAY_DEPTH: f32 = 0.01;
+
+/// What looking at surfaces needs beyond the narrow phase's own.
+#[derive(Clone, Copy)]
+pub(crate) struct Surroundings<'a> {
+    pub(crate) guards: &'a [u32],
+    pub(crate) broad_phase: &'a BroadPhase,
+    /// Length of the last step, seconds.
+    pub(crate) dt: f32,
+    pub(crate) length_unit: f32,
+}
+
+/// A manifold of one lane as it is looked at: [`Manifold`] with ids as the kernels have them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LanePoints {
+    /// Normal x, y; points x, y, x, y; separations; ids, as floats.
+    pub(crate) values: [f32; 10],
+}
+
+impl LanePoints {
+    const NONE: Self =
+        Self { values: [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, f32::MAX, f32::MAX, 0.0, 0.0] };
+
+    fn normal(&self) -> Vec2 {
+        Vec2::new(self.values[0], self.values[1])
+    }
+
+    fn point(&self, k: usize) -> Vec2 {
+        Vec2::new(self.values[2 + 2 * k], self.values[3 + 2 * k])
+    }
+
+    fn is_valid(&self, k: usize, limit: f32) -> bool {
+        self.values[6 + k] <= limit
+    }
+
+    fn from_manifold(manifold: &Manifold, frame: Transform, sign: f32) -> Self {
+        let mut lane = Self::NONE;
+        let normal = frame.q.rotate(manifold.normal) * sign;
+        (lane.values[0], lane.values[1]) = (normal.x, normal.y);
+        for (k, point) in manifold.points().iter().enumerate() {
+            let place = frame.apply(point.point);
+            (lane.values[2 + 2 * k], lane.values[3 + 2 * k]) = (place.x, place.y);
+            lane.values[6 + k] = point.separation;
+            lane.values[8 + k] = f32::from(point.id);
+        }
+        lane
+    }
+}
+
+/// The pair of a lane.
+#[derive(Clone, Copy)]
+pub(crate) struct Pair {
+    pub(crate) shape_a: u32,
+    pub(crate) shape_b: u32,
+    /// Frame of B's rounded box in that of A's.
+    pub(crate) b_in_a: Transform,
+    /// Had the contact points in the last step?
+    pub(crate) touched: bool,
+}
+
+/// Corrects the manifold of a pair of which one shape at least is guarded.
+pub(crate) fn correct(context: &Context<'_>, pair: Pair, lane: &mut LanePoints) {
+    let guards = context.surroundings.guards;
+    let frames = [Transform::IDENTITY, pair.b_in_a];
+    let shapes = [pair.shape_a, pair.shape_b];
+    for side in [0, 1] {
+        if guards[shapes[side] as usize] == 0 || !lane.is_valid(0, f32::MAX * 0.5) {
+            continue;
+        }
+        let view = View::new(context, pair, shapes[side], shapes[1 - side], frames, side);
+        match view.judge(lane) {
+            Verdict::Keep => {}
+            Verdict::Drop => *lane = LanePoints::NONE,
+            Verdict::Replace(manifold) => {
+                let sign = if side == 0 { 1.0 } else { -1.0 };
+                *lane = LanePoints::from_manifold(&manifold, frames[side], sign);
+            }
+        }
+    }
+}
+
+enum Verdict {
+    Keep,
+    Drop,
+    Replace(Manifold),
+}
+
+/// A contact seen from the guarded shape.
+struct View<'a> {
+    context: &'a Context<'a>,
+    pair: Pair,
+    own: u32,
+    record: &'a ShapeRecord,
+    other: &'a ShapeRecord,
+    guard: u32,
+    /// Frame of the guarded shape's rounded box: everything below is in it.
+    frame: Transform,
+    /// 1 where the guarded shape is A: the kernels' normal points out of it.
+    sign: f32,
+    core: Core,
+    other_core: Core,
+}
+
+impl<'a> View<'a> {
+    fn new(
+        context: &'a Context<'a>,
+        pair: Pair,
+        own: u32,
+        other: u32,
+        frames: [Transform; 2],
+        side: usize,
+    ) -> Self {
+        let (record, other) = (&context.shapes[own as usize], &context.shapes[other as usize]);
+        let other_in_own = frames[1 - side].relative_to(frames[side]);
+        Self {
+            context,
+            pair,
+            own,
+            record,
+            other,
+            guard: context.surroundings.guards[own as usize],
+            frame: frames[side],
+            sign: if side == 0 { 1.0 } else { -1.0 },
+            core: boxed_core(record),
+            other_core: boxed_core(other).transformed(other_in_own),
+        }
+    }
+
+    fn judge(&self, lane: &LanePoints) -> Verdict {
+        let normal = self.frame.q.unrotate(lane.normal()) * self.sign;
+        if let Some(link) = self.record.link {
+            return self.judge_link(normal, [link.previous, link.next]);
+        }
+        if self.guard & guard::ONE_WAY != 0 {
+            if !self.pair.touched && !self.is_above() {
+                return Verdict::Drop;
+            }
+            let on_face = face_of(&self.core, normal).is_some_and(|face| self.is_solid(face));
+            if !on_face {
+                return self.best_face();
+            }
+        }
+        if self.is_ghost(lane, normal) { self.best_face() } else { Verdict::Keep }
+    }
+
+    /// A segment of a chain: its face, or the cone of normals at a corner that sticks out.
+    fn judge_link(&self, normal: Vec2, ends: [Option<Vec2>; 2]) -> Verdict {
+        let face = self.core.normal(0);
+        let (a, b) = (self.core.points[0], self.core.points[1]);
+        if face.dot(middle(&self.other_core) - a) < 0.0 {
+            return Verdict::Drop;
+        }
+        if face_of(&self.core, normal) == Some(0) {
+            return Verdict::Keep;
+        }
+        let (corner, end) = if normal.dot(b - a) < 0.0 { (a, ends[0]) } else { (b, ends[1]) };
+        let free = match end {
+            None => true,
+            Some(end) => {
+                let way = self.record.box_frame.unapply(end) - corner;
+                normal.dot(way) <= 1.0e-3 * way.length()
+            }
+        };
+        if free && normal.dot(face) > 0.0 {
+            return Verdict::Keep;
+        }
+        let manifold =
+            collide_face(&self.core, 0, &self.other_core, self.context.speculative_distance);
+        if manifold.count == 0 { Verdict::Drop } else { Verdict::Replace(manifold) }
+    }
+
+    /// Is a normal one that the surface made by all static shapes does not have there?
+    fn is_ghost(&self, lane: &LanePoints, normal: Vec2) -> bool {
+        let limit = self.context.speculative_distance;
+        let points =
+            [0, 1].map(|k| lane.is_valid(k, limit).then(|| self.frame.unapply(lane.point(k))));
+        if let Some(face) = face_of(&self.core, normal) {
+            return self.guard & guard::face(face) != 0 && self.is_covered(face, points);
+        }
+        let Some(point) = points[0].or(points[1]) else { return false };
+        let vertex = nearest_vertex(&self.core, point);
+        self.guard & guard::corner(vertex) != 0 && self.goes_on(vertex, normal)
+    }
+
+    /// Do other static shapes cover a face around all points of contact with it?
+    fn is_covered(&self, face: usize, points: [Option<Vec2>; 2]) -> bool {
+        let unit = self.context.surroundings.length_unit;
+        let (start, end) = self.core.edge(face);
+        let along = self.core.normal(face).perp();
+        let length = along.dot(end - start);
+        let mut probes = [Vec2::ZERO; 4];
+        let mut count = 0;
+        for point in points.into_iter().flatten() {
+            let at = along.dot(point - start);
+            for shifted in [at - REACH * unit, at + REACH * unit] {
+                let limited = if shifted < 0.0 {
+                    0.0
+                } else if shifted > length {
+                    length
+                } else {
+                    shifted
+                };
+                probes[count] = start + along * limited;
+                count += 1;
+            }
+        }
+        let mut covered = [false; 4];
+        self.each_neighbour(&probes[..count], |neighbour| {
+            for (probe, covered) in probes[..count].iter().zip(&mut covered) {
+                *covered |= point_gap(neighbour, *probe) <= TOLERANCE * unit;
+            }
+        });
+        count > 0 && covered[..count].iter().all(|covered| *covered)
+    }
+
+    /// Does another static shape go on from a corner in the direction of the normal?
+    fn goes_on(&self, vertex: usize, normal: Vec2) -> bool {
+        let unit = self.context.surroundings.length_unit;
+        let corner = self.core.points[vertex];
+        let mut ghost = false;
+        self.each_neighbour(&[corner], |neighbour| {
+            ghost |= point_gap(neighbour, corner) <= TOLERANCE * unit
+                && support_height(neighbour, normal) - normal.dot(corner) > CONE_TOLERANCE * unit;
+        });
+        ghost
+    }
+
+    /// The contact with the highest solid face that is not covered.
+    fn best_face(&self) -> Verdict {
+        let mut tried = 0_u32;
+        loop {
+            let mut best: Option<(usize, f32, Manifold)> = None;
+            for face in 0..self.core.edge_count() {
+                if tried & 1 << face != 0 || !self.is_solid(face) {
+                    continue;
+                }
+                let manifold = self.collide(face);
+                let Some(deepest) = manifold.deepest() else { continue };
+                let height = deepest.separation;
+                if best.is_none_or(|(_, highest, _)| height > highest) {
+                    best = Some((face, height, manifold));
+                }
+            }
+            let Some((face, _, manifold)) = best else { return Verdict::Drop };
+            let points = [0, 1].map(|k| manifold.points().get(k).map(|p| p.point));
+            if self.guard & guard::face(face) == 0 || !self.is_covered(face, points) {
+                return Verdict::Replace(manifold);
+            }
+            tried |= 1 << face;
+        }
+    }
+
+    fn collide(&self, face: usize) -> Manifold {
+        collide_face(&self.core, face, &self.other_core, self.context.speculative_distance)
+    }
+
+    /// The direction of a one-way platform.
+    fn way(&self) -> Option<Vec2> {
+        let way = self.record.one_way?;
+        let frame = self.record.central.compose(self.record.box_frame);
+        Some(frame.q.unrotate(way).normalized())
+    }
+
+    /// May something stand on this face?
+    fn is_solid(&self, face: usize) -> bool {
+        self.way().is_none_or(|way| self.core.normal(face).dot(way) > ONE_WAY_COSINE)
+    }
+
+    /// Was the other shape above the one-way platform in the last step?
+    fn is_above(&self) -> bool {
+        let Some(way) = self.way() else { return true };
+        let deepest = support_height(&self.core, way) + support_height(&self.other_core, -way);
+        let rows = self.context.body_rows;
+        let velocity = |body: u32| {
+            let row = &rows[body as usize];
+            Vec2::new(row[0], row[1])
+        };
+        let relative = velocity(self.other.body) - velocity(self.record.body);
+        let speed = self.own_pose().q.unrotate(relative).dot(way);
+        let Surroundings { dt, length_unit, .. } = self.context.surroundings;
+        -deepest - speed * dt >= -ONE_WAY_DEPTH * length_unit
+    }
+
+    fn own_pose(&self) -> Pose {
+        boxed_pose(self.context.poses, self.record)
+    }
+
+    /// Visits the cores of the static shapes near some points, in this frame and no fixed order.
+    fn each_neighbour(&self, points: &[Vec2], mut visit: impl FnMut(&Core)) {
+        let Surroundings { broad_phase, length_unit, .. } = self.context.surroundings;
+        let pose = self.own_pose();
+        let bounds = world_box(pose, points, TOLERANCE * length_unit);
+        let any_way = self.record.one_way.is_some();
+        broad_phase.tree(ProxyKind::Static).query(&bounds, u64::MAX, |proxy| {
+            if let Some(index) = broad_phase.user(ProxyId(proxy)) {
+                let neighbour = &self.context.shapes[index as usize];
+                if index != self.own
+                    && is_ground(neighbour, any_way)
+                    && neighbour.body != self.other.body
+                    && neighbour.filter.collides(&self.other.filter)
+                {
+                    let place = boxed_pose(self.context.poses, neighbour).relative_to(pose);
+                    visit(&boxed_core(neighbour).transformed(place));
+                }
+            }
+            ControlFlow::Continue(())
+        });
+    }
+}
+
+/// Can a shape of a static body cover another?
+fn is_ground(record: &ShapeRecord, any_way: bool) -> bool {
+    !record.sensor && record.link.is_none() && (any_way || record.one_way.is_none())
+}
+
+/// The core in the frame of the shape's rounded box.
+fn boxed_core(record: &ShapeRecord) -> Core {
+    record.shape.core().transformed(record.box_frame.inverse())
+}
+
+/// The frame of a shape's rounded box in the world.
+fn boxed_pose(poses: &[Pose], record: &ShapeRecord) -> Pose {
+    poses[record.body as usize].compose(record.central.compose(record.box_frame))
+}
+
+fn middle(core: &Core) -> Vec2 {
+    let sum = core.points().iter().fold(Vec2::ZERO, |sum, point| sum + *point);
+    sum / core.count as f32
+}
+
+fn world_box(pose: Pose, points: &[Vec2], margin: f32) -> Aabb {
+    let mut bounds = Aabb::EMPTY;
+    for point in points {
+        let place: DVec2 = pose.apply(*point);
+        bounds = bounds.union(&Aabb::rounded_out(place, place));
+    }
+    bounds.grown(margin)
+}
+
+/// Finds anew which faces and corners of static shapes others touch, around the places where static
+/// shapes have changed.
+pub(crate) fn refresh(
+    shapes: &mut Shapes,
+    bodies: &Bodies,
+    broad_phase: &BroadPhase,
+    length_unit: f32,
+) {
+    if shapes.changed_ground.is_empty() {
+        return;
+    }
+    let changed = core::mem::take(&mut shapes.changed_ground);
+    let mut near = Vec::new();
+    for bounds in &changed {
+        broad_phase.tree(ProxyKind::Static).query(bounds, u64::MAX, |proxy| {
+            near.extend(broad_phase.user(ProxyId(proxy)));
+            ControlFlow::Continue(())
+        });
+    }
+    near.sort_unstable();
+    near.dedup();
+    for index in near {
+        let touched = touched_features(index, shapes, bodies, broad_phase, length_unit);
+        shapes.set_touched(index, touched);
+    }
+}
+
+/// Faces and corners of a static shape that other static shapes touch, as bits.
+fn touched_features(
+    index: u32,
+    shapes: &Shapes,
+    bodies: &Bodies,
+    broad_phase: &BroadPhase,
+    length_unit: f32,
+) -> u32 {
+    let record = &shapes.records[index as usize];
+    let core = boxed_core(record);
+    let is_static = bodies.infos[record.body as usize].kind == BodyKind::Static;
+    if !is_static || record.sensor || record.link.is_some() || core.radius > 0.0 {
+        return 0;
+    }
+    let tolerance = TOLERANCE * length_unit;
+    let pose = boxed_pose(&bodies.poses, record);
+    let bounds = world_box(pose, core.points(), tolerance);
+    let mut bits = 0;
+    broad_phase.tree(ProxyKind::Static).query(&bounds, u64::MAX, |proxy| {
+        if let Some(other) = broad_phase.user(ProxyId(proxy)).filter(|&other| other != index) {
+            let neighbour = &shapes.records[other as usize];
+            if is_ground(neighbour, record.one_way.is_some()) {
+                let place = boxed_pose(&bodies.poses, neighbour).relative_to(pose);
+                bits |= touched_by(&core, &boxed_core(neighbour).transformed(place), tolerance);
+            }
+        }
+        ControlFlow::Continue(())
+    });
+    bits
+}
+
+/// Faces and corners of `core` that `other` touches; rather one too many.
+fn touched_by(core: &Core, other: &Core, tolerance: f32) -> u32 {
+    let mut bits = 0;
+    for (i, point) in core.points().iter().enumerate() {
+        if point_gap(other, *point) <= tolerance {
+            bits |= guard::corner(i);
+        }
+    }
+    for i in 0..core.edge_count() {
+        let ((start, end), normal) = (core.edge(i), core.normal(i));
+        let along = normal.perp();
+        let above = support_height(other, normal) - normal.dot(start);
+        let below = -support_height(other, -normal) - normal.dot(start);
+        let before = -support_height(other, -along) - along.dot(end);
+        let behind = along.dot(start) - support_height(other, along);
+        let beside = if before > behind { before } else { behind };
+        if above > tolerance && below <= tolerance && beside < -tolerance {
+            bits |= guard::face(i);
+        }
+    }
+    bits
+}
+
+/// May something that moves by `motion` (metres, world) from behind or inside pass this shape? For the
+/// continuous stage: `center` is the moving shape's centre and `place` the other's frame, in one frame.
+pub(crate) fn lets_pass(
+    record: &ShapeRecord,
+    place: Transform,
+    body_rotation: crate::math::Rot,
+    center: Vec2,
+    motion: Vec2,
+) -> bool {
+    if let (Some(_), Shape::Segment { a, b }) = (record.link, record.shape) {
+        let way = b - a;
+        let outside = Vec2::new(way.y, 0.0 - way.x);
+        return outside.dot(place.unapply(center) - a) < 0.0;
+    }
+    record.one_way.is_some_and(|way| body_rotation.rotate(way).dot(motion) >= 0.0)
+}

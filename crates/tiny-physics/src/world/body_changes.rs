@@ -1,0 +1,232 @@
+//! Changing what a body is while the world runs: kind, mass, locks, sleep; and targets for platforms.
+
+use super::World;
+use super::bodies::{Body, BodyMut};
+use super::ids::JointId;
+use crate::describe::{BodyKind, Locks};
+use crate::dynamics::NULL;
+use crate::error::Error;
+use crate::math::{Pose, Vec2};
+
+impl<'a> Body<'a> {
+    /// Does it take part?
+    pub fn is_enabled(&self) -> bool {
+        self.info().enabled
+    }
+
+    /// Directions in which it cannot move.
+    pub fn locks(&self) -> Locks {
+        self.info().locks
+    }
+
+    /// May its island fall asleep?
+    pub fn can_sleep(&self) -> bool {
+        self.info().can_sleep
+    }
+
+    /// Speed below which it counts as at rest, metres a second.
+    pub fn sleep_speed(&self) -> f32 {
+        self.info().sleep_speed
+    }
+
+    /// Factor on the world's gravity.
+    pub fn gravity_scale(&self) -> f32 {
+        self.info().gravity_scale
+    }
+
+    /// Linear and angular damping, 1/s.
+    pub fn damping(&self) -> (f32, f32) {
+        (self.info().linear_damping, self.info().angular_damping)
+    }
+
+    /// Handles of its joints, the newest first.
+    pub fn joints(&self) -> impl Iterator<Item = JointId> + 'a {
+        let world = self.world;
+        world.joints.of_body(self.info().first_joint).map(move |(i, _)| world.joint_id(i))
+    }
+
+    /// Its frame between the start (`alpha` 0) and the end (1) of the last step, for drawing at a rate of its
+    /// own: see [`FixedStep::alpha`](crate::FixedStep::alpha). The end where it did not move in the step or
+    /// was placed by the user since.
+    pub fn interpolated_pose(&self, alpha: f32) -> Pose {
+        let i = self.index as usize;
+        let (start, end) = (self.world.bodies.previous[i], self.world.bodies.poses[i]);
+        let alpha = if alpha.is_finite() { alpha.clamp(0.0, 1.0) } else { 1.0 };
+        let center = start.p + (end.p - start.p) * f64::from(alpha);
+        let rotation = start.q.integrate(end.q.angle_from(start.q) * alpha);
+        Pose::new(center - rotation.rotate(self.local_center()), rotation)
+    }
+}
+
+impl BodyMut<'_> {
+    /// Changes what moves it. Its contacts begin anew; a body that becomes static stops.
+    pub fn set_kind(&mut self, kind: BodyKind) {
+        if self.info().kind == kind {
+            return;
+        }
+        let (world, index) = (&mut *self.world, self.index);
+        world.take_out(index);
+        world.bodies.infos[index as usize].kind = kind;
+        if kind == BodyKind::Static {
+            world.bodies.set_velocity(index, Vec2::ZERO);
+            world.bodies.set_angular_velocity(index, 0.0);
+        }
+        world.update_mass(index);
+        world.put_in(index);
+    }
+
+    /// Takes it out of the simulation, with its shapes and joints, or puts it back. A body that is not enabled
+    /// keeps its place and velocity; nothing touches or sees it.
+    pub fn set_enabled(&mut self, enabled: bool) {
+        if self.info().enabled == enabled {
+            return;
+        }
+        let (world, index) = (&mut *self.world, self.index);
+        world.take_out(index);
+        world.bodies.infos[index as usize].enabled = enabled;
+        world.put_in(index);
+    }
+
+    /// Sets the directions in which it cannot move. Wakes it.
+    pub fn set_locks(&mut self, locks: Locks) {
+        self.accept(&[]);
+        self.info().locks = locks;
+        self.world.bodies.update_inverse_masses(self.index);
+    }
+
+    /// Sets whether its island may fall asleep. Wakes it where not.
+    pub fn set_can_sleep(&mut self, can_sleep: bool) {
+        self.info().can_sleep = can_sleep;
+        if !can_sleep {
+            self.accept(&[]);
+        }
+    }
+
+    /// Sets the speed below which it counts as at rest, metres a second; negative counts as 0.
+    pub fn set_sleep_speed(&mut self, speed: f32) {
+        if self.accept(&[speed]) {
+            self.info().sleep_speed = if speed > 0.0 { speed } else { 0.0 };
+        }
+    }
+
+    /// Sets the mass in kilograms; the moment of inertia follows in proportion. `None` takes both from the
+    /// densities of the shapes. Wakes it.
+    ///
+    /// # Errors
+    /// The mass is not finite or not above 0.
+    pub fn set_mass(&mut self, mass: Option<f32>) -> Result<(), Error> {
+        if let Some(mass) = mass {
+            Error::check_positive("mass", mass)?;
+        }
+        self.accept(&[]);
+        self.info().fixed_mass = mass;
+        self.world.update_mass(self.index);
+        Ok(())
+    }
+
+    /// Gives it the velocity that takes its frame to `target` within `dt` seconds: for moving platforms. It
+    /// goes on at that velocity afterwards, so call this before every step. A platform that is at its target
+    /// and stands still may fall asleep. Nothing happens to a static body, or where a number makes no sense.
+    ///
+    /// ```
+    /// use tiny_physics::{RigidBody, Shape, Transform, Vec2, World};
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let mut world = World::new(Vec2::new(0.0, -10.0));
+    /// let lift = world.add_body(RigidBody::kinematic().shape(Shape::rect(2.0, 0.2)?))?;
+    /// let target = Transform::from_angle(Vec2::new(0.5, 0.25), 0.1);
+    /// world.body_mut(lift).unwrap().set_target(target, 1.0 / 60.0);
+    /// world.step(1.0 / 60.0);
+    /// let pose = world.body(lift).unwrap().pose();
+    /// assert!((pose.to_transform().p - target.p).length() < 1e-5);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn set_target(&mut self, target: impl Into<Pose>, dt: f32) {
+        let target: Pose = target.into();
+        if !target.is_finite() || !dt.is_finite() || dt <= 0.0 {
+            return;
+        }
+        let body = self.as_ref();
+        let rotation = target.q.normalized();
+        let end = target.p + rotation.rotate(body.local_center());
+        let velocity = end.relative_to(body.center()) * (1.0 / dt);
+        let spin = rotation.angle_from(body.rotation()) * (1.0 / dt);
+        let rests = velocity == Vec2::ZERO && spin == 0.0;
+        let rested = body.velocity() == Vec2::ZERO && body.angular_velocity() == 0.0;
+        if !(rests && rested) {
+            self.set_velocity(velocity);
+            self.set_angular_velocity(spin);
+        }
+    }
+}
+
+impl World {
+    /// Takes a body out of the simulation: contacts, lanes of joints, leaves, the awake list. What touched it
+    /// or was joined to it wakes. [`World::put_in`] is the way back.
+    fn take_out(&mut self, index: u32) {
+        self.wake_index(index);
+        self.destroy_contacts_of(index, |_| true);
+        for (joint, partner) in self.joints_and_partners(index) {
+            self.wake_index(partner);
+            self.joint_graph.remove(&mut self.bodies, &mut self.joints, joint);
+        }
+        for shape in self.shapes_of(index) {
+            self.broad_phase.destroy_proxy(self.shapes.proxy(shape));
+            self.shapes.records[shape as usize].proxy = NULL;
+        }
+        self.bodies.infos[index as usize].awake = false;
+        self.bodies.awake.retain(|&i| i != index);
+    }
+
+    /// Puts a body back that was taken out, awake if it can be; does nothing to one that is not enabled.
+    fn put_in(&mut self, index: u32) {
+        let info = &mut self.bodies.infos[index as usize];
+        if !info.enabled {
+            return;
+        }
+        info.sleep_time = 0.0;
+        info.island_next = NULL;
+        if info.kind != BodyKind::Static {
+            info.awake = true;
+            self.bodies.push_awake(index);
+        }
+        self.create_proxies(index);
+        self.mark_shapes_changed(index);
+        for (joint, partner) in self.joints_and_partners(index) {
+            let awake = |body: u32| self.bodies.infos[body as usize].awake;
+            if awake(index) || awake(partner) {
+                self.wake_index(partner);
+                self.joint_graph.insert(&mut self.bodies, &mut self.joints, joint);
+            }
+        }
+    }
+
+    /// The joints of a body with the body at the other end, ascending.
+    fn joints_and_partners(&self, body: u32) -> Vec<(u32, u32)> {
+        let mut joints: Vec<(u32, u32)> = self
+            .joints
+            .of_body(self.bodies.infos[body as usize].first_joint)
+            .map(|(joint, side)| {
+                let record = &self.joints.records[joint as usize];
+                (joint, if side == 0 { record.body_b } else { record.body_a })
+            })
+            .collect();
+        joints.sort_unstable();
+        joints
+    }
+
+    /// Indices of the shapes of a body.
+    pub(super) fn shapes_of(&self, body: u32) -> Vec<u32> {
+        self.shapes.of_body(self.bodies.infos[body as usize].first_shape).collect()
+    }
+
+    /// Handles of the bodies whose pose the last step changed, those that fell asleep in it included. What the
+    /// user placed, and what stood still, is not among them. In index order but for bodies that woke in the
+    /// step, which come last.
+    pub fn moved_bodies(&self) -> impl Iterator<Item = super::BodyId> + '_ {
+        let asleep = self.events.fell_asleep.iter().copied();
+        let asleep = asleep.filter(|&id| self.body(id).is_some_and(|body| !body.is_awake()));
+        let moved = |&&i: &&u32| self.bodies.poses[i as usize] != self.bodies.previous[i as usize];
+        self.bodies.awake.iter().filter(moved).map(|&i| self.body_id(i)).chain(asleep)
+    }
+}

@@ -1,0 +1,523 @@
+//! A character: a capsule that walks through the world by rules, not by forces.
+//!
+//! Each update it rides on what it stands on, is pushed out of what has moved into it, then walks or
+//! falls. On the ground its horizontal speed is what was asked for, uphill and downhill; heights follow the
+//! ground. It keeps a *skin* of a centimetre to everything, so seams between shapes do not exist for it.
+//! In the air it follows the exact parabola, so that where it lands does not depend on the step length.
+//!
+//! The method is cast and slide (Fauerby, *Improved Collision Detection and Response*, 2003), with
+//! steps climbed by casts up, forward and down.
+
+use super::World;
+use super::ids::{BodyId, ShapeId};
+use super::queries::QueryFilter;
+use crate::describe::{BodyKind, Filter};
+use crate::dynamics::ShapeRecord;
+use crate::geometry::{MIN_EXTENT, Shape, distance, shape_cast};
+use crate::math::{Aabb, DVec2, Pose, Rot, Vec2, sin_cos};
+use core::ops::ControlFlow;
+
+/// Most casts of one movement.
+const MAX_CASTS: u32 = 6;
+/// Motion along a surface counts as parting from it down to this sine of an angle.
+const PARALLEL: f32 = 1.0e-4;
+/// An edge whose normal is at least this much upward may have floor behind it.
+const LEAST_EDGE: f32 = 0.05;
+
+/// What a character is asked to do in an update.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct MoverInput {
+    /// Horizontal speed, metres a second; positive to the right of up.
+    pub walk: f32,
+    /// Speed of a jump off the ground, metres a second; 0 is none. Nothing happens in the air.
+    pub jump: f32,
+    /// Falls through one-way platforms.
+    pub drop: bool,
+}
+
+/// What a character stands on.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct MoverGround {
+    /// The body.
+    pub body: BodyId,
+    /// The shape.
+    pub shape: ShapeId,
+    /// Unit normal, world.
+    pub normal: Vec2,
+    /// The place under the foot: world, metres.
+    pub point: DVec2,
+    /// The same place in the body's frame.
+    local: Vec2,
+}
+
+/// A capsule that walks, climbs slopes and steps, jumps, rides on platforms and pushes things.
+///
+/// A plain value beside the world: clone it with the world, or throw it away. It is not a body, so others
+/// do not collide with it; it gets out of their way. Call [`CharacterMover::update`] after each step.
+///
+/// ```
+/// use tiny_physics::{CharacterMover, MoverInput, RigidBody, Shape, Vec2, World};
+/// # fn main() -> Result<(), tiny_physics::Error> {
+/// let mut world = World::new(Vec2::new(0.0, -10.0));
+/// world.add_body(RigidBody::fixed().shape(Shape::rect(20.0, 1.0)?))?;
+/// let mut hero = CharacterMover::new(Vec2::new(0.0, 2.0), 1.8, 0.3);
+/// for _ in 0..120 {
+///     world.step(1.0 / 60.0);
+///     hero.update(&mut world, MoverInput { walk: 3.0, ..MoverInput::default() }, 1.0 / 60.0);
+/// }
+/// assert!(hero.ground().is_some() && (hero.position.x - 6.0).abs() < 0.01);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct CharacterMover {
+    /// The middle of the capsule: world, metres. Set it to teleport.
+    pub position: DVec2,
+    /// Velocity in the air, metres a second; on the ground that of the last update.
+    pub velocity: Vec2,
+    /// Height of the whole capsule, metres.
+    pub height: f32,
+    /// Radius, metres.
+    pub radius: f32,
+    /// Steepest slope that it walks on, radians from level.
+    pub max_slope: f32,
+    /// Highest step that it climbs, metres.
+    pub step_height: f32,
+    /// Greatest drop over which it stays on the ground at a standstill, metres.
+    pub snap_distance: f32,
+    /// Greatest force with which it pushes dynamic bodies, newtons.
+    pub push_force: f32,
+    /// Mass with which it weighs on what it stands on, kilograms.
+    pub mass: f32,
+    /// Factor on the world's gravity.
+    pub gravity_scale: f32,
+    /// Gap that it keeps to everything, metres.
+    pub skin: f32,
+    /// What it collides with.
+    pub filter: Filter,
+    ground: Option<MoverGround>,
+    /// Horizontal speed taken along from a platform, until it lands.
+    drift: f32,
+    /// Ignores one-way platforms in this update.
+    dropping: bool,
+}
+
+/// The first obstacle on a way.
+#[derive(Clone, Copy, Debug)]
+struct Obstacle {
+    fraction: f32,
+    /// Out of the obstacle.
+    normal: Vec2,
+    point: DVec2,
+    shape: u32,
+}
+
+/// Numbers of one update.
+#[derive(Clone, Copy)]
+struct Frame {
+    up: Vec2,
+    right: Vec2,
+    gravity: Vec2,
+    dt: f32,
+}
+
+impl CharacterMover {
+    /// A character of a height and radius (metres) with its middle at a place.
+    pub fn new(position: impl Into<DVec2>, height: f32, radius: f32) -> Self {
+        Self {
+            position: position.into(),
+            velocity: Vec2::ZERO,
+            height,
+            radius,
+            max_slope: 0.9,
+            step_height: 0.35,
+            snap_distance: 0.1,
+            push_force: 500.0,
+            mass: 70.0,
+            gravity_scale: 1.0,
+            skin: 0.01,
+            filter: Filter::default(),
+            ground: None,
+            drift: 0.0,
+            dropping: false,
+        }
+    }
+
+    /// What it stands on; `None` in the air.
+    pub fn ground(&self) -> Option<&MoverGround> {
+        self.ground.as_ref()
+    }
+
+    /// Moves it on by `dt` seconds; call it after [`World::step`] with the same `dt`. Nothing happens where a
+    /// number is not finite or `dt` not above 0.
+    pub fn update(&mut self, world: &mut World, input: MoverInput, dt: f32) {
+        let numbers = [dt, input.walk, input.jump, self.height, self.radius, self.skin];
+        let finite = numbers.iter().all(|number| number.is_finite())
+            && self.position.is_finite()
+            && self.velocity.is_finite()
+            && world.gravity.is_finite();
+        if !finite || dt <= 0.0 || self.radius < MIN_EXTENT {
+            return;
+        }
+        let (down, strength) = world.gravity.direction_and_length();
+        let up = if strength > 0.0 { -down } else { Vec2::Y };
+        let gravity = world.gravity * self.gravity_scale;
+        let frame = Frame { up, right: Vec2::new(up.y, 0.0 - up.x), gravity, dt };
+        self.dropping = input.drop;
+
+        self.ride(world, frame);
+        self.push_out(world, frame);
+        let mut carried = Vec2::ZERO;
+        if self.ground.is_some() && input.jump > 0.0 {
+            // It has gone along with the platform in this step already.
+            carried = self.ground_velocity(world);
+            self.drift = carried.dot(frame.right);
+            self.velocity = up * (input.jump + carried.dot(up));
+            self.ground = None;
+        }
+        if self.ground.is_some() && !input.drop {
+            self.walk(world, frame, input.walk, dt);
+        } else {
+            if self.ground.take().is_some() {
+                self.velocity = Vec2::ZERO;
+            }
+            self.fall(world, frame, input.walk, carried * -dt);
+        }
+        self.weigh(world, frame);
+    }
+
+    /// Goes along with what it stands on.
+    fn ride(&mut self, world: &mut World, frame: Frame) {
+        let Some(ground) = self.ground else { return };
+        let Some(body) = world.body(ground.body) else {
+            self.ground = None;
+            self.velocity = Vec2::ZERO;
+            return;
+        };
+        if body.kind() != BodyKind::Static {
+            let carry = body.pose().apply(ground.local).relative_to(ground.point);
+            self.slide(world, frame, carry, Some(ground.body));
+        }
+    }
+
+    /// Velocity of the ground under the foot.
+    fn ground_velocity(&self, world: &World) -> Vec2 {
+        let velocity = |ground: MoverGround| {
+            let body = world.body(ground.body)?;
+            (body.kind() != BodyKind::Static).then(|| body.velocity_at(ground.point))
+        };
+        self.ground.and_then(velocity).unwrap_or(Vec2::ZERO)
+    }
+
+    /// Moves by `motion`, along obstacles where there are any. What it stands on may be left out.
+    fn slide(&mut self, world: &World, frame: Frame, motion: Vec2, without: Option<BodyId>) {
+        let mut rest = motion;
+        let mut planes = [Vec2::ZERO; MAX_CASTS as usize];
+        for cast in 0..MAX_CASTS as usize {
+            let Some(hit) = self.cast(world, frame, rest, without) else {
+                self.position += rest;
+                return;
+            };
+            self.position += rest * hit.fraction;
+            rest = rest * (1.0 - hit.fraction);
+            planes[cast] = hit.normal;
+            rest = rest - hit.normal * hit.normal.dot(rest);
+            if planes[..cast].iter().any(|plane| plane.dot(rest) < -PARALLEL * rest.length()) {
+                return;
+            }
+        }
+    }
+
+    /// Walks for a time on the ground, then looks for the ground again.
+    fn walk(&mut self, world: &mut World, frame: Frame, speed: f32, time: f32) {
+        let Frame { up, right, .. } = frame;
+        let mut way = speed * time;
+        let drop = way.abs() * self.steepest();
+        for _ in 0..MAX_CASTS {
+            let Some(ground) = self.ground else { break };
+            if way == 0.0 {
+                break;
+            }
+            let walkable = self.is_walkable(ground.normal, up);
+            let normal = if walkable { ground.normal } else { up };
+            let along = Vec2::new(normal.y, 0.0 - normal.x);
+            let motion = along * (way / along.dot(right));
+            let Some(hit) = self.cast(world, frame, motion, None) else {
+                self.position += motion;
+                break;
+            };
+            self.position += motion * hit.fraction;
+            way *= 1.0 - hit.fraction;
+            if self.is_walkable(hit.normal, up) && hit.normal.dot(normal) < 1.0 - 1.0e-6 {
+                self.stand(world, &hit);
+            } else if !self.step_up(world, frame, way) {
+                self.push(world, frame, &hit, speed);
+                break;
+            } else {
+                break;
+            }
+        }
+        self.velocity = right * speed;
+        self.find_ground(world, frame, drop);
+    }
+
+    /// Climbs what stops it, if that is a step: up, forward by `way`, down again.
+    fn step_up(&mut self, world: &World, frame: Frame, way: f32) -> bool {
+        let start = self.position;
+        let foot = start - frame.up * (0.5 * self.height);
+        let rise = frame.up * self.step_height;
+        let free = self.cast(world, frame, rise, None).map_or(1.0, |hit| hit.fraction);
+        self.position += rise * free;
+        let forward = frame.right * way;
+        if self.cast(world, frame, forward, None).is_none() {
+            self.position += forward;
+            let down = rise * -free;
+            if let Some(hit) = self.cast(world, frame, down, None)
+                && hit.fraction < 1.0
+                && hit.point.relative_to(foot).dot(frame.up) <= self.step_height + self.skin
+                && self.holds(world, frame, &hit)
+            {
+                self.position += down * hit.fraction;
+                return true;
+            }
+        }
+        self.position = start;
+        false
+    }
+
+    /// Finds the ground under it and goes down to it, or loses it.
+    fn find_ground(&mut self, world: &World, frame: Frame, drop: f32) {
+        let down = frame.up * -(self.snap_distance + self.skin + drop);
+        match self.cast(world, frame, down, None) {
+            Some(hit) if self.holds(world, frame, &hit) => {
+                self.position += down * hit.fraction;
+                self.stand(world, &hit);
+            }
+            _ => {
+                let platform = self.ground_velocity(world);
+                self.drift = platform.dot(frame.right);
+                self.velocity = frame.up * platform.dot(frame.up);
+                self.ground = None;
+            }
+        }
+    }
+
+    /// Falls along the parabola, with a motion on top; walks on for the rest of the time where it lands.
+    fn fall(&mut self, world: &mut World, frame: Frame, speed: f32, extra: Vec2) {
+        let Frame { up, right, gravity, dt: time } = frame;
+        let vertical = up * self.velocity.dot(up) + right * (speed + self.drift);
+        let mut velocity = vertical + gravity * time;
+        let mut rest = vertical * time + gravity * (0.5 * time * time) + extra;
+        let mut left = time;
+        for _ in 0..MAX_CASTS {
+            let Some(hit) = self.cast(world, frame, rest, None) else {
+                self.position += rest;
+                break;
+            };
+            self.position += rest * hit.fraction;
+            left *= 1.0 - hit.fraction;
+            rest = rest * (1.0 - hit.fraction);
+            if velocity.dot(hit.normal) < 0.0
+                && rest.dot(up) <= 0.0
+                && self.holds(world, frame, &hit)
+            {
+                self.land(world, frame, &hit, speed, left);
+                return;
+            }
+            rest = rest - hit.normal * hit.normal.dot(rest);
+            let into = hit.normal.dot(velocity);
+            if into < 0.0 {
+                velocity = velocity - hit.normal * into;
+            }
+            self.push(world, frame, &hit, speed);
+        }
+        self.velocity = velocity;
+    }
+
+    /// Stands on what it has hit, goes along with it and walks on for the time that is left.
+    fn land(&mut self, world: &mut World, frame: Frame, hit: &Obstacle, speed: f32, left: f32) {
+        self.stand(world, hit);
+        self.drift = 0.0;
+        let carry = self.ground_velocity(world) * left;
+        self.slide(world, frame, carry, self.ground.map(|ground| ground.body));
+        self.walk(world, frame, speed, left);
+    }
+
+    fn stand(&mut self, world: &World, hit: &Obstacle) {
+        let body = world.body_id(world.shapes.records[hit.shape as usize].body);
+        let local = world.body(body).map_or(Vec2::ZERO, |body| body.pose().unapply(hit.point));
+        let shape = world.shape_id(hit.shape);
+        self.ground =
+            Some(MoverGround { body, shape, normal: hit.normal, point: hit.point, local });
+    }
+
+    /// Can it stand on this: a slope that is not too steep, or an edge with such a floor beside it?
+    fn holds(&self, world: &World, frame: Frame, hit: &Obstacle) -> bool {
+        let Frame { up, right, .. } = frame;
+        if self.is_walkable(hit.normal, up) {
+            return true;
+        }
+        if hit.normal.dot(up) < LEAST_EDGE {
+            return false;
+        }
+        let (beside, above, below) = (0.1 * self.radius, 0.3 * self.radius, 0.1 * self.radius);
+        let filter = QueryFilter::from(self.filter);
+        [beside, -beside].into_iter().any(|side| {
+            let origin = hit.point + (right * side + up * above);
+            let floor = world.ray_cast(origin, up * -(above + below), &filter);
+            floor.is_some_and(|floor| self.is_walkable(floor.normal, up))
+        })
+    }
+
+    fn is_walkable(&self, normal: Vec2, up: Vec2) -> bool {
+        normal.dot(up) >= sin_cos(self.max_slope).1 - 1.0e-3
+    }
+
+    /// Tangent of the steepest slope.
+    fn steepest(&self) -> f32 {
+        let (sine, cosine) = sin_cos(self.max_slope);
+        if cosine > 0.1 { sine / cosine } else { 10.0 }
+    }
+
+    /// Pushes a dynamic body that is in the way, up to its own speed and with bounded force.
+    fn push(&self, world: &mut World, frame: Frame, hit: &Obstacle, speed: f32) {
+        let body = world.body_id(world.shapes.records[hit.shape as usize].body);
+        let Some(mut body) = world.body_mut(body) else { return };
+        let view = body.as_ref();
+        let own = (frame.right * speed).dot(-hit.normal);
+        let missing = own - view.velocity_at(hit.point).dot(-hit.normal);
+        if view.kind() != BodyKind::Dynamic || missing <= 0.0 {
+            return;
+        }
+        let (wanted, most) = (missing * view.mass(), self.push_force * frame.dt);
+        let impulse = if wanted < most { wanted } else { most };
+        body.apply_impulse(-hit.normal * impulse, hit.point);
+    }
+
+    /// Weighs on a dynamic body that it stands on.
+    fn weigh(&self, world: &mut World, frame: Frame) {
+        let Some(ground) = self.ground else { return };
+        if let Some(mut body) = world.body_mut(ground.body)
+            && body.as_ref().kind() == BodyKind::Dynamic
+        {
+            body.apply_impulse(frame.gravity * (self.mass * frame.dt), ground.point);
+        }
+    }
+
+    /// Gets out of what overlaps it or comes closer than its skin.
+    fn push_out(&mut self, world: &World, frame: Frame) {
+        let capsule = self.capsule(frame.up, 0.0);
+        for _ in 0..MAX_CASTS {
+            let pose = Pose::new(self.position, Rot::IDENTITY);
+            let bounds = capsule.world_aabb(pose).grown(self.skin);
+            let mut deepest: Option<(f32, Vec2)> = None;
+            for index in self.obstacles(world, &bounds) {
+                let (record, place) = placed(world, index);
+                let gap = distance(&record.shape, &capsule, pose.relative_to(place));
+                let normal = place.q.rotate(gap.normal);
+                let near = gap.separation < self.skin - 1.0e-3;
+                let solid = self.is_solid(world, frame, record, place, -normal);
+                if near && solid && deepest.is_none_or(|(least, _)| gap.separation < least) {
+                    deepest = Some((gap.separation, normal));
+                }
+            }
+            let Some((separation, normal)) = deepest else { return };
+            self.position += normal * (self.skin - separation);
+        }
+    }
+
+    /// The first obstacle on a way; what it is leaving or goes along with is none.
+    fn cast(
+        &self,
+        world: &World,
+        frame: Frame,
+        motion: Vec2,
+        without: Option<BodyId>,
+    ) -> Option<Obstacle> {
+        let length = motion.length();
+        if length == 0.0 {
+            return None;
+        }
+        let capsule = self.capsule(frame.up, self.skin);
+        let pose = Pose::new(self.position, Rot::IDENTITY);
+        let end = Pose::new(self.position + motion, Rot::IDENTITY);
+        let bounds = capsule.world_aabb(pose).union(&capsule.world_aabb(end));
+        let mut first: Option<Obstacle> = None;
+        for shape in self.obstacles(world, &bounds) {
+            let (record, place) = placed(world, shape);
+            if without.is_some_and(|body| body == world.body_id(record.body))
+                || !self.is_solid(world, frame, record, place, motion)
+            {
+                continue;
+            }
+            let way = place.q.unrotate(motion);
+            let Some(hit) = shape_cast(&record.shape, &capsule, pose.relative_to(place), way)
+            else {
+                continue;
+            };
+            let normal = place.q.rotate(hit.normal);
+            if normal.dot(motion) >= -PARALLEL * length {
+                continue;
+            }
+            if first.is_none_or(|first| hit.fraction < first.fraction) {
+                let point = place.apply(hit.point);
+                first = Some(Obstacle { fraction: hit.fraction, normal, point, shape });
+            }
+        }
+        first
+    }
+
+    /// The capsule around its middle, wider by a margin.
+    fn capsule(&self, up: Vec2, margin: f32) -> Shape {
+        let half = 0.5 * self.height - self.radius;
+        let radius = self.radius + margin;
+        if half > MIN_EXTENT {
+            Shape::Capsule { a: up * -half, b: up * half, radius }
+        } else {
+            Shape::Circle { radius }
+        }
+    }
+
+    /// Shapes whose fat boxes overlap a box and that its filter lets it collide with, in index order.
+    fn obstacles(&self, world: &World, bounds: &Aabb) -> Vec<u32> {
+        let mut found = Vec::new();
+        world.broad_phase.query(bounds, self.filter.reach().1, |index| {
+            let record = &world.shapes.records[index as usize];
+            if !record.sensor && self.filter.collides(&record.filter) {
+                found.push(index);
+            }
+            ControlFlow::Continue(())
+        });
+        found.sort_unstable();
+        found
+    }
+
+    /// Is a shape solid for something that moves this way? One-way platforms are from above, chains from
+    /// outside.
+    fn is_solid(
+        &self,
+        world: &World,
+        frame: Frame,
+        record: &ShapeRecord,
+        place: Pose,
+        motion: Vec2,
+    ) -> bool {
+        if let (Some(_), Shape::Segment { a, b }) = (record.link, record.shape) {
+            let way = b - a;
+            return Vec2::new(way.y, 0.0 - way.x).dot(place.unapply(self.position) - a) >= 0.0;
+        }
+        let Some(way) = record.one_way else { return true };
+        let way = world.bodies.poses[record.body as usize].q.rotate(way);
+        if self.dropping || way.dot(motion) >= 0.0 {
+            return false;
+        }
+        let pose = Pose::new(self.position, Rot::IDENTITY);
+        let gap = distance(&record.shape, &self.capsule(frame.up, 0.0), pose.relative_to(place));
+        gap.separation >= -0.5 * self.skin && place.q.rotate(gap.normal).dot(way) > 0.3
+    }
+}
+
+fn placed(world: &World, index: u32) -> (&ShapeRecord, Pose) {
+    let record = &world.shapes.records[index as usize];
+    (record, world.bodies.poses[record.body as usize].compose(record.central))
+}

@@ -1,0 +1,197 @@
+//! Changing a shape while the world runs.
+
+use super::World;
+use super::ids::ShapeId;
+use super::shapes::ShapeRef;
+use crate::describe::{Filter, Material, ShapeDef};
+use crate::dynamics::{NULL, Place};
+use crate::error::Error;
+use crate::geometry::Shape;
+use crate::geometry::manifold::ShapeClass;
+use crate::math::{Transform, Vec2};
+use crate::stages::pairs;
+
+/// A shape of the world, to change. Changes wake its body and what touches it.
+pub struct ShapeMut<'a> {
+    world: &'a mut World,
+    index: u32,
+}
+
+impl World {
+    /// A shape to change; `None` if it has been removed.
+    ///
+    /// ```
+    /// use tiny_physics::{RigidBody, Shape, Vec2, World};
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let mut world = World::new(Vec2::ZERO);
+    /// let body = world.add_body(RigidBody::dynamic().shape(Shape::circle(0.5)?))?;
+    /// let shape = world.body(body).unwrap().shapes().next().unwrap();
+    /// let light = world.body(body).unwrap().mass();
+    /// world.shape_mut(shape).unwrap().set_shape(Shape::circle(1.0)?)?;
+    /// assert_eq!(world.body(body).unwrap().mass(), 4.0 * light);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn shape_mut(&mut self, id: ShapeId) -> Option<ShapeMut<'_>> {
+        let index = self.shape_index(id).ok()?;
+        Some(ShapeMut { world: self, index })
+    }
+}
+
+impl ShapeMut<'_> {
+    /// The shape, to read.
+    pub fn as_ref(&self) -> ShapeRef<'_> {
+        ShapeRef::new(self.world, self.index)
+    }
+
+    /// Changes the geometry; mass and inertia of the body follow, its contacts begin anew.
+    ///
+    /// # Errors
+    /// The geometry is degenerate or not finite.
+    pub fn set_shape(&mut self, shape: impl Into<Shape>) -> Result<(), Error> {
+        let shape = shape.into();
+        shape.validate()?;
+        self.replace(|record| {
+            record.class = ShapeClass::of(&shape);
+            record.shape = shape;
+        });
+        Ok(())
+    }
+
+    /// Changes the place of the shape's frame in the body's frame: metres, radians. Mass and inertia of the
+    /// body follow, its contacts begin anew.
+    ///
+    /// # Errors
+    /// A number is not finite.
+    pub fn set_local(&mut self, offset: Vec2, angle: f32) -> Result<(), Error> {
+        Error::check_finite_vec("offset", offset)?;
+        Error::check_finite("angle", angle)?;
+        self.replace(|record| record.local = Transform::from_angle(offset, angle));
+        Ok(())
+    }
+
+    /// Changes surface and stuff, also for the contacts that it has; mass and inertia of the body follow.
+    ///
+    /// # Errors
+    /// A number is out of range.
+    pub fn set_material(&mut self, material: Material) -> Result<(), Error> {
+        let record = &self.world.shapes.records[self.index as usize];
+        let def = ShapeDef { material, ..ShapeDef::new(record.shape) };
+        super::build::check_shape(&def)?;
+        let (body, density) = (record.body, record.material.density);
+        self.world.shapes.records[self.index as usize].material = material;
+        self.world.wake_index(body);
+        self.world.wake_neighbours(body);
+        if density != material.density {
+            self.world.update_mass(body);
+        }
+        self.world.refresh_contacts_of(self.index);
+        Ok(())
+    }
+
+    /// Changes what it collides with. Contacts that are no longer allowed end.
+    pub fn set_filter(&mut self, filter: Filter) {
+        let (world, index) = (&mut *self.world, self.index);
+        let record = &mut world.shapes.records[index as usize];
+        record.filter = filter;
+        let body = record.body;
+        world.wake_index(body);
+        let (category, mask) = filter.reach();
+        world.broad_phase.set_filter(world.shapes.proxy(index), category, mask);
+        world.sensors.mark_changed(index);
+        world.drop_contacts_of(index, |world, a, b| {
+            let filter = |shape: u32| world.shapes.records[shape as usize].filter;
+            !filter(a).collides(&filter(b))
+        });
+    }
+
+    /// Makes it a sensor or a solid shape. Its contacts end.
+    pub fn set_sensor(&mut self, sensor: bool) {
+        if sensor {
+            self.world.sensors.insert(self.index);
+        } else {
+            self.world.sensors.remove(self.index);
+        }
+        self.replace(|record| record.sensor = sensor);
+    }
+
+    /// Makes it a one-way platform, solid from the side that `direction` (in the body's frame) points out of,
+    /// or solid from everywhere. Its contacts begin anew.
+    ///
+    /// # Errors
+    /// A number is not finite.
+    pub fn set_one_way(&mut self, direction: Option<Vec2>) -> Result<(), Error> {
+        if let Some(direction) = direction {
+            Error::check_finite_vec("one_way", direction)?;
+        }
+        self.replace(|record| record.one_way = direction);
+        Ok(())
+    }
+
+    /// Sets whether contact (begin and end) and hit events are sent. A contact that touches already keeps to
+    /// what it was until it ends.
+    pub fn set_events(&mut self, contact: bool, hit: bool) {
+        let record = &mut self.world.shapes.records[self.index as usize];
+        (record.contact_events, record.hit_events) = (contact, hit);
+        self.world.refresh_contacts_of(self.index);
+    }
+
+    /// Sets the user's number.
+    pub fn set_user_data(&mut self, data: u64) {
+        self.world.shapes.records[self.index as usize].user_data = data;
+    }
+
+    /// Changes the record in a way that lets no contact live on.
+    fn replace(&mut self, change: impl FnOnce(&mut crate::dynamics::ShapeRecord)) {
+        let (world, index) = (&mut *self.world, self.index);
+        let body = world.shapes.records[index as usize].body;
+        world.wake_index(body);
+        world.drop_contacts_of(index, |_, _, _| true);
+        change(&mut world.shapes.records[index as usize]);
+        world.broad_phase.destroy_proxy(world.shapes.proxy(index));
+        world.shapes.records[index as usize].proxy = NULL;
+        world.update_mass(body);
+        world.create_proxies(body);
+        // The centre of mass may be another: the frames of all shapes are computed anew.
+        world.mark_shapes_changed(body);
+    }
+}
+
+impl World {
+    /// Destroys the contacts of a shape whose shapes (A, B) satisfy the predicate.
+    fn drop_contacts_of(&mut self, shape: u32, which: impl Fn(&Self, u32, u32) -> bool) {
+        for index in self.contacts_of(shape) {
+            let contact = &self.contacts.records[index as usize];
+            let (a, b) = (contact.shape_a, contact.shape_b);
+            if which(self, a, b) {
+                self.destroy_contact(index);
+            }
+        }
+    }
+
+    /// Contacts of a shape, ascending.
+    fn contacts_of(&self, shape: u32) -> Vec<u32> {
+        let body = self.shapes.records[shape as usize].body;
+        let first = self.bodies.infos[body as usize].first_contact;
+        let mut indices: Vec<u32> = self.contacts.of_body(first).map(|(index, _)| index).collect();
+        indices.retain(|&index| {
+            let contact = &self.contacts.records[index as usize];
+            contact.shape_a == shape || contact.shape_b == shape
+        });
+        indices.sort_unstable();
+        indices
+    }
+
+    /// Brings what contacts know of the materials of their shapes up to date.
+    fn refresh_contacts_of(&mut self, shape: u32) {
+        for index in self.contacts_of(shape) {
+            let contact = &mut self.contacts.records[index as usize];
+            pairs::mix_materials(contact, &self.settings, &self.shapes);
+            if matches!(contact.place, Place::Graph { .. }) {
+                // Lanes are filled when a contact enters the graph; its impulses live on.
+                self.graph.remove(&mut self.bodies, &mut self.contacts, index);
+                self.graph.insert(&mut self.bodies, &mut self.contacts, index);
+            }
+        }
+    }
+}

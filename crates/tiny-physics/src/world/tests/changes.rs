@@ -1,0 +1,206 @@
+use super::*;
+use crate::describe::{Filter, JointDef, Locks, Material};
+
+#[test]
+fn a_body_changes_its_kind_while_others_lean_on_it() {
+    let mut world = world();
+    add_ground(&mut world);
+    let shelf =
+        world.add_body(RigidBody::fixed().position(Vec2::new(0.0, 3.0)).shape(rect(1.0, 0.2)));
+    let shelf = shelf.unwrap();
+    let load = add(&mut world, 0.0, 3.7, rect(0.5, 0.5));
+    run(&mut world, 120);
+    assert!((y(&world, load) - 3.7).abs() < 0.02);
+    world.body_mut(shelf).unwrap().set_kind(BodyKind::Dynamic);
+    world.validate().unwrap();
+    assert!(world.body(shelf).unwrap().mass() > 0.0 && world.body(shelf).unwrap().is_awake());
+    run(&mut world, 240);
+    assert!((y(&world, shelf) - 0.2).abs() < 0.03 && (y(&world, load) - 0.9).abs() < 0.05);
+    world.body_mut(shelf).unwrap().set_kind(BodyKind::Kinematic);
+    world.body_mut(shelf).unwrap().set_velocity(Vec2::new(0.0, 1.0));
+    run(&mut world, 60);
+    assert!((y(&world, shelf) - 1.2).abs() < 0.03 && (y(&world, load) - 1.9).abs() < 0.06);
+    world.body_mut(shelf).unwrap().set_kind(BodyKind::Static);
+    assert_eq!(world.body(shelf).unwrap().velocity(), Vec2::ZERO);
+    run(&mut world, 60);
+    assert!((y(&world, shelf) - 1.2).abs() < 0.03 && (y(&world, load) - 1.9).abs() < 0.06);
+}
+
+#[test]
+fn a_disabled_body_takes_no_part() {
+    let mut world = world();
+    let ground = add_ground(&mut world);
+    let ball = add(&mut world, 0.0, 0.5, circle(0.5).events());
+    let other = add(&mut world, 0.0, 1.5, circle(0.5));
+    let joint = world.add_joint(ball, other, JointDef::distance(1.0)).unwrap();
+    run(&mut world, 60);
+    world.body_mut(ball).unwrap().set_enabled(false);
+    let place = y(&world, ball);
+    assert!(world.overlap_point(Vec2::new(0.0, 0.5), &QueryFilter::new()).is_empty());
+    world.step(DT);
+    assert_eq!(world.events().contact_end().len(), 1);
+    run(&mut world, 120);
+    assert_eq!(y(&world, ball), place);
+    // The other one fell through it, and the joint did not hold it.
+    assert!((y(&world, other) - 0.5).abs() < 0.05);
+    world.body_mut(other).unwrap().set_position(Vec2::new(0.0, 1.5));
+    world.body_mut(ball).unwrap().set_enabled(true);
+    run(&mut world, 60);
+    assert!(y(&world, other) > 1.3);
+    assert!(world.joint(joint).is_some() && world.body(ground).is_some());
+}
+
+#[test]
+fn locks_hold_and_let_go() {
+    let mut world = world();
+    let ball = add(&mut world, 0.0, 5.0, circle(0.5));
+    world.body_mut(ball).unwrap().set_locks(Locks { y: true, ..Locks::default() });
+    run(&mut world, 30);
+    assert_eq!(y(&world, ball), 5.0);
+    world.body_mut(ball).unwrap().set_locks(Locks::default());
+    run(&mut world, 30);
+    assert!(y(&world, ball) < 4.0);
+}
+
+#[test]
+fn mass_can_be_given_and_taken_back() {
+    let mut world = world();
+    let ball = add(&mut world, 0.0, 5.0, circle(0.5));
+    let (mass, inertia) = (world.body(ball).unwrap().mass(), world.body(ball).unwrap().inertia());
+    world.body_mut(ball).unwrap().set_mass(Some(10.0)).unwrap();
+    assert_eq!(world.body(ball).unwrap().mass(), 10.0);
+    assert!((world.body(ball).unwrap().inertia() / inertia - 10.0 / mass).abs() < 1e-4);
+    assert!(world.body_mut(ball).unwrap().set_mass(Some(0.0)).is_err());
+    world.body_mut(ball).unwrap().set_mass(None).unwrap();
+    assert_eq!(world.body(ball).unwrap().mass(), mass);
+}
+
+#[test]
+fn a_platform_follows_its_target_and_carries() {
+    let mut world = world();
+    let lift = world.add_body(RigidBody::kinematic().shape(rect(2.0, 0.2))).unwrap();
+    let load = add(&mut world, 0.5, 0.7, rect(0.5, 0.5));
+    run(&mut world, 30);
+    for step in 1..=240 {
+        let t = step as f32 / 60.0;
+        world.body_mut(lift).unwrap().set_target(at(t, 0.5 * t), DT);
+        world.step(DT);
+        let p = world.body(lift).unwrap().position();
+        assert!((p - Vec2::new(t, 0.5 * t)).length() < 1e-3);
+        if step > 60 {
+            let gap = y(&world, load) - p.y;
+            assert!((gap - 0.7).abs() < 0.02, "{step} {gap}");
+        }
+    }
+}
+
+#[test]
+fn a_shape_grows_and_pushes() {
+    let mut world = world();
+    add_ground(&mut world);
+    let ball = add(&mut world, 0.0, 0.5, circle(0.5));
+    run(&mut world, 120);
+    let shape = shape_of(&world, ball);
+    world.shape_mut(shape).unwrap().set_shape(Shape::rect(1.0, 1.0).unwrap()).unwrap();
+    world.validate().unwrap();
+    run(&mut world, 180);
+    assert!((y(&world, ball) - 1.0).abs() < 0.03);
+    assert_eq!(world.body(ball).unwrap().mass(), 4.0);
+    assert!(world.shape_mut(shape).unwrap().set_shape(Shape::Circle { radius: -1.0 }).is_err());
+}
+
+#[test]
+fn a_material_changes_under_a_resting_body() {
+    let mut world = world();
+    world.gravity = Vec2::new(4.0, -10.0);
+    let ground = add_ground(&mut world);
+    let box_ = add(&mut world, 0.0, 0.5, rect(0.5, 0.5));
+    run(&mut world, 120);
+    let x = world.body(box_).unwrap().position().x;
+    assert!(x < 0.1, "{x}");
+    let shape = shape_of(&world, ground);
+    let ice = Material { friction: 0.0, ..Material::default() };
+    world.shape_mut(shape).unwrap().set_material(ice).unwrap();
+    run(&mut world, 60);
+    assert!(world.body(box_).unwrap().velocity().x > 3.0);
+    let bad = Material { friction: f32::NAN, ..ice };
+    assert!(world.shape_mut(shape).unwrap().set_material(bad).is_err());
+}
+
+#[test]
+fn a_filter_opens_and_closes_the_floor() {
+    let mut world = world();
+    let ground = add_ground(&mut world);
+    let ball = add(&mut world, 0.0, 0.5, circle(0.5));
+    run(&mut world, 200);
+    assert!(!world.body(ball).unwrap().is_awake());
+    let shape = shape_of(&world, ground);
+    world.shape_mut(shape).unwrap().set_filter(Filter { mask: 0, ..Filter::default() });
+    world.step(DT);
+    assert_eq!(world.events().contact_end().len(), 1);
+    run(&mut world, 20);
+    assert!(y(&world, ball) < 0.3);
+    world.body_mut(ball).unwrap().set_position(Vec2::new(0.0, 2.0));
+    world.shape_mut(shape).unwrap().set_filter(Filter::default());
+    run(&mut world, 120);
+    assert!((y(&world, ball) - 0.5).abs() < 0.02);
+}
+
+#[test]
+fn a_positive_group_overrides_masks() {
+    let mut world = world();
+    let filter = Filter { category: 1, mask: 0, group: 3 };
+    let ground = RigidBody::fixed().shape(rect(5.0, 1.0).filter(filter));
+    world.add_body(ground).unwrap();
+    let ball = add(&mut world, 0.0, 2.0, circle(0.5).filter(filter));
+    run(&mut world, 120);
+    assert!((y(&world, ball) - 1.5).abs() < 0.02);
+}
+
+#[test]
+fn a_solid_shape_becomes_a_sensor_and_back() {
+    let mut world = world();
+    let ground = add_ground(&mut world);
+    let ball = add(&mut world, 0.0, 0.5, circle(0.5));
+    run(&mut world, 30);
+    let shape = shape_of(&world, ground);
+    world.shape_mut(shape).unwrap().set_sensor(true);
+    world.step(DT);
+    assert_eq!(world.events().contact_end().len(), 1);
+    assert_eq!(world.events().sensor_begin().len(), 1);
+    run(&mut world, 10);
+    assert!(y(&world, ball) < 0.45);
+    world.shape_mut(shape).unwrap().set_sensor(false);
+    world.step(DT);
+    assert_eq!(world.events().sensor_end().len(), 1);
+    run(&mut world, 120);
+    assert!((y(&world, ball) - 0.5).abs() < 0.02);
+}
+
+#[test]
+fn settings_without_sense_are_refused() {
+    let mut world = world();
+    world.settings.substeps = 0;
+    assert!(world.try_step(DT).is_err());
+    world.settings = Settings { length_unit: f32::NAN, ..Settings::default() };
+    assert!(world.try_step(DT).is_err());
+    world.step(DT);
+    assert_eq!((world.step_count(), world.stats().refused_steps), (0, 1));
+    world.settings = Settings::default();
+    assert!(world.try_step(DT).is_ok());
+}
+
+#[test]
+fn a_sleep_setting_keeps_a_body_awake() {
+    let mut world = world();
+    add_ground(&mut world);
+    let ball = add(&mut world, 0.0, 0.5, circle(0.5));
+    world.body_mut(ball).unwrap().set_can_sleep(false);
+    run(&mut world, 200);
+    assert!(world.body(ball).unwrap().is_awake());
+    world.body_mut(ball).unwrap().set_can_sleep(true);
+    run(&mut world, 60);
+    assert!(!world.body(ball).unwrap().is_awake());
+    world.body_mut(ball).unwrap().set_can_sleep(false);
+    assert!(world.body(ball).unwrap().is_awake());
+}

@@ -1,0 +1,180 @@
+use super::*;
+
+#[test]
+fn a_hit_tells_the_speed_of_the_fall() {
+    let mut world = world();
+    add_ground(&mut world);
+    let ball = add(&mut world, 0.0, 5.5, circle(0.5).events());
+    let mut hits = Vec::new();
+    for _ in 0..90 {
+        world.step(DT);
+        hits.extend_from_slice(world.events().hits());
+    }
+    // v^2 = 2 g h with h = 5 m.
+    assert_eq!(hits.len(), 1, "{hits:?}");
+    let hit = hits[0];
+    assert!((hit.speed - 10.0).abs() < 0.4, "{hit:?}");
+    assert!(hit.normal.y.abs() > 0.999 && hit.position.y.abs() < 0.2);
+    let ball = shape_of(&world, ball);
+    assert!(hit.shape_a == ball || hit.shape_b == ball);
+}
+
+#[test]
+fn slow_touches_are_no_hits() {
+    let mut world = world();
+    add_ground(&mut world);
+    add(&mut world, 0.0, 0.51, circle(0.5).events());
+    for _ in 0..60 {
+        world.step(DT);
+        assert!(world.events().hits().is_empty());
+    }
+}
+
+#[test]
+fn sensors_see_bodies_of_every_kind() {
+    let mut world = World::new(Vec2::ZERO);
+    let sensor = |kind| RigidBody { kind, ..RigidBody::default() }.shape(rect(1.0, 1.0).sensor());
+    let visitor = |kind| RigidBody { kind, ..RigidBody::default() }.shape(circle(0.3));
+    let kinds = [BodyKind::Static, BodyKind::Kinematic, BodyKind::Dynamic];
+    for of in kinds {
+        let of_id = world.add_body(sensor(of)).unwrap();
+        let of_shape = shape_of(&world, of_id);
+        for kind in kinds {
+            let id = world.add_body(visitor(kind)).unwrap();
+            let shape = shape_of(&world, id);
+            world.body_mut(id).unwrap().sleep();
+            run(&mut world, 2);
+            let sees = of != BodyKind::Static || kind != BodyKind::Static;
+            let seen: Vec<ShapeId> = world.sensor_overlaps(of_shape).collect();
+            assert_eq!(seen, if sees { vec![shape] } else { vec![] }, "{of:?} {kind:?}");
+            world.remove_body(id).unwrap();
+            world.step(DT);
+            assert_eq!(world.events().sensor_end().len(), usize::from(sees));
+            assert_eq!(world.sensor_overlaps(of_shape).count(), 0);
+        }
+        world.remove_body(of_id).unwrap();
+    }
+}
+
+#[test]
+fn sensors_keep_what_sleeps_in_them_and_let_it_go() {
+    let mut world = world();
+    add_ground(&mut world);
+    let gate = world.add_body(RigidBody::fixed().shape(rect(2.0, 2.0).sensor())).unwrap();
+    let gate = shape_of(&world, gate);
+    let ball = add(&mut world, 0.0, 0.5, circle(0.5));
+    let mut begun = 0;
+    for _ in 0..200 {
+        world.step(DT);
+        begun += world.events().sensor_begin().len();
+        assert!(world.events().sensor_end().is_empty());
+    }
+    assert!(!world.body(ball).unwrap().is_awake());
+    assert_eq!(begun, 1);
+    assert_eq!(world.sensor_overlaps(gate).count(), 1);
+    world.body_mut(ball).unwrap().set_position(Vec2::new(9.0, 0.5));
+    world.step(DT);
+    assert_eq!(world.events().sensor_end().len(), 1);
+    assert_eq!(world.sensor_overlaps(gate).count(), 0);
+}
+
+#[test]
+fn a_static_body_that_is_placed_in_a_sleeping_sensor_is_seen() {
+    let mut world = world();
+    add_ground(&mut world);
+    let walker = RigidBody::dynamic()
+        .position(Vec2::new(0.0, 0.5))
+        .shape(circle(0.5))
+        .shape(circle(2.0).density(0.0).sensor());
+    let walker = world.add_body(walker).unwrap();
+    let wall = world.add_body(RigidBody::fixed().position(Vec2::new(9.0, 2.0)).shape(circle(0.2)));
+    let wall = wall.unwrap();
+    run(&mut world, 200);
+    assert!(!world.body(walker).unwrap().is_awake());
+    world.body_mut(wall).unwrap().set_position(Vec2::new(0.0, 2.0));
+    world.step(DT);
+    assert_eq!(world.events().sensor_begin()[0].visitor, shape_of(&world, wall));
+    world.body_mut(wall).unwrap().set_position(Vec2::new(9.0, 2.0));
+    world.step(DT);
+    assert_eq!(world.events().sensor_end()[0].visitor, shape_of(&world, wall));
+}
+
+#[test]
+fn a_bullet_that_goes_through_a_thin_sensor_is_seen() {
+    for threads in [1, 2] {
+        let mut world = World::new(Vec2::ZERO);
+        world.set_threads(threads);
+        let gate = world.add_body(RigidBody::fixed().shape(rect(0.05, 1.0).sensor())).unwrap();
+        let bullet = RigidBody::dynamic().position(Vec2::new(-5.0, 0.0)).shape(circle(0.1));
+        let bullet = world.add_body(bullet.velocity(Vec2::new(180.0, 0.0))).unwrap();
+        let (mut begin, mut end) = (0, 0);
+        for _ in 0..10 {
+            world.step(DT);
+            begin += world.events().sensor_begin().len();
+            end += world.events().sensor_end().len();
+        }
+        assert_eq!((begin, end), (1, 1));
+        assert!(world.body(bullet).unwrap().position().x > 5.0);
+        let _ = gate;
+    }
+}
+
+#[test]
+fn a_wall_before_the_sensor_hides_it_from_a_bullet() {
+    let mut world = World::new(Vec2::ZERO);
+    world.add_body(RigidBody::fixed().shape(rect(0.05, 1.0).sensor())).unwrap();
+    let wall = RigidBody::fixed().position(Vec2::new(-1.0, 0.0)).shape(rect(0.05, 1.0));
+    world.add_body(wall).unwrap();
+    let bullet = RigidBody::dynamic().position(Vec2::new(-3.0, 0.0)).shape(circle(0.1));
+    world.add_body(bullet.velocity(Vec2::new(300.0, 0.0))).unwrap();
+    for _ in 0..20 {
+        world.step(DT);
+        assert!(world.events().sensor_begin().is_empty());
+    }
+}
+
+#[test]
+fn bodies_tell_when_they_move_fall_asleep_and_wake() {
+    let mut world = world();
+    let ground = add_ground(&mut world);
+    let ball = add(&mut world, 0.0, 0.6, circle(0.5));
+    let mut asleep = Vec::new();
+    world.step(DT);
+    assert_eq!(world.moved_bodies().collect::<Vec<_>>(), [ball]);
+    for _ in 0..200 {
+        world.step(DT);
+        asleep.extend_from_slice(world.events().fell_asleep());
+    }
+    assert_eq!(asleep, [ball]);
+    assert_eq!(world.moved_bodies().count(), 0);
+    world.body_mut(ball).unwrap().apply_impulse_to_center(Vec2::new(0.0, 1.0));
+    assert!(world.events().woke().is_empty());
+    world.step(DT);
+    assert_eq!(world.events().woke(), [ball]);
+    assert_eq!(world.moved_bodies().collect::<Vec<_>>(), [ball]);
+    let _ = ground;
+}
+
+#[test]
+fn interpolated_poses_lie_between_the_steps() {
+    let mut world = World::new(Vec2::ZERO);
+    let stick = RigidBody::dynamic().velocity(Vec2::new(6.0, 0.0)).angular_velocity(3.0);
+    let stick = stick.shape(rect(1.0, 0.1).offset(Vec2::new(0.5, 0.0)));
+    let stick = world.add_body(stick).unwrap();
+    let before = world.body(stick).unwrap().pose();
+    world.step(DT);
+    let body = world.body(stick).unwrap();
+    let middle = body.interpolated_pose(0.5);
+    let close = |a: Pose, b: Pose| {
+        (a.p - b.p).to_vec2().length() < 1e-5 && a.q.angle_from(b.q).abs() < 1e-5
+    };
+    assert!(close(body.interpolated_pose(0.0), before));
+    assert!(close(body.interpolated_pose(1.0), body.pose()));
+    assert!((middle.q.angle() - 0.025).abs() < 1e-5);
+    assert!((middle.apply(body.local_center()).x - 0.55).abs() < 1e-4);
+    world.body_mut(stick).unwrap().set_position(Vec2::new(50.0, 0.0));
+    let body = world.body(stick).unwrap();
+    assert!(close(body.interpolated_pose(0.3), body.pose()));
+}
+
+use crate::math::Pose;

@@ -1,0 +1,136 @@
+use super::*;
+use core::f32::consts::PI;
+
+#[test]
+fn an_explosion_falls_off_and_spares_what_is_far() {
+    let mut world = World::new(Vec2::ZERO);
+    let ball = |world: &mut World, x: f32| add(world, x, 0.0, circle(0.5));
+    let (near, half, far) = (ball(&mut world, 2.5), ball(&mut world, -3.5), ball(&mut world, 9.0));
+    let wall = world.add_body(RigidBody::fixed().position(Vec2::new(0.0, 3.0)).shape(circle(0.5)));
+    let blast =
+        Explosion { center: DVec2::ZERO, radius: 2.0, falloff: 2.0, impulse_per_metre: 3.0 };
+    world.explode(&blast, &QueryFilter::new());
+    let mass = PI * 0.25;
+    let speed = |body| world.body(body).unwrap().velocity();
+    // Width 1 m, so 3 Ns at full strength.
+    assert!((speed(near) - Vec2::new(3.0 / mass, 0.0)).length() < 1e-4);
+    assert!((speed(half) - Vec2::new(-1.5 / mass, 0.0)).length() < 1e-4);
+    assert_eq!(speed(far), Vec2::ZERO);
+    assert_eq!(speed(wall.unwrap()), Vec2::ZERO);
+}
+
+#[test]
+fn an_explosion_inside_a_body_pushes_its_center() {
+    let mut world = World::new(Vec2::ZERO);
+    let crate_ = add(&mut world, 0.5, 0.0, rect(1.0, 1.0));
+    let blast =
+        Explosion { center: DVec2::ZERO, radius: 1.0, falloff: 0.0, impulse_per_metre: 2.0 };
+    world.explode(&blast, &QueryFilter::new());
+    let body = world.body(crate_).unwrap();
+    assert!((body.velocity() - Vec2::new(1.0, 0.0)).length() < 1e-5);
+    assert_eq!(body.angular_velocity(), 0.0);
+}
+
+#[test]
+fn a_fall_in_air_reaches_its_terminal_speed() {
+    let mut world = world();
+    let ball = add(&mut world, 0.0, 0.0, circle(0.5).density(2.0));
+    let air = Wind { density: 1.2, drag: 0.8, ..Wind::default() };
+    for _ in 0..600 {
+        world.body_mut(ball).unwrap().apply_wind(&air, DT);
+        world.step(DT);
+    }
+    // m g = 1/2 rho c w v^2.
+    let mass = 2.0 * PI * 0.25;
+    let expected = (mass * 10.0 / (0.5 * 1.2 * 0.8)).sqrt();
+    let speed = -world.body(ball).unwrap().velocity().y;
+    assert!((speed / expected - 1.0).abs() < 0.02, "{speed} {expected}");
+}
+
+#[test]
+fn no_wind_is_too_strong_for_a_step() {
+    let mut world = World::new(Vec2::ZERO);
+    let leaf = add(&mut world, 0.0, 0.0, rect(0.5, 0.01).density(0.01));
+    let storm = Wind { velocity: Vec2::new(0.0, 100.0), density: 1.2, drag: 1.0 };
+    for _ in 0..120 {
+        world.body_mut(leaf).unwrap().apply_wind(&storm, DT);
+        world.step(DT);
+        assert!((0.0..=100.0).contains(&world.body(leaf).unwrap().velocity().y));
+    }
+    assert!(world.body(leaf).unwrap().velocity().y > 95.0);
+}
+
+#[test]
+fn wood_floats_at_the_depth_of_its_density() {
+    for density in [200.0, 500.0, 800.0] {
+        let mut world = world();
+        let crate_ = add(&mut world, 0.0, 0.2, rect(0.5, 0.5).density(density));
+        let water = Water { surface: DVec2::new(0.0, 1.0), ..Water::default() };
+        for _ in 0..900 {
+            world.apply_water(&water, &QueryFilter::new(), DT);
+            world.step(DT);
+        }
+        // Its lower edge is at 1 - density / 1000 * height.
+        let expected = 1.0 - density / 1000.0 + 0.5;
+        assert!((y(&world, crate_) - expected).abs() < 0.01, "{density} {}", y(&world, crate_));
+        // What floats at rest may sleep, and stays there.
+        assert!(!world.body(crate_).unwrap().is_awake());
+    }
+}
+
+#[test]
+fn a_stream_carries_what_swims_and_iron_sinks() {
+    let mut world = world();
+    let cork = add(&mut world, 0.0, 0.0, circle(0.3).density(300.0));
+    let iron = add(&mut world, 5.0, 0.0, circle(0.3).density(7800.0));
+    let flow = Vec2::new(1.5, 0.0);
+    for _ in 0..600 {
+        world.apply_water(&Water { flow, ..Water::default() }, &QueryFilter::new(), DT);
+        world.step(DT);
+    }
+    assert!((world.body(cork).unwrap().velocity().x - 1.5).abs() < 0.02);
+    assert!(y(&world, iron) < -20.0);
+}
+
+#[test]
+fn zones_act_inside_alone() {
+    let mut world = World::new(Vec2::ZERO);
+    let (inside, outside) =
+        (add(&mut world, 0.0, 0.0, circle(0.3)), add(&mut world, 9.0, 0.0, circle(0.3)));
+    let mut zone = ForceZone {
+        shape: Shape::rect(2.0, 2.0).unwrap(),
+        pose: at(0.0, 0.0).into(),
+        force: ZoneForce::Acceleration(Vec2::new(0.0, 3.0)),
+        wakes: true,
+    };
+    for _ in 0..30 {
+        world.apply_zone(&zone, &QueryFilter::new(), DT);
+        world.step(DT);
+    }
+    assert!((world.body(inside).unwrap().velocity().y - 1.5).abs() < 1e-4);
+    assert_eq!(world.body(outside).unwrap().velocity(), Vec2::ZERO);
+    zone.force = ZoneForce::Damping { linear: 2.0, angular: 2.0 };
+    zone.shape = Shape::rect(20.0, 20.0).unwrap();
+    for _ in 0..60 {
+        world.apply_zone(&zone, &QueryFilter::new(), DT);
+        world.step(DT);
+    }
+    // 1.5 exp(-2).
+    assert!((world.body(inside).unwrap().velocity().y - 0.203).abs() < 0.01);
+}
+
+#[test]
+fn a_belt_brings_a_box_to_its_speed() {
+    // The belt is shape A of the contact with a box or capsule, and B of that with a hexagon.
+    let capsule = Shape::capsule(-Vec2::X, Vec2::X, 0.5).unwrap();
+    let hexagon = Shape::regular(6, 0.57).unwrap();
+    for shape in [rect(0.5, 0.5), ShapeDef::new(capsule), ShapeDef::new(hexagon)] {
+        let mut world = world();
+        let belt = rect(50.0, 5.0).tangent_speed(2.0);
+        world.add_body(RigidBody::fixed().position(Vec2::new(0.0, -5.0)).shape(belt)).unwrap();
+        let box_ = add(&mut world, 0.0, 0.5, shape);
+        run(&mut world, 120);
+        let velocity = world.body(box_).unwrap().velocity();
+        assert!((velocity.x - 2.0).abs() < 0.02, "{velocity:?}");
+    }
+}

@@ -1,0 +1,99 @@
+use super::*;
+use crate::describe::Filter;
+
+#[test]
+fn a_pair_filter_lets_friends_pass() {
+    let mut world = world();
+    add_ground(&mut world);
+    world.set_pair_filter(|pair| pair.user_data_a != 7 || pair.user_data_b != 7);
+    let low = add(&mut world, 0.0, 0.5, circle(0.5).user_data(7));
+    let friend = add(&mut world, 0.0, 2.0, circle(0.5).user_data(7));
+    run(&mut world, 120);
+    assert!((y(&world, friend) - 0.5).abs() < 0.02 && (y(&world, low) - 0.5).abs() < 0.02);
+    // A fast friend is not stopped either.
+    let bullet =
+        RigidBody::dynamic().position(Vec2::new(-5.0, 0.5)).shape(circle(0.1).user_data(7));
+    let bullet = bullet.velocity(Vec2::new(300.0, 0.0)).bullet();
+    let bullet = world.add_body(bullet).unwrap();
+    world.step(DT);
+    world.step(DT);
+    assert!(world.body(bullet).unwrap().position().x > 3.0);
+    world.remove_body(bullet).unwrap();
+    world.clear_pair_filter();
+    run(&mut world, 60);
+    let (a, b) = (world.body(low).unwrap().position(), world.body(friend).unwrap().position());
+    assert!((a - b).length() > 0.95);
+    world.set_pair_filter(|_| false);
+    run(&mut world, 30);
+    assert!(y(&world, low) < 0.4 || y(&world, friend) < 0.4);
+}
+
+/// A pile of boxes and circles, with a hook that changes half of the contacts.
+fn pile(threads: usize) -> u64 {
+    let mut world = world();
+    world.set_threads(threads);
+    add_ground(&mut world);
+    for i in 0..80 {
+        let shape = if i % 2 == 0 { rect(0.4, 0.4) } else { circle(0.4) };
+        add(&mut world, (i % 10) as f32 * 0.9 - 4.0, 1.0 + (i / 10) as f32, shape);
+    }
+    world.set_pre_solve(|world, contact, rules| {
+        let moving = world.body(contact.body_b).unwrap().velocity().x > 0.0;
+        rules.enabled = (contact.shape_a.index() + contact.shape_b.index()) % 7 != 0;
+        rules.friction *= if moving { 0.5 } else { 2.0 };
+        rules.restitution = if moving { 0.5 } else { 0.0 };
+    });
+    run(&mut world, 120);
+    world.state_hash()
+}
+
+#[test]
+fn a_pre_solve_hook_is_deterministic_on_threads() {
+    let one = pile(1);
+    assert_eq!(one, pile(2));
+    assert_eq!(one, pile(4));
+}
+
+#[test]
+fn a_pre_solve_hook_switches_contacts_off_and_on() {
+    let mut world = world();
+    add_ground(&mut world);
+    let ball = add(&mut world, 0.0, 0.5, circle(0.5));
+    run(&mut world, 30);
+    world.set_pre_solve(|_, _, rules| rules.enabled = false);
+    run(&mut world, 10);
+    assert!(y(&world, ball) < 0.42);
+    world.clear_pre_solve();
+    run(&mut world, 120);
+    assert!((y(&world, ball) - 0.5).abs() < 0.02);
+}
+
+#[test]
+fn a_pre_solve_hook_makes_things_bounce_from_the_first_touch() {
+    let mut world = world();
+    add_ground(&mut world);
+    let ball = add(&mut world, 0.0, 2.5, circle(0.5));
+    world.set_pre_solve(|_, _, rules| rules.restitution = 1.0);
+    let mut highest: f32 = 0.0;
+    for step in 0..120 {
+        world.step(DT);
+        if step > 45 {
+            highest = highest.max(y(&world, ball));
+        }
+    }
+    assert!((highest - 2.5).abs() < 0.2, "{highest}");
+    world.clear_pre_solve();
+    run(&mut world, 300);
+    assert!((y(&world, ball) - 0.5).abs() < 0.02);
+}
+
+#[test]
+fn groups_pass_each_other() {
+    let mut world = world();
+    add_ground(&mut world);
+    let filter = Filter { group: -2, ..Filter::default() };
+    let low = add(&mut world, 0.0, 0.5, circle(0.5).filter(filter));
+    let high = add(&mut world, 0.0, 2.0, circle(0.5).filter(filter));
+    run(&mut world, 120);
+    assert!((y(&world, high) - y(&world, low)).abs() < 0.02);
+}

@@ -1,0 +1,165 @@
+//! Tile grids in a world: which shapes stand for them, and edits.
+
+use super::World;
+use super::ids::{BodyId, ShapeId, TileGridId};
+use crate::describe::{BLOCK_CELLS, Piece, TileGrid};
+use crate::error::Error;
+
+/// All tile grids of a world.
+#[derive(Clone, Debug, Default)]
+pub(super) struct TileGrids {
+    slots: Vec<Slot>,
+}
+
+#[derive(Clone, Debug)]
+struct Slot {
+    generation: u32,
+    grid: Option<Placed>,
+}
+
+/// A grid and the bodies of its blocks.
+#[derive(Clone, Debug)]
+struct Placed {
+    grid: TileGrid,
+    blocks: Vec<BlockBody>,
+}
+
+/// The body of a block, and the shapes of its pieces.
+#[derive(Clone, Debug, Default)]
+struct BlockBody {
+    body: Option<BodyId>,
+    shapes: Vec<(Piece, ShapeId)>,
+}
+
+impl World {
+    /// Adds a tile map. It is made of static bodies, one for each block of 16 by 16 cells that is not
+    /// empty; their shapes are free of bumps at all seams.
+    ///
+    /// # Errors
+    /// Those of [`TileGrid::validate`].
+    pub fn add_tiles(&mut self, grid: TileGrid) -> Result<TileGridId, Error> {
+        grid.validate()?;
+        let (columns, rows) = grid.blocks();
+        let blocks = vec![BlockBody::default(); columns as usize * rows as usize];
+        let slots = &mut self.tiles.slots;
+        let index = slots.iter().position(|slot| slot.grid.is_none()).unwrap_or_else(|| {
+            slots.push(Slot { generation: 0, grid: None });
+            slots.len() - 1
+        });
+        slots[index].grid = Some(Placed { grid, blocks });
+        let id = TileGridId::new(index as u32, slots[index].generation);
+        for y in 0..rows {
+            for x in 0..columns {
+                self.build_block(id, x, y)?;
+            }
+        }
+        Ok(id)
+    }
+
+    /// Removes a tile map. What rested on it wakes.
+    ///
+    /// # Errors
+    /// The handle is stale.
+    pub fn remove_tiles(&mut self, id: TileGridId) -> Result<(), Error> {
+        let placed = self.placed(id)?.clone();
+        for body in placed.blocks.iter().filter_map(|block| block.body) {
+            // The user may have removed it.
+            let _ = self.remove_body(body);
+        }
+        let slot = &mut self.tiles.slots[id.index()];
+        slot.grid = None;
+        slot.generation = slot.generation.wrapping_add(1);
+        Ok(())
+    }
+
+    /// A tile map as it is now.
+    pub fn tiles(&self, id: TileGridId) -> Option<&TileGrid> {
+        self.placed(id).ok().map(|placed| &placed.grid)
+    }
+
+    /// Handles of all tile maps, in index order.
+    pub fn tile_grid_ids(&self) -> impl Iterator<Item = TileGridId> + '_ {
+        let filled = self.tiles.slots.iter().enumerate().filter(|(_, slot)| slot.grid.is_some());
+        filled.map(|(index, slot)| TileGridId::new(index as u32, slot.generation))
+    }
+
+    /// The tile map that a body belongs to: for contacts and hits, together with
+    /// [`TileGrid::cell_at`].
+    pub fn tiles_of(&self, body: BodyId) -> Option<TileGridId> {
+        self.tile_grid_ids().find(|id| {
+            self.placed(*id)
+                .is_ok_and(|placed| placed.blocks.iter().any(|block| block.body == Some(body)))
+        })
+    }
+
+    /// Sets a cell (0 empties it, `k` is entry `k - 1` of the palette). The time does not depend on the
+    /// size of the map: shapes of the block of 16 by 16 cells are made anew where they differ. What rested
+    /// on them wakes.
+    ///
+    /// # Errors
+    /// The handle is stale, the cell outside, or the value not in the palette.
+    pub fn set_tile(&mut self, id: TileGridId, x: u32, y: u32, value: u16) -> Result<(), Error> {
+        let placed = self.placed_mut(id)?;
+        if placed.grid.get(x, y) == value && x < placed.grid.width && y < placed.grid.height {
+            return Ok(());
+        }
+        placed.grid.set(x, y, value)?;
+        self.build_block(id, x / BLOCK_CELLS, y / BLOCK_CELLS)
+    }
+
+    /// Brings the shapes of a block in line with its cells.
+    fn build_block(&mut self, id: TileGridId, x: u32, y: u32) -> Result<(), Error> {
+        let placed = self.placed(id)?;
+        let grid = &placed.grid;
+        let index = (y * grid.blocks().0 + x) as usize;
+        let pieces = grid.pieces(x, y);
+        let mut block = placed.blocks[index].clone();
+        let new: Vec<Piece> = pieces
+            .iter()
+            .filter(|piece| !block.shapes.iter().any(|(old, _)| old == *piece))
+            .copied()
+            .collect();
+        let shapes: Vec<_> = new.iter().map(|piece| grid.shape(x, y, piece)).collect();
+        let body_def = grid.block_body(x, y);
+        let mut kept = Vec::with_capacity(pieces.len());
+        for (piece, shape) in core::mem::take(&mut block.shapes) {
+            if pieces.contains(&piece) {
+                kept.push((piece, shape));
+            } else {
+                // The user may have removed it.
+                let _ = self.remove_shape(shape);
+            }
+        }
+        let alive = block.body.filter(|body| self.body(*body).is_some());
+        if !shapes.is_empty() {
+            let body = match alive {
+                Some(body) => body,
+                None => self.add_body(body_def)?,
+            };
+            block.body = Some(body);
+            for (piece, shape) in new.into_iter().zip(shapes) {
+                kept.push((piece, self.add_shape(body, shape)?));
+            }
+        }
+        block.shapes = kept;
+        self.placed_mut(id)?.blocks[index] = block;
+        Ok(())
+    }
+
+    fn placed(&self, id: TileGridId) -> Result<&Placed, Error> {
+        let slot = self.tiles.slots.get(id.index());
+        let slot = slot.filter(|slot| slot.generation == id.generation);
+        slot.and_then(|slot| slot.grid.as_ref()).ok_or_else(|| id.into())
+    }
+
+    fn placed_mut(&mut self, id: TileGridId) -> Result<&mut Placed, Error> {
+        let slot = self.tiles.slots.get_mut(id.index());
+        let slot = slot.filter(|slot| slot.generation == id.generation);
+        slot.and_then(|slot| slot.grid.as_mut()).ok_or_else(|| id.into())
+    }
+
+    /// Cell values of all grids, for the hash.
+    pub(super) fn tile_values(&self) -> impl Iterator<Item = &[u16]> + '_ {
+        self.tiles.slots.iter().flat_map(|slot| &slot.grid).map(|placed| &placed.grid.cells[..])
+    }
+}

@@ -1,0 +1,234 @@
+//! Nothing catches on seams: frictionless bodies slide over floors made of many shapes and keep their
+//! speed and their height.
+
+use tiny_physics::{ChainDef, RigidBody, Shape, ShapeDef, Vec2, World};
+
+const SPEED: f32 = 10.0;
+const TILES: i32 = 60;
+
+fn world() -> World {
+    World::new(Vec2::new(0.0, -10.0))
+}
+
+fn tile() -> ShapeDef {
+    ShapeDef::new(Shape::rect(0.5, 0.5).unwrap()).friction(0.0)
+}
+
+/// The movers: boxes and circles of several sizes, a capsule, a rounded box and a hexagon.
+fn movers() -> Vec<(&'static str, Shape, f32)> {
+    let capsule = Shape::capsule(Vec2::new(-0.3, 0.0), Vec2::new(0.3, 0.0), 0.25).unwrap();
+    let polygon = tiny_physics::Polygon::rect(0.4, 0.3).unwrap().rounded(0.1).unwrap();
+    vec![
+        ("box", Shape::rect(0.5, 0.5).unwrap(), 0.5),
+        ("wide box", Shape::rect(1.3, 0.3).unwrap(), 0.3),
+        ("upright box", Shape::Aabb { half_extents: Vec2::new(0.3, 0.4) }, 0.4),
+        ("circle", Shape::circle(0.5).unwrap(), 0.5),
+        ("small circle", Shape::circle(0.2).unwrap(), 0.2),
+        ("capsule", capsule, 0.25),
+        ("rounded box", polygon.into(), 0.4),
+        ("hexagon", Shape::regular(6, 0.5).unwrap(), 0.433_012_7),
+    ]
+}
+
+/// Speed kept (1 is all), highest hop (metres), and the way made as a part of speed * time.
+struct Ride {
+    kept: f32,
+    hop: f32,
+    way: f32,
+}
+
+fn ride(world: &World, shape: Shape, height: f32) -> Ride {
+    let mut world = world.clone();
+    let start = Vec2::new(2.25, height);
+    let def = ShapeDef::new(shape).friction(0.0);
+    let body = RigidBody::dynamic().position(start).velocity(Vec2::new(SPEED, 0.0)).shape(def);
+    let body = world.add_body(body).unwrap();
+    let (mut top, mut bottom) = (f32::MIN, f32::MAX);
+    let steps = 300;
+    for _ in 0..steps {
+        world.step(1.0 / 60.0);
+        let y = world.body(body).unwrap().position().y;
+        (top, bottom) = (top.max(y), bottom.min(y));
+    }
+    world.validate().unwrap();
+    let body = world.body(body).unwrap();
+    let time = steps as f32 / 60.0;
+    Ride {
+        kept: body.velocity().x / SPEED,
+        hop: (top - height).max(height - bottom - 0.006).max(0.0),
+        way: (body.position().x - start.x) / (SPEED * time),
+    }
+}
+
+fn check(name: &str, world: &World) {
+    for (mover, shape, height) in movers() {
+        let ride = ride(world, shape, height);
+        println!("{name}: {mover}: kept {} hop {} way {}", ride.kept, ride.hop, ride.way);
+    }
+    for (mover, shape, height) in movers() {
+        let ride = ride(world, shape, height);
+        assert!(ride.kept > 0.999, "{name}: {mover} keeps {} of its speed", ride.kept);
+        assert!(ride.hop < 0.001, "{name}: {mover} hops {} m", ride.hop);
+        assert!(ride.way > 0.998, "{name}: {mover} makes {} of its way", ride.way);
+    }
+}
+
+#[test]
+fn one_box_is_the_reference() {
+    let mut world = world();
+    let floor = Shape::Aabb { half_extents: Vec2::new(60.0, 0.5) };
+    let floor = ShapeDef::new(floor).friction(0.0);
+    world.add_body(RigidBody::fixed().position(Vec2::new(0.0, -0.5)).shape(floor)).unwrap();
+    check("one box", &world);
+}
+
+#[test]
+fn separate_bodies() {
+    let mut world = world();
+    for x in 0..TILES {
+        let center = Vec2::new(x as f32 + 0.5, -0.5);
+        world.add_body(RigidBody::fixed().position(center).shape(tile())).unwrap();
+    }
+    check("separate bodies", &world);
+}
+
+#[test]
+fn two_rows_of_separate_bodies() {
+    let mut world = world();
+    for (x, y) in (0..TILES).flat_map(|x| [(x, -0.5), (x, -1.5)]) {
+        let center = Vec2::new(x as f32 + 0.5, y);
+        world.add_body(RigidBody::fixed().position(center).shape(tile())).unwrap();
+    }
+    check("two rows", &world);
+}
+
+#[test]
+fn one_body_of_many_boxes() {
+    let mut body = RigidBody::fixed();
+    for x in 0..TILES {
+        body = body.shape(tile().offset(Vec2::new(x as f32 + 0.5, -0.5)));
+    }
+    let mut world = world();
+    world.add_body(body).unwrap();
+    check("one body", &world);
+}
+
+#[test]
+fn several_bodies_of_several_boxes_that_differ() {
+    let mut world = world();
+    for k in 0..TILES / 4 {
+        let mut body = RigidBody::fixed().position(Vec2::new(k as f32 * 4.0, 0.0));
+        for (x, half_height) in [(0.5, 0.5), (1.5, 1.0), (2.5, 0.25), (3.5, 2.0)] {
+            let shape = if half_height == 1.0 {
+                Shape::Aabb { half_extents: Vec2::new(0.5, half_height) }
+            } else {
+                Shape::rect(0.5, half_height).unwrap()
+            };
+            let shape = ShapeDef::new(shape).friction(0.0);
+            body = body.shape(shape.offset(Vec2::new(x, -half_height)));
+        }
+        world.add_body(body).unwrap();
+    }
+    check("several bodies", &world);
+}
+
+#[test]
+fn a_chain() {
+    let points: Vec<Vec2> = (0..=TILES).rev().map(|x| Vec2::new(x as f32, 0.0)).collect();
+    let mut world = world();
+    let ground = world.add_body(RigidBody::fixed()).unwrap();
+    world.add_chain(ground, &ChainDef::open(&points).friction(0.0)).unwrap();
+    check("chain", &world);
+}
+
+#[test]
+fn tiles_that_are_added_and_removed_stay_smooth() {
+    let mut world = world();
+    let mut old = Vec::new();
+    for x in 0..TILES {
+        let center = Vec2::new(x as f32 + 0.5, -0.5);
+        old.push(world.add_body(RigidBody::fixed().position(center).shape(tile())).unwrap());
+    }
+    world.step(1.0 / 60.0);
+    for (x, id) in old.into_iter().enumerate().filter(|(x, _)| x % 2 == 0) {
+        world.remove_body(id).unwrap();
+        let center = Vec2::new(x as f32 + 0.5, -0.75);
+        let shape = ShapeDef::new(Shape::rect(0.5, 0.75).unwrap()).friction(0.0);
+        world.add_body(RigidBody::fixed().position(center).shape(shape)).unwrap();
+    }
+    check("replaced tiles", &world);
+}
+
+#[test]
+fn real_corners_still_hold() {
+    // A step of 10 cm stops a box; a wall of two boxes stops a circle that rolls over a seam into it.
+    let mut world = world();
+    for x in 0..20 {
+        let y = if x >= 10 { -0.4 } else { -0.5 };
+        let center = Vec2::new(x as f32 + 0.5, y);
+        world.add_body(RigidBody::fixed().position(center).shape(tile())).unwrap();
+    }
+    let body = RigidBody::dynamic().position(Vec2::new(5.0, 0.5)).velocity(Vec2::new(4.0, 0.0));
+    let shape = ShapeDef::new(Shape::rect(0.5, 0.5).unwrap()).friction(0.0);
+    let body = world.add_body(body.shape(shape).lock_rotation()).unwrap();
+    for _ in 0..120 {
+        world.step(1.0 / 60.0);
+    }
+    let body = world.body(body).unwrap();
+    assert!((body.position().x - 9.5).abs() < 0.02, "{:?}", body.position());
+    assert!(body.velocity().length() < 0.01);
+}
+
+#[test]
+fn a_chain_is_solid_from_one_side_and_round_its_ends() {
+    let mut world = world();
+    let ground = world.add_body(RigidBody::fixed()).unwrap();
+    world.add_chain(ground, &ChainDef::open(&[Vec2::new(2.0, 0.0), Vec2::new(-2.0, 0.0)])).unwrap();
+    let ball = |x: f32, y: f32, v: f32| {
+        let shape = Shape::circle(0.25).unwrap();
+        RigidBody::dynamic().position(Vec2::new(x, y)).velocity(Vec2::new(0.0, v)).shape(shape)
+    };
+    let above = world.add_body(ball(0.0, 2.0, -30.0)).unwrap();
+    let below = world.add_body(ball(1.0, -1.0, 12.0)).unwrap();
+    let mut highest = f32::MIN;
+    for _ in 0..240 {
+        world.step(1.0 / 60.0);
+        highest = highest.max(world.body(below).unwrap().position().y);
+    }
+    assert!(highest > 1.0, "passes from behind: {highest}");
+    for id in [above, below] {
+        let y = world.body(id).unwrap().position().y;
+        assert!((y - 0.25).abs() < 0.01, "comes to rest on top: {y}");
+    }
+}
+
+#[test]
+fn a_one_way_platform_lets_pass_from_below_and_holds_from_above() {
+    let mut world = world();
+    for x in -2..=2 {
+        let shape = tile().one_way(Vec2::Y).offset(Vec2::new(x as f32, 0.0));
+        world.add_body(RigidBody::fixed().shape(shape)).unwrap();
+    }
+    for (shape, half) in [
+        (Shape::rect(0.4, 0.4).unwrap(), 0.4),
+        (Shape::circle(0.3).unwrap(), 0.3),
+        (Shape::capsule(Vec2::new(0.0, -0.2), Vec2::new(0.0, 0.2), 0.2).unwrap(), 0.4),
+    ] {
+        for speed in [9.0, 12.0, 25.0] {
+            let mut world = world.clone();
+            let start = Vec2::new(0.3, -1.5);
+            let body = RigidBody::dynamic().position(start).velocity(Vec2::new(0.0, speed));
+            let body = world.add_body(body.shape(shape).lock_rotation()).unwrap();
+            let mut highest = f32::MIN;
+            for _ in 0..420 {
+                world.step(1.0 / 60.0);
+                highest = highest.max(world.body(body).unwrap().position().y);
+            }
+            let body = world.body(body).unwrap();
+            let expected = start.y + speed * speed / 20.0;
+            assert!((highest - expected).abs() < 0.3, "{highest} instead of {expected}");
+            assert!((body.position().y - 0.5 - half).abs() < 0.01, "{:?}", body.position());
+            assert!((body.position().x - 0.3).abs() < 0.01, "{:?}", body.position());
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Tile maps: smooth seams, slopes, edits while running, queries, other bodies beside them.
+
+use tiny_physics::{
+    QueryFilter, RigidBody, Shape, ShapeDef, Tile, TileForm, TileGrid, Vec2, World,
+};
+
+const SPEED: f32 = 10.0;
+
+fn world() -> World {
+    World::new(Vec2::new(0.0, -10.0))
+}
+
+fn slider(shape: Shape, place: Vec2) -> RigidBody {
+    let shape = ShapeDef::new(shape).friction(0.0);
+    RigidBody::dynamic().position(place).velocity(Vec2::new(SPEED, 0.0)).shape(shape)
+}
+
+fn shapes() -> [(Shape, f32); 4] {
+    [
+        (Shape::rect(0.5, 0.5).unwrap(), 0.5),
+        (Shape::rect(1.6, 0.3).unwrap(), 0.3),
+        (Shape::circle(0.5).unwrap(), 0.5),
+        (Shape::circle(0.2).unwrap(), 0.2),
+    ]
+}
+
+/// Slides over ground whose surface is at height 0 and checks speed and height.
+fn slide(world: &World, steps: u32) {
+    for (shape, height) in shapes() {
+        let mut world = world.clone();
+        let body = world.add_body(slider(shape, Vec2::new(2.3, height))).unwrap();
+        let (mut top, mut bottom) = (f32::MIN, f32::MAX);
+        for _ in 0..steps {
+            world.step(1.0 / 60.0);
+            let y = world.body(body).unwrap().position().y - height;
+            (top, bottom) = (top.max(y), bottom.min(y));
+        }
+        world.validate().unwrap();
+        let kept = world.body(body).unwrap().velocity().x / SPEED;
+        println!("kept {kept}, top {top}, bottom {bottom}");
+        assert!(kept > 0.999 && kept < 1.001, "{kept}");
+        assert!(top < 0.001 && bottom > -0.007, "{bottom} to {top}");
+    }
+}
+
+#[test]
+fn tiles_of_one_size_or_several_are_smooth() {
+    let long = "#".repeat(64);
+    let mixed = "##_#".replace('_', "\"").repeat(16);
+    let grid = TileGrid::parse(1.0, &[&mixed, &long]).unwrap().friction(0.0);
+    let mut world = world();
+    world.add_tiles(grid.position(Vec2::new(0.0, -2.0))).unwrap();
+    slide(&world, 300);
+}
+
+#[test]
+fn tiles_meet_other_bodies_and_other_grids() {
+    let mut world = world();
+    let row = "#".repeat(20);
+    for (i, x) in [0.0, 24.0, 44.0].into_iter().enumerate() {
+        let size = if i == 1 { 1.0 } else { 0.5 };
+        let row = if i == 1 { row.clone() } else { row.repeat(2) };
+        let grid = TileGrid::parse(size, &[&row]).unwrap().friction(0.0);
+        world.add_tiles(grid.position(Vec2::new(x, -f64::from(size) as f32))).unwrap();
+    }
+    let bridge = ShapeDef::new(Shape::rect(2.0, 0.25).unwrap()).friction(0.0);
+    world.add_body(RigidBody::fixed().position(Vec2::new(22.0, -0.25)).shape(bridge)).unwrap();
+    slide(&world, 300);
+}
+
+#[test]
+fn a_box_over_many_tiles_has_two_points() {
+    let mut world = world();
+    let grid = TileGrid::parse(0.5, &["################", "################"]).unwrap();
+    world.add_tiles(grid).unwrap();
+    let shape = Shape::rect(1.5, 0.5).unwrap();
+    let body = RigidBody::dynamic().position(Vec2::new(4.0, 1.5)).shape(shape).can_sleep(false);
+    world.add_body(body).unwrap();
+    (0..60).for_each(|_| world.step(1.0 / 60.0));
+    let points: usize = world.contacts().map(|contact| contact.points().len()).sum();
+    assert_eq!(points, 2);
+}
+
+#[test]
+fn edits_while_running_drop_and_hold() {
+    let mut world = world();
+    let grid = TileGrid::parse(1.0, &["####", "####"]).unwrap();
+    let tiles = world.add_tiles(grid).unwrap();
+    let shape = Shape::rect(0.4, 0.4).unwrap();
+    let body = world.add_body(RigidBody::dynamic().position(Vec2::new(1.5, 2.4)).shape(shape));
+    let body = body.unwrap();
+    (0..120).for_each(|_| world.step(1.0 / 60.0));
+    assert!(!world.body(body).unwrap().is_awake());
+    world.set_tile(tiles, 1, 1, 0).unwrap();
+    assert!(world.body(body).unwrap().is_awake());
+    (0..120).for_each(|_| world.step(1.0 / 60.0));
+    world.validate().unwrap();
+    assert!((world.body(body).unwrap().position().y - 1.4).abs() < 0.01);
+    assert_eq!(world.tiles(tiles).unwrap().get(1, 1), 0);
+    // Ids and bodies lead back to the grid.
+    let ground = world.contacts().next().map(|c| c.body_a);
+    assert!(ground.is_none_or(|id| world.tiles_of(id) == Some(tiles) || id == body));
+    world.remove_tiles(tiles).unwrap();
+    assert!(world.set_tile(tiles, 0, 0, 1).is_err() && world.tiles(tiles).is_none());
+    assert_eq!(world.body_count(), 1);
+}
+
+#[test]
+fn edits_cost_the_same_in_large_maps() {
+    // Not timed: counted. An edit touches the shapes of one block only.
+    let mut world = world();
+    let palette = vec![Tile::new(TileForm::Full)];
+    let mut grid = TileGrid::new(1.0, 512, 128, palette);
+    grid.cells.fill(1);
+    let tiles = world.add_tiles(grid).unwrap();
+    assert_eq!(world.shape_count(), 32 * 8);
+    let before: Vec<_> = world.shape_ids().collect();
+    world.set_tile(tiles, 100, 70, 0).unwrap();
+    let same = world.shape_ids().filter(|id| before.contains(id)).count();
+    assert_eq!(same, 32 * 8 - 1);
+    assert_eq!(world.shape_count(), 32 * 8 - 1 + 4);
+}
+
+#[test]
+fn rays_see_tiles() {
+    let mut world = world();
+    let tiles = world.add_tiles(TileGrid::parse(1.0, &["..#", "/##"]).unwrap()).unwrap();
+    let all = QueryFilter::new();
+    let hit = world.ray_cast(Vec2::new(-5.0, 1.5), Vec2::new(10.0, 0.0), &all).unwrap();
+    assert!((hit.point.x - 2.0).abs() < 1e-5 && hit.normal == -Vec2::X);
+    assert_eq!(world.tiles_of(hit.body), Some(tiles));
+    let hit = world.ray_cast(Vec2::new(0.5, 5.0), Vec2::new(0.0, -10.0), &all).unwrap();
+    assert!((hit.point.y - 0.5).abs() < 1e-5 && (hit.normal.x + hit.normal.y).abs() < 1e-5);
+}
+
+#[test]
+fn slopes_are_smooth() {
+    // A frictionless circle goes down a long slope of tiles as down a plane: it keeps its energy, and
+    // its velocity stays along the slope.
+    let steep: Vec<String> =
+        (0..12).map(|k| format!("{}\\{}", "#".repeat(k), ".".repeat(11 - k))).collect();
+    let gentle: Vec<String> =
+        (0..12).map(|k| format!("{}HL{}", "##".repeat(k), "..".repeat(11 - k))).collect();
+    for (rows, normal) in [(steep, Vec2::new(1.0, 1.0)), (gentle, Vec2::new(1.0, 2.0))] {
+        let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
+        let grid = TileGrid::parse(1.0, &rows).unwrap().friction(0.0);
+        let width = grid.width as f32;
+        let mut world = world();
+        world.add_tiles(grid).unwrap();
+        let normal = normal.normalized();
+        let start = Vec2::new(1.0, 12.0 - 12.0 / width) + normal * 0.3;
+        let shape = ShapeDef::new(Shape::circle(0.3).unwrap()).friction(0.0);
+        let body = world.add_body(RigidBody::dynamic().position(start).shape(shape)).unwrap();
+        let energy = |world: &World| {
+            let body = world.body(body).unwrap();
+            0.5 * body.velocity().length_sq() + 10.0 * body.position().y
+        };
+        while world.body(body).unwrap().position().x < width - 2.0 {
+            world.step(1.0 / 60.0);
+            let across = world.body(body).unwrap().velocity().dot(normal);
+            // Gravity of a step and settling in the first.
+            assert!(across.abs() < 0.05, "{across}");
+            assert!(world.step_count() < 600, "it is stuck");
+        }
+        world.validate().unwrap();
+        let lost = 1.0 - (energy(&world) - 10.0) / (10.0 * start.y - 10.0);
+        println!("lost {lost}");
+        assert!(lost.abs() < 0.01, "{lost}");
+    }
+}
