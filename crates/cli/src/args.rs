@@ -58,6 +58,18 @@ Examples:
   tiny-physics run my_scene.json --json"
     )]
     Run(RunArgs),
+    /// Measure the engine against scenes whose right answer is known
+    #[command(
+        after_help = "Columns 'Box2D' and 'Rapier' are reference figures measured elsewhere (August 2026), not by this run.
+docs/quality.md says in plain words what each row is.
+
+Examples:
+  tiny-physics quality
+  tiny-physics quality stack pyramid
+  tiny-physics quality 6 7 --variant
+  tiny-physics quality --json > quality.json"
+    )]
+    Quality(QualityArgs),
     /// Draw a scene into a PNG picture or a GIF animation
     #[command(
         after_help = "A .png shows the last step; with --every, numbered pictures of every K-th step are written.
@@ -186,6 +198,23 @@ pub struct RunArgs {
     pub json: bool,
     #[command(flatten)]
     pub world: WorldArgs,
+}
+
+/// Options of `quality`.
+#[derive(Args, Clone, Debug)]
+pub struct QualityArgs {
+    /// Numbers or names of rows; all where not said
+    #[arg(value_name = "ROW")]
+    pub rows: Vec<String>,
+    /// Play each row in its other variant: other sizes, masses, angles and speeds
+    #[arg(long)]
+    pub variant: bool,
+    /// Let nothing fall asleep: harder than the defaults, which the targets are for
+    #[arg(long)]
+    pub awake: bool,
+    /// Report as JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Options of `render`.

@@ -15,8 +15,13 @@ fn main() {
     let mut passed = 0;
     for row in rows().iter().filter(|row| wanted.is_empty() || wanted.contains(&row.id)) {
         let start = Instant::now();
-        let report = row.run(&our_engine, variant, &mut |_, _| {});
+        let report = row.run(&our_engine, variant, std::env::var("AWAKE").is_ok(), &mut |_, _| {});
         passed += u32::from(report.pass);
+        if std::env::var("SHORT").is_ok() {
+            print!("{}:", report.id);
+            report.measures.iter().for_each(|m| print!("{:.2} ", m.use_of_target()));
+            continue;
+        }
         let seconds = start.elapsed().as_secs_f64();
         println!("{:2} {} ({seconds:.1} s)", report.id, report.name);
         for measure in &report.measures {

@@ -20,6 +20,7 @@ pub enum Variant {
 pub struct Lab<'a> {
     make: MakeSubject<'a>,
     variant: Variant,
+    awake: bool,
     progress: &'a mut dyn FnMut(u64, u64),
     done: u64,
     total: u64,
@@ -29,10 +30,15 @@ impl<'a> Lab<'a> {
     /// A lab for one row. `progress` is told of steps done and steps expected.
     pub fn new(
         make: MakeSubject<'a>,
-        variant: Variant,
+        (variant, awake): (Variant, bool),
         progress: &'a mut dyn FnMut(u64, u64),
     ) -> Self {
-        Self { make, variant, progress, done: 0, total: 0 }
+        Self { make, variant, awake, progress, done: 0, total: 0 }
+    }
+
+    /// Lets the bodies of a scene fall asleep where the engine thinks fit, unless all has to stay awake.
+    pub fn may_sleep(&self, scene: &mut Scene) {
+        scene.bodies.iter_mut().for_each(|body| body.can_sleep = !self.awake);
     }
 
     /// The first value for the usual variant, the second for the other.

@@ -6,7 +6,7 @@
 //!
 //! ```
 //! use tiny_physics_quality::{Variant, find, our_engine};
-//! let report = find("free spin").unwrap().run(&our_engine, Variant::Usual, &mut |_, _| {});
+//! let report = find("free spin").unwrap().run(&our_engine, Variant::Usual, false, &mut |_, _| {});
 //! assert_eq!(report.id, 18);
 //! ```
 

@@ -1,7 +1,7 @@
 //! Pieces that the scenes of the suite are made of.
 //!
 //! Unless a row says otherwise: gravity 10, steps of 1/60 s, the engine's default settings, boxes of 1 m,
-//! density 1, friction 0.6, no restitution. Nothing falls asleep: standing still has to be earned.
+//! density 1, friction 0.6, no restitution. Only towers and pyramids may sleep, as engines do by default.
 
 use tiny_physics::{Polygon, RigidBody, Shape, ShapeDef, Vec2};
 use tiny_physics_scenes::Scene;

@@ -3,6 +3,7 @@
 mod demo;
 mod list;
 mod player;
+mod quality;
 mod record;
 mod render;
 mod run;
@@ -21,6 +22,7 @@ pub fn run(cli: Cli) -> Outcome {
         Some(Command::Demo(args)) => demo::run(&args),
         Some(Command::List(args)) => list::run(&args),
         Some(Command::Run(args)) => run::run(&args),
+        Some(Command::Quality(args)) => quality::run(&args),
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::View(args)) => view::run(&args),
         Some(Command::Record(args)) => record::record(&args),

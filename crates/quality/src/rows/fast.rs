@@ -30,8 +30,10 @@ pub(super) fn thin_wall(lab: &mut Lab<'_>) -> Vec<Measure> {
     let mut scene = weightless("head on");
     for i in 0..shots {
         let (gap, y) = (10.0 + 0.053 * (i * 17 % 100) as f32, 20.0 * i as f32);
-        scene.body(shot(i, Vec2::new(-gap, y), speed(i)).bullet());
-        scene.body(shot(i, Vec2::new(gap, y), -speed(shots - 1 - i)).bullet());
+        // Square on: what is hit askew goes past by right.
+        let straight = |body: RigidBody| body.angle(0.0).angular_velocity(0.0).bullet();
+        scene.body(straight(shot(i, Vec2::new(-gap, y), speed(i))));
+        scene.body(straight(shot(i, Vec2::new(gap, y), -speed(shots - 1 - i))));
     }
     let mut trial = lab.build(scene);
     lab.run(&mut trial, 1.0, |_| {});

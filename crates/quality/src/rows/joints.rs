@@ -208,8 +208,13 @@ pub(super) fn pendulum_apex(lab: &mut Lab<'_>) -> Vec<Measure> {
     let swing = 7.5 / omega;
     lab.run(&mut trial, swing, |trial| apex = apex.max(trial.position(ball).y));
     vec![
-        Measure::new("60 s, apex lost", -apex / length, "m of 1 m", Target::AtMost(0.005))
-            .reference("0.011", "0.585"),
+        Measure::new(
+            "60 s, apex lost",
+            -apex / length,
+            "m of 1 m",
+            Target::Within { value: 0.0, tolerance: 0.005 },
+        )
+        .reference("0.011", "0.585"),
     ]
 }
 

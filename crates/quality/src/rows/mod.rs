@@ -21,14 +21,16 @@ pub struct Row {
 }
 
 impl Row {
-    /// Plays the row. `progress` is told of steps done and steps expected, now and then.
+    /// Plays the row. `awake` forbids all sleep: harder than an engine's defaults. `progress` is told of
+    /// steps done and steps expected, now and then.
     pub fn run(
         &self,
         make: MakeSubject<'_>,
         variant: Variant,
+        awake: bool,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Report {
-        let mut lab = Lab::new(make, variant, progress);
+        let mut lab = Lab::new(make, (variant, awake), progress);
         Report::new(self.id, self.name, (self.play)(&mut lab))
     }
 }

@@ -13,6 +13,7 @@ pub(super) fn pyramid(lab: &mut Lab<'_>) -> Vec<Measure> {
     let base = lab.pick(40, 30);
     let mut scene = floored("pyramid");
     add_pyramid(&mut scene, base, 0.0);
+    lab.may_sleep(&mut scene);
     let crates = 1..scene.bodies.len();
     let mut trial = lab.build(scene);
     lab.run(&mut trial, 1.0, |_| {});

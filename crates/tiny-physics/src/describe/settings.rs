@@ -59,7 +59,7 @@ pub struct Settings {
     pub iterations: u32,
     /// Units a metre-scaled constant is multiplied by: set 100 where a crate is 100 units (pixels) wide.
     pub length_unit: f32,
-    /// Greatest contact stiffness, hertz; the substep rate lowers it where needed.
+    /// Greatest contact stiffness, hertz; at most 0.22 of the substep rate is used.
     pub contact_hertz: f32,
     /// Contact damping ratio, no unit.
     pub contact_damping_ratio: f32,
@@ -111,8 +111,8 @@ impl Default for Settings {
             substeps: 4,
             iterations: 1,
             length_unit: 1.0,
-            contact_hertz: 30.0,
-            contact_damping_ratio: 10.0,
+            contact_hertz: 240.0,
+            contact_damping_ratio: 3.0,
             push_speed: 3.0,
             restitution_threshold: 1.0,
             hit_event_threshold: 1.0,

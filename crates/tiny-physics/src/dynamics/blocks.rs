@@ -117,6 +117,12 @@ lane_block! {
         /// Greatest normal impulse over the substeps.
         peak_1: f32 = 0.0,
         peak_2: f32 = 0.0,
+        /// Speed at which a point that hits is to leave; 0 for points that do not.
+        bounce_1: f32 = 0.0,
+        bounce_2: f32 = 0.0,
+        /// What made it leave, newton seconds.
+        bounce_impulse_1: f32 = 0.0,
+        bounce_impulse_2: f32 = 0.0,
     }
 }
 

@@ -200,7 +200,7 @@ mod tests {
             (r#"{"polygon":{"vertices":[[0,0],[1,0],[0,1]],"radius":-1}}"#, "corner radius is -1"),
             (r#"{"rect":{"half_extents":[1,0]}}"#, "half height is 0"),
             (r#"{"segment":{"a":[1,1],"b":[1,1]}}"#, "segment is shorter"),
-            (r#"{"circle":{"radius":1e300}}"#, "radius is inf"),
+            (r#"{"circle":{"radius":1e30}}"#, "radius is 1000000015"),
         ] {
             let error = read(text).unwrap_err();
             assert!(error.contains(reason), "{text}: {error}");

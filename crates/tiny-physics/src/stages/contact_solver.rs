@@ -18,6 +18,7 @@
 //! and, one lane wide, for the overflow.
 
 use crate::dynamics::{BlockHead, Bucket, ConstraintBlock, PointLanes, Slot, SurfaceBlock, flags};
+use crate::math::Vec2;
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
 use crate::threads::{SharedRows, SharedSlice, Team};
 
@@ -59,6 +60,11 @@ pub(crate) struct Parameters {
     pub(crate) push_speed: f32,
     /// Approach below this does not bounce, metres a second.
     pub(crate) restitution_threshold: f32,
+    /// Metres a second squared.
+    pub(crate) gravity: Vec2,
+    /// Lengths of substep and step, seconds.
+    pub(crate) h: f32,
+    pub(crate) dt: f32,
 }
 
 /// One of the passes of a substep (or, for restitution, of the step).
@@ -71,7 +77,8 @@ pub(crate) enum Pass {
     WarmStartJointed,
     Solve,
     Relax,
-    Restitution,
+    AimBounce,
+    Bounce,
 }
 
 /// Blocks that one member of the team solves at a time.
@@ -169,7 +176,8 @@ impl<const POINTS: usize> LaneKernel for Points<POINTS, RunPass<'_>> {
                     }
                     Pass::Solve => solve::<L, POINTS>(&stride, block, surface, flags),
                     Pass::Relax => relax::<L, POINTS>(&stride, block, surface, flags),
-                    Pass::Restitution => restitution::<L, POINTS>(&stride, block, surface, flags),
+                    Pass::AimBounce => aim_bounce::<L, POINTS>(&stride, block, surface, flags),
+                    Pass::Bounce => bounce::<L, POINTS>(&stride, block, surface, flags),
                 }
             }
         }
@@ -181,9 +189,13 @@ struct Constants<L> {
     zero: L,
     inv_h: L,
     push: L,
+    fast: L,
     soft: [L; 3],
     static_soft: [L; 3],
     threshold: L,
+    gravity: [L; 2],
+    half_h: L,
+    dt: L,
 }
 
 impl<L: Lanes> Constants<L> {
@@ -197,12 +209,20 @@ impl<L: Lanes> Constants<L> {
             zero: splat(0.0),
             inv_h: splat(parameters.inv_h),
             push: splat(-parameters.push_speed),
+            fast: splat(-FAST_APPROACH * parameters.push_speed),
             soft: soft(parameters.soft),
             static_soft: soft(parameters.static_soft),
             threshold: splat(-parameters.restitution_threshold),
+            gravity: [splat(parameters.gravity.x), splat(parameters.gravity.y)],
+            half_h: splat(0.5 * parameters.h),
+            dt: splat(parameters.dt),
         }
     }
 }
+
+/// Overlaps that close in this many times faster than they would be pushed out are solved without
+/// softness, which would let a part of the speed pass.
+const FAST_APPROACH: f32 = 10.0;
 
 /// Where in a block a kernel works, and on what rows.
 struct Stride<'a, L: Lanes> {
@@ -356,14 +376,30 @@ fn solve<L: Lanes, const POINTS: usize>(
 ) {
     let mut pair = Pair::load(stride, block);
     let soft = pair.softness(stride.constants);
-    for k in 0..POINTS {
-        let impulse = solve_normal::<L, true>(stride, &mut pair, &mut block.points[k], soft);
-        if flags & (flags::RESTITUTION | flags::HIT) != 0 {
-            let peak = if k == 0 { &mut surface.peak_1 } else { &mut surface.peak_2 };
+    let impulses = solve_normals::<L, POINTS, true>(stride, &mut pair, block, soft);
+    if flags & (flags::RESTITUTION | flags::HIT) != 0 {
+        let peaks = [&mut surface.peak_1, &mut surface.peak_2];
+        for (peak, impulse) in peaks.into_iter().zip(impulses).take(POINTS) {
             stride.store(stride.load(peak).max(impulse), peak);
         }
     }
     pair.store(stride, block);
+}
+
+/// Normal impulses of all points; gives the accumulated ones.
+#[inline(always)]
+fn solve_normals<L: Lanes, const POINTS: usize, const BIAS: bool>(
+    stride: &Stride<'_, L>,
+    pair: &mut Pair<L>,
+    block: &mut ConstraintBlock,
+    soft: [L; 3],
+) -> [L; 2] {
+    if POINTS == 2 {
+        solve_both::<L, BIAS>(stride, pair, block, soft)
+    } else {
+        let impulse = solve_normal::<L, BIAS>(stride, pair, &mut block.points[0], soft);
+        [impulse, stride.constants.zero]
+    }
 }
 
 /// Normal impulse of one point; gives the accumulated impulse.
@@ -383,7 +419,8 @@ fn solve_normal<L: Lanes, const BIAS: bool>(
     let velocity = pair.normal_velocity(arm_a, arm_b);
     let impulse = if BIAS {
         let bias = L::select(apart, s * constants.inv_h, (bias_rate * s).max(constants.push));
-        let velocity = L::select(apart, velocity, mass_scale * velocity);
+        let rigid = L::or(apart, velocity.lt(constants.fast));
+        let velocity = L::select(rigid, velocity, mass_scale * velocity);
         let decay = L::select(apart, constants.zero, impulse_scale * old);
         old - mass * (velocity + bias) - decay
     } else {
@@ -394,6 +431,124 @@ fn solve_normal<L: Lanes, const BIAS: bool>(
     stride.store(impulse, &mut point.normal_impulse);
     pair.push(impulse - old, arm_a, arm_b);
     impulse
+}
+
+/// Normal impulses of both points at once: a stack stands as straight as it was built.
+///
+/// With K the points' response, G = K11, K22 * impulse_scale / mass_scale on the diagonal (the softness;
+/// nothing where a point is apart) and A = K + G, the new impulses p solve the linear complementarity
+/// problem `p >= 0, A p + q >= 0, p (A p + q) = 0` with `q = v + bias / mass_scale - K p_old`. Both push,
+/// or one, or none. Points so close to each other that A is nearly singular (determinant below
+/// [`LEAST_DETERMINANT`] of the diagonal's product), and single points, go one after the other.
+#[inline(always)]
+fn solve_both<L: Lanes, const BIAS: bool>(
+    stride: &Stride<'_, L>,
+    pair: &mut Pair<L>,
+    block: &mut ConstraintBlock,
+    [push_rate, mass_scale, _]: [L; 3],
+) -> [L; 2] {
+    let zero = stride.constants.zero;
+    let one = L::splat(stride.token, 1.0);
+    let inv_scale = if BIAS { one / mass_scale } else { one };
+    let soft = [push_rate, mass_scale, inv_scale];
+    let k12 = {
+        let [first, second] = &block.points;
+        let inv_mass = pair.a[Slot::INV_MASS] + pair.b[Slot::INV_MASS];
+        let turn_a = stride.load(&first.normal_arm_a) * stride.load(&second.normal_arm_a);
+        let turn_b = stride.load(&first.normal_arm_b) * stride.load(&second.normal_arm_b);
+        inv_mass + pair.a[Slot::INV_INERTIA] * turn_a + pair.b[Slot::INV_INERTIA] * turn_b
+    };
+    let first = Normal::load::<BIAS>(stride, pair, &block.points[0], soft);
+    let second = Normal::load::<BIAS>(stride, pair, &block.points[1], soft);
+    let q = [first.demand - k12 * second.old, second.demand - k12 * first.old];
+
+    let product = first.diagonal * second.diagonal;
+    let determinant = product - k12 * k12;
+    let least = L::splat(stride.token, LEAST_DETERMINANT) * product;
+    let exist = L::and(first.mass.gt(zero), second.mass.gt(zero));
+    let sound = L::and(exist, determinant.gt(least));
+    let inverse = one / L::select(sound, determinant, one);
+    let both = [
+        (k12 * q[1] - second.diagonal * q[0]) * inverse,
+        (k12 * q[0] - first.diagonal * q[1]) * inverse,
+    ];
+    let both_push = L::and(zero.le(both[0]), zero.le(both[1]));
+    let alone = [(-(first.mass * q[0])).max(zero), (-(second.mass * q[1])).max(zero)];
+    let first_holds = zero.le(q[1] + k12 * alone[0]);
+    let alone = [L::select(first_holds, alone[0], zero), L::select(first_holds, zero, alone[1])];
+    let turn_1 = (-(first.mass * (q[0] + k12 * second.old))).max(zero);
+    let turn_2 = (-(second.mass * (q[1] + k12 * turn_1))).max(zero);
+
+    let choose =
+        |k: usize, in_turn: L| L::select(sound, L::select(both_push, both[k], alone[k]), in_turn);
+    let impulses = [choose(0, turn_1), choose(1, turn_2)];
+    for (point, (normal, impulse)) in
+        block.points.iter_mut().zip([first, second].into_iter().zip(impulses))
+    {
+        stride.store(impulse, &mut point.normal_impulse);
+        pair.push(impulse - normal.old, normal.arm_a, normal.arm_b);
+    }
+    impulses
+}
+
+/// Determinants below this part of the diagonal's product count as singular: card houses, whose points
+/// are 2 mm apart, fall at 0.001.
+const LEAST_DETERMINANT: f32 = 0.01;
+
+/// One of two points as [`solve_both`] needs it.
+struct Normal<L> {
+    arm_a: L,
+    arm_b: L,
+    old: L,
+    /// Diagonal of A, and its inverse; zero where there is no point.
+    diagonal: L,
+    mass: L,
+    /// v + bias / mass_scale - K p_old, without the other point's part.
+    demand: L,
+}
+
+impl<L: Lanes> Normal<L> {
+    #[inline(always)]
+    fn load<const BIAS: bool>(
+        stride: &Stride<'_, L>,
+        pair: &Pair<L>,
+        point: &PointLanes,
+        [push_rate, mass_scale, inv_scale]: [L; 3],
+    ) -> Self {
+        let constants = stride.constants;
+        let (arm_a, arm_b) = (stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b));
+        let (a, b) = (&pair.a, &pair.b);
+        let k = a[Slot::INV_MASS]
+            + b[Slot::INV_MASS]
+            + a[Slot::INV_INERTIA] * arm_a * arm_a
+            + b[Slot::INV_INERTIA] * arm_b * arm_b;
+        let (mass, old) = (stride.load(&point.normal_mass), stride.load(&point.normal_impulse));
+        let s = pair.separation(stride.load(&point.separation), arm_a, arm_b);
+        let velocity = pair.normal_velocity(arm_a, arm_b);
+        let apart = s.gt(constants.zero);
+        let gap = s * constants.inv_h;
+        if !BIAS {
+            let bias = L::select(apart, gap, constants.zero);
+            return Self {
+                arm_a,
+                arm_b,
+                old,
+                diagonal: k,
+                mass,
+                demand: velocity + bias - k * old,
+            };
+        }
+        let rigid = L::or(apart, velocity.lt(constants.fast));
+        let push = (push_rate * s).max(constants.push) * inv_scale;
+        Self {
+            arm_a,
+            arm_b,
+            old,
+            diagonal: L::select(rigid, k, k * inv_scale),
+            mass: L::select(rigid, mass, mass * mass_scale),
+            demand: velocity + L::select(apart, gap, push) - k * old,
+        }
+    }
 }
 
 /// Friction, rolling resistance, and normal impulses without bias.
@@ -413,9 +568,7 @@ fn relax<L: Lanes, const POINTS: usize>(
         solve_rolling::<L, POINTS>(stride, &mut pair, block, surface);
     }
     let soft = stride.constants.soft;
-    for point in &mut block.points[..POINTS] {
-        solve_normal::<L, false>(stride, &mut pair, point, soft);
-    }
+    solve_normals::<L, POINTS, false>(stride, &mut pair, block, soft);
     pair.store(stride, block);
 }
 
@@ -471,9 +624,59 @@ fn roll<L: Lanes>(pair: &mut Pair<L>, impulse: L) {
     pair.b[Slot::W] = pair.b[Slot::W] + pair.b[Slot::INV_INERTIA] * impulse;
 }
 
-/// After the substeps: points that hit fast enough leave with restitution times their approach.
+/// Before the substeps: finds the points that will hit in this step, and the speed at which they are to
+/// leave.
+///
+/// With approach v, separation s, closing acceleration c and restitution e, the surfaces meet at speed
+/// `sqrt(v^2 + 2 c s)`. The bounce takes place here, at separation s, so the speed that has to be set is
+/// `sqrt(e^2 (v^2 + 2 c s) - 2 c s)`. Velocities of the semi-implicit scheme are half a substep late:
+/// `c h / 2` is missing from the approach and needed on top of the speed.
 #[inline(always)]
-fn restitution<L: Lanes, const POINTS: usize>(
+fn aim_bounce<L: Lanes, const POINTS: usize>(
+    stride: &Stride<'_, L>,
+    block: &ConstraintBlock,
+    surface: &mut SurfaceBlock,
+    flags: u8,
+) {
+    if flags & flags::RESTITUTION == 0 {
+        return;
+    }
+    let constants = stride.constants;
+    let zero = constants.zero;
+    let pair = Pair::load(stride, block);
+    let bounce = stride.load(&surface.restitution);
+    let pull = pair.normal[0] * constants.gravity[0] + pair.normal[1] * constants.gravity[1];
+    // What falls onto something fixed; what falls together does not close in.
+    let (fixed_a, fixed_b) = (pair.a[Slot::INV_MASS].le(zero), pair.b[Slot::INV_MASS].le(zero));
+    let closing = L::select(fixed_b, pull, zero) - L::select(fixed_a, pull, zero);
+    let closing = closing.max(zero);
+    let late = closing * constants.half_h;
+    for k in 0..POINTS {
+        let point = &block.points[k];
+        let (arm_a, arm_b) = (stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b));
+        let s = stride.load(&point.separation);
+        let velocity = pair.normal_velocity(arm_a, arm_b);
+        let fall = (closing + closing) * s;
+        let hit = L::and(
+            L::and(velocity.lt(constants.threshold), (s + velocity * constants.dt).lt(zero)),
+            L::and(zero.lt(bounce), zero.lt(stride.load(&point.normal_mass))),
+        );
+        let approach = late - velocity;
+        let meet = (approach * approach + fall).max(zero);
+        let leave = (bounce * bounce * meet - fall).max(zero).sqrt() + late;
+        let (target, push) = if k == 0 {
+            (&mut surface.bounce_1, &mut surface.bounce_impulse_1)
+        } else {
+            (&mut surface.bounce_2, &mut surface.bounce_impulse_2)
+        };
+        stride.store(L::select(hit, leave, zero), target);
+        stride.store(zero, push);
+    }
+}
+
+/// Lets the points found by [`aim_bounce`] leave at their speeds.
+#[inline(always)]
+fn bounce<L: Lanes, const POINTS: usize>(
     stride: &Stride<'_, L>,
     block: &mut ConstraintBlock,
     surface: &mut SurfaceBlock,
@@ -482,28 +685,33 @@ fn restitution<L: Lanes, const POINTS: usize>(
     if flags & flags::RESTITUTION == 0 {
         return;
     }
-    let constants = stride.constants;
+    let zero = stride.constants.zero;
     let mut pair = Pair::load(stride, block);
-    let bounce = stride.load(&surface.restitution);
     for k in 0..POINTS {
-        let (approach, peak) = if k == 0 {
-            (stride.load(&surface.approach_1), &mut surface.peak_1)
+        let (target, push, peak) = if k == 0 {
+            (&surface.bounce_1, &mut surface.bounce_impulse_1, &mut surface.peak_1)
         } else {
-            (stride.load(&surface.approach_2), &mut surface.peak_2)
+            (&surface.bounce_2, &mut surface.bounce_impulse_2, &mut surface.peak_2)
         };
         let point = &mut block.points[k];
-        let hit = L::and(
-            L::and(approach.lt(constants.threshold), constants.zero.lt(stride.load(peak))),
-            constants.zero.lt(bounce),
-        );
         let (arm_a, arm_b) = (stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b));
-        let old = stride.load(&point.normal_impulse);
-        let velocity = pair.normal_velocity(arm_a, arm_b);
-        let target = old - stride.load(&point.normal_mass) * (velocity + bounce * approach);
-        let impulse = L::select(hit, target.max(constants.zero), old);
-        stride.store(impulse, &mut point.normal_impulse);
+        let target = stride.load(target);
+        let old = stride.load(push);
+        let missing = target - pair.normal_velocity(arm_a, arm_b);
+        let impulse = (old + stride.load(&point.normal_mass) * missing).max(zero);
+        let impulse = L::select(zero.lt(target), impulse, old);
+        stride.store(impulse, push);
         stride.store(stride.load(peak).max(impulse), peak);
         pair.push(impulse - old, arm_a, arm_b);
     }
     pair.store(stride, block);
+}
+
+/// Has [`Pass::AimBounce`] found a point of the bucket that hits?
+pub(crate) fn any_bounce(bucket: &Bucket) -> bool {
+    let aims = |surface: &SurfaceBlock| {
+        surface.bounce_1.iter().chain(&surface.bounce_2).any(|&target| target > 0.0)
+    };
+    let blocks = bucket.heads.iter().zip(&bucket.surfaces);
+    blocks.into_iter().any(|(head, surface)| head.flags & flags::RESTITUTION != 0 && aims(surface))
 }

@@ -34,31 +34,36 @@ pub(crate) fn run(
     rules: Rules<'_>,
 ) {
     for bullets in [false, true] {
-        for body in fast.iter_mut() {
-            if bodies.infos[body.body as usize].bullet == bullets {
-                sweep(body, bodies, shapes, joints, broad_phase, rules);
+        for index in 0..fast.len() {
+            if bodies.infos[fast[index].body as usize].bullet == bullets {
+                fast[index].fraction =
+                    sweep(fast, index, bodies, shapes, joints, broad_phase, rules);
             }
         }
     }
 }
 
-/// Sets one body back to its first impact, if it has one, and updates its boxes.
+/// Sets one body back to its first impact, if it has one, and updates its boxes; the part of its motion
+/// that it may have.
 fn sweep(
-    fast: &mut FastBody,
+    all: &[FastBody],
+    index: usize,
     bodies: &mut Bodies,
     shapes: &mut Shapes,
     joints: &Joints,
     broad_phase: &mut BroadPhase,
     rules: Rules<'_>,
-) {
-    let fraction = Impact { fast, bodies, shapes, joints, broad_phase, rules }.first_fraction();
-    fast.fraction = fraction;
+) -> f32 {
+    let fast = &all[index];
+    let fraction =
+        Impact { fast, all, index, bodies, shapes, joints, broad_phase, rules }.first_fraction();
     if fraction < 1.0 {
         let position = fast.start.p + fast.motion * fraction;
         let rotation = fast.start.q.integrate(fast.turn * fraction);
         bodies.poses[fast.body as usize] = Pose::new(position, rotation);
     }
     update_boxes(bodies, shapes, broad_phase, fast.body, fast.motion * fraction);
+    fraction
 }
 
 /// A disk about the middle of a shape, half as thick as it. What a shape touches already at the start of
@@ -90,6 +95,9 @@ impl Inner {
 /// The search for the first impact of a body.
 struct Impact<'a> {
     fast: &'a FastBody,
+    /// All fast bodies by body, of which it is the one at `index`.
+    all: &'a [FastBody],
+    index: usize,
     bodies: &'a Bodies,
     shapes: &'a Shapes,
     joints: &'a Joints,
@@ -151,33 +159,45 @@ impl Impact<'_> {
             return first;
         }
         let pose = self.bodies.poses[other.body as usize];
-        let place = Transform::new(pose.p.relative_to(self.fast.start.p), pose.q);
-        let at = place.compose(other.central);
+        let at = self.place(pose).compose(other.central);
         let center = self.fast.start.q.rotate(record.central.p);
         if surfaces::lets_pass(other, at, pose.q, center, self.fast.motion) {
             return first;
         }
-        let fixed = Sweep::fixed(at);
-        let toi = time_of_impact(&record.shape, moving, &other.shape, &fixed, first);
         // One-way platforms stop only what comes from their solid side.
         let solid_along = |way: Vec2| {
             one_way::is_solid_side(other, -way, pose.q)
                 && one_way::is_solid_side(record, way, self.fast.start.q)
         };
-        match toi.state {
-            ToiState::Hit | ToiState::Limit
-                if solid_along(toi.normal)
-                    && !self.is_ghost(record, index, moving.at(toi.fraction).relative_to(at)) =>
-            {
-                toi.fraction
+        let meet = |motion: &Sweep, first: f32| {
+            let toi = time_of_impact(&record.shape, moving, &other.shape, motion, first);
+            let there = motion.at(toi.fraction);
+            match toi.state {
+                ToiState::Hit | ToiState::Limit
+                    if solid_along(toi.normal)
+                        && !self.is_ghost(
+                            record,
+                            index,
+                            moving.at(toi.fraction).relative_to(there),
+                        ) =>
+                {
+                    toi.fraction
+                }
+                // What it touches it may be passing through from behind.
+                ToiState::Hit | ToiState::Limit | ToiState::Touching
+                    if solid_along(self.fast.motion.normalized()) =>
+                {
+                    inner.first_fraction(&other.shape, motion, first)
+                }
+                ToiState::Hit | ToiState::Limit | ToiState::Separated | ToiState::Touching => first,
             }
-            // What it touches it may be passing through from behind.
-            ToiState::Hit | ToiState::Limit | ToiState::Touching
-                if solid_along(self.fast.motion.normalized()) =>
-            {
-                inner.first_fraction(&other.shape, &fixed, first)
-            }
-            ToiState::Hit | ToiState::Limit | ToiState::Separated | ToiState::Touching => first,
+        };
+        match self.bullet(other.body) {
+            // Its turn is still to come: it is met on its way.
+            Some(index) if index > self.index => meet(&self.motion(index, other), first),
+            // It has had its turn: if the two meet at all, it is met where it ended.
+            Some(index) if meet(&self.motion(index, other), 1.0) == 1.0 => first,
+            _ => meet(&Sweep::fixed(at), first),
         }
     }
 
@@ -195,6 +215,25 @@ impl Impact<'_> {
         let point = hit.box_frame.unapply(gap.point_a);
         let normal = hit.box_frame.q.unrotate(gap.normal);
         Seams::new(ground, other, record).is_ghost([Some(point), None], normal)
+    }
+
+    /// A pose relative to where the body started.
+    fn place(&self, pose: Pose) -> Transform {
+        Transform::new(pose.p.relative_to(self.fast.start.p), pose.q)
+    }
+
+    /// Where in the list of fast bodies another one is, if it is a bullet among them.
+    fn bullet(&self, body: u32) -> Option<usize> {
+        let index = self.all.binary_search_by_key(&body, |fast| fast.body).ok()?;
+        let both = [self.fast.body, body].map(|body| self.bodies.infos[body as usize].bullet);
+        (both == [true, true]).then_some(index)
+    }
+
+    /// The motion of a shape of a fast body, as far as it is allowed by now.
+    fn motion(&self, index: usize, shape: &ShapeRecord) -> Sweep {
+        let fast = &self.all[index];
+        let (motion, turn) = (fast.motion * fast.fraction, fast.turn * fast.fraction);
+        Sweep::new(self.place(fast.start), Vec2::ZERO, motion, turn).child(shape.central)
     }
 
     fn may_collide(&self, record: &ShapeRecord, other: &ShapeRecord) -> bool {

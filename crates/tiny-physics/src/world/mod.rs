@@ -63,8 +63,15 @@ const SPECULATIVE_DISTANCE: f32 = 0.02;
 const FAT_MARGIN: f32 = 0.1;
 /// Contacts against static bodies are this much stiffer.
 const STATIC_STIFFNESS: f32 = 2.0;
-/// Contact stiffness is at most this fraction of the substep rate: beyond, the soft constraint rings.
-const CONTACT_RATE_FRACTION: f32 = 0.125;
+/// Contact stiffness is at most this fraction of the substep rate. Sinking goes with the inverse square:
+/// 0.125, as elsewhere, lets a tower of 20 crates sink by 0.135 m, 0.22 by 0.044 m. From 0.25 on a pyramid
+/// of 40 rows no longer comes to rest.
+const CONTACT_RATE_FRACTION: f32 = 0.22;
+
+/// Rounds of bouncing in a step: an impulse runs through this many bodies at once.
+const BOUNCE_ROUNDS: usize = 8;
+/// Solver iterations in each of them, for points that hit at the same time.
+const BOUNCE_ITERATIONS: usize = 8;
 
 /// A world of bodies.
 ///
@@ -312,6 +319,7 @@ impl World {
         self.prepare_joints(team, lengths.h);
         integrate::prepare(team, &mut self.bodies, self.gravity, lengths.h);
         let max_speed = self.settings.max_speed * self.settings.length_unit;
+        self.bounce(team, &parameters);
         for substep in 0..lengths.substeps {
             let first = substep == 0;
             integrate::velocities(team, &mut self.bodies, first);
@@ -326,10 +334,26 @@ impl World {
             self.solve_joints(team, joint_solver::Pass::Relax);
             self.solve_contacts(team, Pass::Relax, &parameters);
         }
-        self.solve_contacts(team, Pass::Restitution, &parameters);
         self.solve_joints(team, joint_solver::Pass::Finish);
         self.collect_hits();
         self.break_joints();
+    }
+
+    /// Reflects what hits something bouncy, round by round: what is hit may hit the next.
+    fn bounce(&mut self, team: &Team, parameters: &Parameters) {
+        let mut parameters = *parameters;
+        let threshold = parameters.restitution_threshold;
+        for _ in 0..BOUNCE_ROUNDS {
+            self.solve_contacts(team, Pass::AimBounce, &parameters);
+            if !self.graph.buckets[..=OVERFLOW].iter().flatten().any(contact_solver::any_bounce) {
+                return;
+            }
+            for _ in 0..BOUNCE_ITERATIONS {
+                self.solve_contacts(team, Pass::Bounce, &parameters);
+            }
+            // What is hit hands on less than it got.
+            parameters.restitution_threshold = 0.1 * threshold;
+        }
     }
 
     fn contact_parameters(&self, lengths: StepLengths) -> Parameters {
@@ -342,6 +366,9 @@ impl World {
             soft: Softness::new(hertz, damping, lengths.h),
             static_soft: Softness::new(STATIC_STIFFNESS * hertz, damping, lengths.h),
             push_speed: settings.push_speed * settings.length_unit,
+            gravity: self.gravity,
+            h: lengths.h,
+            dt: lengths.dt,
             restitution_threshold: settings.restitution_threshold * settings.length_unit,
         }
     }

@@ -36,7 +36,7 @@ mod wheel;
 #[cfg(test)]
 mod tests;
 
-use crate::describe::JointDef;
+use crate::describe::{BodyKind, JointDef};
 use crate::dynamics::{
     BodyInfo, JointBlocks, JointBucket, JointClass, JointGraph, JointLanes, JointLoad, JointPlace,
     Joints,
@@ -105,7 +105,7 @@ pub(crate) fn describe(graph: &mut JointGraph, joints: &Joints, infos: &[BodyInf
     if !all && !graph.any_stale {
         return;
     }
-    let rates = Rates::new(h);
+    let rates = [Rates::new(h), Rates::anchored(h)];
     for colour in &mut graph.colours {
         describe_bucket(&mut colour.distance, joints, infos, &rates, all);
         describe_bucket(&mut colour.revolute, joints, infos, &rates, all);
@@ -124,7 +124,7 @@ fn describe_bucket<B: JointKernel>(
     bucket: &mut JointBucket<B>,
     joints: &Joints,
     infos: &[BodyInfo],
-    rates: &Rates,
+    rates: &[Rates; 2],
     all: bool,
 ) {
     let JointBucket { joints: indices, blocks, stale } = bucket;
@@ -140,7 +140,9 @@ fn describe_bucket<B: JointKernel>(
             let b = def.anchor_b - infos[record.body_b as usize].local_center;
             (frame.local_a_x[lane], frame.local_a_y[lane]) = (a.x, a.y);
             (frame.local_b_x[lane], frame.local_b_y[lane]) = (b.x, b.y);
-            block.describe(lane, def, rates);
+            let moves = |body: u32| infos[body as usize].kind == BodyKind::Dynamic;
+            let anchored = !(moves(record.body_a) && moves(record.body_b));
+            block.describe(lane, def, &rates[usize::from(anchored)]);
         }
     }
 }

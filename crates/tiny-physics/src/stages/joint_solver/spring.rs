@@ -17,6 +17,8 @@ const RIGID_DAMPING_RATIO: f32 = 2.0;
 const RIGID_DECAY: f32 = 0.5;
 /// Springs and rigid parts act as if at most this fraction of the substep rate.
 const MAX_RATE_FRACTION: f32 = 0.25;
+/// What joints hold rigid to a body that does not move, as a fraction of the substep rate.
+const ANCHORED_RATE_FRACTION: f32 = 1.5;
 /// The same for a softness that the user asks for.
 const MAX_SOFTNESS_FRACTION: f32 = 10.0;
 /// Damping ratios beyond act as this one: the rest is rounding.
@@ -35,6 +37,15 @@ impl Rates {
             hertz: least(RIGID_HERTZ, MAX_RATE_FRACTION / h),
             damping_ratio: RIGID_DAMPING_RATIO,
         };
+        let [push, mass_scale, impulse_scale] = softness(spring, h);
+        Self { h, rigid: [push, mass_scale, RIGID_DECAY * impulse_scale] }
+    }
+
+    /// The same for joints of which one body does not move: no other joint can be in their way at that
+    /// end, and pendulums keep their height.
+    pub(super) fn anchored(h: f32) -> Self {
+        let spring =
+            Spring { hertz: ANCHORED_RATE_FRACTION / h, damping_ratio: RIGID_DAMPING_RATIO };
         let [push, mass_scale, impulse_scale] = softness(spring, h);
         Self { h, rigid: [push, mass_scale, RIGID_DECAY * impulse_scale] }
     }
