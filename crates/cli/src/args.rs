@@ -79,6 +79,21 @@ Examples:
   tiny-physics view tumbler
   tiny-physics view my_scene.json --paused")]
     View(ViewArgs),
+    /// Record a run into a file: its first frame and everything that was done since
+    #[command(after_help = "Example:
+  tiny-physics record rain --steps 300 -o rain.tpr")]
+    Record(RecordArgs),
+    /// Play a recording again and check that every step has the same bits
+    #[command(after_help = "Examples:
+  tiny-physics replay rain.tpr
+  tiny-physics replay rain.tpr --to 120")]
+    Replay(ReplayArgs),
+    /// Find the first step after which two recordings differ
+    #[command(after_help = "It fails where they differ.
+
+Example:
+  tiny-physics diff mine.tpr theirs.tpr")]
+    Diff(DiffArgs),
 }
 
 /// Which scene, and how the world runs.
@@ -108,6 +123,45 @@ pub struct DemoArgs {
     /// Play by itself and print a few frames even in a terminal
     #[arg(long)]
     pub plain: bool,
+}
+
+/// Options of `record`.
+#[derive(Args, Clone, Debug)]
+pub struct RecordArgs {
+    /// Name of a built-in scene, or a scene file
+    #[arg(value_name = "SCENE|FILE")]
+    pub scene: String,
+    /// Steps to run; the scene's own number where not said
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub steps: Option<u32>,
+    /// Seed of scenes that have chance in them
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// The file to write
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+}
+
+/// Options of `replay`.
+#[derive(Args, Clone, Debug)]
+pub struct ReplayArgs {
+    /// The recording
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Stop after this step; at the end where not said
+    #[arg(long, value_name = "N")]
+    pub to: Option<usize>,
+}
+
+/// Options of `diff`.
+#[derive(Args, Clone, Debug)]
+pub struct DiffArgs {
+    /// One recording
+    #[arg(value_name = "A")]
+    pub a: PathBuf,
+    /// The other
+    #[arg(value_name = "B")]
+    pub b: PathBuf,
 }
 
 /// Options of `list`.

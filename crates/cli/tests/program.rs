@@ -93,7 +93,7 @@ fn the_report_has_its_fields_and_no_others() {
     }
     assert!(!report["stage_ms"].as_object().unwrap().is_empty());
     assert_eq!(report["steps"], 30);
-    assert_eq!(report["bodies"], 22);
+    assert_eq!(report["bodies"], 24);
     let hash = report["hash"].as_str().unwrap();
     assert!(hash.len() == 16 && hash.chars().all(|c| c.is_ascii_hexdigit()), "{hash}");
 }

@@ -90,7 +90,8 @@ fn read<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, SceneError> {
     let mut json = serde_json::Deserializer::from_str(text);
     let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
         let path = error.path().to_string();
-        format_error(if path == "." || path == "?" { "" } else { &path }, error.inner())
+        let field = if path == "." || path == "?" { "" } else { &path };
+        at_value(format_error(field, error.inner()), text, error.inner())
     })?;
     json.end().map_err(|error| format_error("", &error))?;
     Ok(value)
@@ -103,6 +104,13 @@ fn format_error(field: &str, error: &serde_json::Error) -> SceneError {
     let place = format!(" at line {line} column {column}");
     let message = message.strip_suffix(&place).unwrap_or(&message);
     SceneError::new(field, Problem::Format(message.to_owned())).at(line, column)
+}
+
+/// `serde_json` gives the place after a value that it refuses; we give the place of the value.
+fn at_value(error: SceneError, text: &str, json: &serde_json::Error) -> SceneError {
+    let Some(node) = Node::parse(text).filter(|_| json.is_data()) else { return error };
+    let (line, column) = line_column(text, node.find(error.field()));
+    if error.line() == Some(line) { error.at(line, column) } else { error }
 }
 
 fn compact(value: &impl Serialize) -> Result<String, SceneError> {

@@ -2,7 +2,10 @@
 
 use crate::host::{Host, Player};
 use crate::scene::Scene;
-use tiny_physics::{BodyId, DVec2, Error, JointDef, JointId, RigidBody, Settings, Vec2, World};
+use tiny_physics::{
+    Aabb, BodyId, DVec2, Error, JointDef, JointId, QueryFilter, RigidBody, Rot, Settings, Shape,
+    Transform, Vec2, World,
+};
 
 /// A scene that runs in a [`World`].
 ///
@@ -157,5 +160,27 @@ impl Host for WorldHost {
 
     fn step(&mut self, dt: f32) {
         self.world.step(dt);
+    }
+
+    fn ray_cast(&mut self, origin: Vec2, translation: Vec2, mask: u64) -> Option<f32> {
+        let filter = QueryFilter::default().mask(mask);
+        self.world.ray_cast(origin, translation, &filter).map(|hit| hit.fraction)
+    }
+
+    fn circle_cast(
+        &mut self,
+        center: Vec2,
+        radius: f32,
+        translation: Vec2,
+        mask: u64,
+    ) -> Option<f32> {
+        let (shape, filter) = (Shape::Circle { radius }, QueryFilter::default().mask(mask));
+        let pose = Transform::new(center, Rot::IDENTITY);
+        self.world.cast_shape(&shape, pose, translation, &filter).map(|hit| hit.fraction)
+    }
+
+    fn count_overlaps(&mut self, lower: Vec2, upper: Vec2, mask: u64) -> usize {
+        let filter = QueryFilter::default().mask(mask);
+        self.world.overlap_aabb(Aabb { min: lower, max: upper }, &filter).len()
     }
 }

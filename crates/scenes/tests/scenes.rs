@@ -62,7 +62,7 @@ fn own_scenes_have_their_counts() {
         assert_eq!(build(name).counts().dynamic, count, "{name}");
     }
     let demo = build("seed_demo");
-    assert_eq!(demo.counts(), Counts { bodies: 22, dynamic: 20, shapes: 22, joints: 0 });
+    assert_eq!(demo.counts(), Counts { bodies: 24, dynamic: 20, shapes: 24, joints: 0 });
     assert_eq!(build("tiles").counts().dynamic, 500);
     assert_eq!(build("ragdoll").counts().joints, 60);
 }

@@ -34,6 +34,11 @@ pub enum Error {
         /// The handle as it prints.
         handle: String,
     },
+    /// Bytes are no saved frame or recording, or one of another version, or a damaged one.
+    BadFrame {
+        /// What is wrong.
+        reason: &'static str,
+    },
     /// The combination is not possible; the text says why.
     Unsupported {
         /// What and why.
@@ -85,6 +90,7 @@ impl fmt::Display for Error {
             Self::StaleHandle { handle } => {
                 write!(f, "{handle} has been removed or was never here")
             }
+            Self::BadFrame { reason } => write!(f, "not a frame that can be read: {reason}"),
             Self::Unsupported { reason } => f.write_str(reason),
         }
     }

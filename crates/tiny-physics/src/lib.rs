@@ -26,6 +26,9 @@
 //! | read a body, change it | [`Body`], [`BodyMut`], by its [`BodyId`] |
 //! | read shapes and contacts | [`ShapeRef`], [`ContactView`] |
 //! | learn what happened in a step | [`Events`], [`Stats`] |
+//! | ask what is where | [`World::ray_cast`], [`World::cast_shape`], [`World::overlap_shape`], [`World::closest_point`], [`QueryFilter`] |
+//! | change a shape; decide who collides | [`ShapeMut`], [`World::set_pair_filter`], [`World::set_pre_solve`] |
+//! | blow up, blow about, float | [`Explosion`], [`Wind`], [`Water`], [`ForceZone`] |
 //! | step evenly where frames are uneven | [`FixedStep`] |
 //! | draw | [`DebugDraw`] |
 //! | collide two shapes without a world | [`collide`], [`contact`], [`geometry`] |
@@ -51,6 +54,7 @@
 //! descriptions and settings to files.
 
 pub mod broad_phase;
+mod codec;
 mod debug_draw;
 mod describe;
 mod dynamics;
@@ -58,6 +62,7 @@ mod error;
 mod fixed_step;
 pub mod geometry;
 pub mod math;
+pub mod record;
 mod simd;
 mod stages;
 mod threads;
@@ -80,3 +85,16 @@ pub use world::*;
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
+
+/// The pages of the guide: their examples are tests.
+#[cfg(doctest)]
+mod guide {
+    #[doc = include_str!("../../../docs/guide/queries.md")]
+    mod queries {}
+    #[doc = include_str!("../../../docs/guide/events.md")]
+    mod events {}
+    #[doc = include_str!("../../../docs/guide/changes-and-hooks.md")]
+    mod changes_and_hooks {}
+    #[doc = include_str!("../../../docs/guide/forces.md")]
+    mod forces {}
+}

@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The layers, lowest first. Modules of one layer may know each other.
-const LAYERS: [&[&str]; 8] = [
-    &["error", "math"],
+const LAYERS: [&[&str]; 9] = [
+    &["error", "math", "codec"],
     &["simd", "threads"],
     &["geometry"],
     &["broad_phase"],
@@ -14,6 +14,7 @@ const LAYERS: [&[&str]; 8] = [
     &["dynamics"],
     &["stages"],
     &["world", "fixed_step"],
+    &["record"],
 ];
 
 /// The one module that may say `unsafe`.

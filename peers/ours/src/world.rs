@@ -2,7 +2,8 @@
 
 use peers_worker::{BodyState, Engine, Host, Summary};
 use tiny_physics::{
-    BodyId, BodyKind, DVec2, JointDef, JointId, RigidBody, Settings, SimdLevel, Vec2, World,
+    Aabb, BodyId, BodyKind, DVec2, JointDef, JointId, QueryFilter, RigidBody, Rot, Settings, Shape,
+    SimdLevel, Transform, Vec2, World,
 };
 
 /// A world and the handles of what a scene put into it.
@@ -112,17 +113,25 @@ impl Host for Ours {
         self.world.step(dt);
     }
 
-    // A default answer would be no work and so a false time: a scene with queries is left out.
-
-    fn ray_cast(&mut self, _: Vec2, _: Vec2, _: u64) -> Option<f32> {
-        unimplemented!("ray casts")
+    fn ray_cast(&mut self, origin: Vec2, translation: Vec2, mask: u64) -> Option<f32> {
+        let filter = QueryFilter::default().mask(mask);
+        self.world.ray_cast(origin, translation, &filter).map(|hit| hit.fraction)
     }
 
-    fn circle_cast(&mut self, _: Vec2, _: f32, _: Vec2, _: u64) -> Option<f32> {
-        unimplemented!("circle casts")
+    fn circle_cast(
+        &mut self,
+        center: Vec2,
+        radius: f32,
+        translation: Vec2,
+        mask: u64,
+    ) -> Option<f32> {
+        let (shape, filter) = (Shape::Circle { radius }, QueryFilter::default().mask(mask));
+        let pose = Transform::new(center, Rot::IDENTITY);
+        self.world.cast_shape(&shape, pose, translation, &filter).map(|hit| hit.fraction)
     }
 
-    fn count_overlaps(&mut self, _: Vec2, _: Vec2, _: u64) -> usize {
-        unimplemented!("overlap queries")
+    fn count_overlaps(&mut self, lower: Vec2, upper: Vec2, mask: u64) -> usize {
+        let filter = QueryFilter::default().mask(mask);
+        self.world.overlap_aabb(Aabb { min: lower, max: upper }, &filter).len()
     }
 }

@@ -3,6 +3,7 @@
 mod demo;
 mod list;
 mod player;
+mod record;
 mod render;
 mod run;
 mod view;
@@ -22,5 +23,8 @@ pub fn run(cli: Cli) -> Outcome {
         Some(Command::Run(args)) => run::run(&args),
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::View(args)) => view::run(&args),
+        Some(Command::Record(args)) => record::record(&args),
+        Some(Command::Replay(args)) => record::replay(&args),
+        Some(Command::Diff(args)) => record::diff(&args),
     }
 }

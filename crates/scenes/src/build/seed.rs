@@ -9,29 +9,64 @@ use tiny_physics::{RigidBody, Shape, Vec2};
 /// Friction of everything in a pile.
 const PILE_FRICTION: f32 = 0.3;
 
+/// Bodies of the demo that share one band of the sky, 10 m high; more bodies fall from higher bands.
+const DEMO_BAND: u32 = 20;
+
 /// Twenty circles and boxes that fall on a floor with a step, at places that the seed decides; size is
-/// their number.
+/// their number. A kerb at each end keeps what rolls on the floor.
 pub(crate) fn seed_demo(options: Options) -> Scene {
     let count = options.size_or(20, 100_000);
     let mut scene =
         Scene::new("seed_demo", "Circles and boxes fall, bounce and come to rest in heaps.");
     scene.body(RigidBody::new(aabb(20.0, 1.0), Vec2::new(0.0, -10.0), 0.0));
     scene.body(RigidBody::new(aabb(2.0, 0.5), Vec2::new(4.0, -8.5), 0.0));
+    for x in [-19.5, 19.5] {
+        scene.body(RigidBody::new(aabb(0.5, 1.5), Vec2::new(x, -7.5), 0.0));
+    }
     let mut random = Random::new(options.seed);
-    for _ in 0..count {
-        let x = random.range(-8.0, 8.0);
-        let place = Vec2::new(x, random.range(5.0, 15.0));
-        let shape = if random.coin() {
-            shapes::circle(random.range(0.2, 0.8))
-        } else {
-            let half_width = random.range(0.3, 0.7);
-            aabb(half_width, random.range(0.3, 0.7))
-        };
+    let mut places = Vec::new();
+    for i in 0..count {
+        let (shape, radius) = demo_shape(&mut random);
+        let bottom = 5.0 + 10.0 * (i / DEMO_BAND) as f32;
+        let place = free_place(&mut random, bottom, radius, &mut places);
         let mut body = RigidBody::new(shape, place, 1.0);
         body.shapes[0].material.rolling_resistance = 0.2;
         scene.body(body);
     }
     scene
+}
+
+/// A circle or a box, and the radius of the circle around it.
+fn demo_shape(random: &mut Random) -> (Shape, f32) {
+    if random.coin() {
+        let radius = random.range(0.2, 0.8);
+        return (shapes::circle(radius), radius);
+    }
+    let half_width = random.range(0.3, 0.7);
+    let half_extents = Vec2::new(half_width, random.range(0.3, 0.7));
+    (aabb(half_extents.x, half_extents.y), half_extents.length())
+}
+
+/// Draws places in the band above `bottom` until one is clear of the bodies in this band and the one
+/// below. Twenty bodies fill at most a third of a band, so that a few draws do; their number is bounded
+/// all the same.
+fn free_place(
+    random: &mut Random,
+    bottom: f32,
+    radius: f32,
+    places: &mut Vec<(Vec2, f32)>,
+) -> Vec2 {
+    let near = places.len().saturating_sub(2 * DEMO_BAND as usize);
+    let mut place = Vec2::ZERO;
+    for _ in 0..1000 {
+        let x = random.range(-8.0, 8.0);
+        place = Vec2::new(x, random.range(bottom, bottom + 10.0));
+        if places[near..].iter().all(|(other, r)| place.distance(*other) > radius + r) {
+            break;
+        }
+    }
+    places.push((place, radius));
+    place
 }
 
 /// Circles and never-turning boxes by turns, 1000 of them.

@@ -1,5 +1,6 @@
 //! The boxes of a node's children, side by side, so that all are tested at once.
 
+use crate::codec::data;
 use crate::math::{Aabb, Vec2};
 
 /// Children of a node.
@@ -14,6 +15,8 @@ pub(super) struct Boxes {
     max_x: [f32; WIDTH],
     max_y: [f32; WIDTH],
 }
+
+data!(Boxes { min_x, min_y, max_x, max_y });
 
 const _: () = assert!(size_of::<Boxes>() == 128);
 

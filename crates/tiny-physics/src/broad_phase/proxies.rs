@@ -9,6 +9,8 @@
 
 use super::boxes::WIDTH;
 use super::{BoxCast, DynamicTree, sort_pairs};
+use crate::codec::{Data, Reader, Sink, bad, data, data_enum};
+use crate::error::Error;
 use crate::math::{Aabb, Vec2};
 use core::ops::{ControlFlow, Range};
 
@@ -73,6 +75,29 @@ struct Proxy {
 }
 
 const _: () = assert!(size_of::<Proxy>() == 32);
+
+data_enum!(ProxyKind { 0 => Static, 1 => Kinematic, 2 => Dynamic });
+data!(Proxy { category, mask, user, margin, kind, moved });
+
+impl Data for BroadPhase {
+    fn save(&self, sink: &mut impl Sink) {
+        let Self { proxies, free, moved, groups: _, marks: _, trees } = self;
+        proxies.save(sink);
+        free.save(sink);
+        (moved.len() as u32).save(sink);
+        moved.iter().for_each(|id| id.0.save(sink));
+        trees.iter().for_each(|tree| tree.save(sink));
+    }
+
+    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        let (proxies, free) = (Data::load(reader)?, Data::load(reader)?);
+        let moved = Vec::<u32>::load(reader)?.into_iter().map(ProxyId).collect();
+        let trees = [Data::load(reader)?, Data::load(reader)?, Data::load(reader)?];
+        let loaded =
+            Self { proxies, free, moved, groups: Vec::new(), marks: Default::default(), trees };
+        loaded.check_loaded().map(|()| loaded)
+    }
+}
 
 /// A moved proxy that asks for its partners.
 #[derive(Clone, Copy)]
@@ -513,6 +538,47 @@ impl BroadPhase {
         }
     }
 
+    /// What decides which pairs the next update finds, besides the boxes.
+    pub(crate) fn hash_lists(&self, sink: &mut impl Sink) {
+        self.free.save(sink);
+        self.moved.iter().for_each(|id| id.0.save(sink));
+    }
+
+    /// Checks that nothing of what was read leads out of the lists.
+    fn check_loaded(&self) -> Result<(), Error> {
+        let mut seen = vec![false; self.proxies.len()];
+        for &id in &self.free {
+            match (self.proxies.get(id as usize), seen.get_mut(id as usize)) {
+                (Some(proxy), Some(seen)) if proxy.kind.is_none() && !*seen => *seen = true,
+                _ => return Err(bad("the free proxies are not")),
+            }
+        }
+        let alive = |kind: ProxyKind| self.proxies.iter().filter(|p| p.kind == Some(kind)).count();
+        let kinds = [ProxyKind::Static, ProxyKind::Kinematic, ProxyKind::Dynamic];
+        if self.free.len() + kinds.iter().map(|&kind| alive(kind)).sum::<usize>() != seen.len() {
+            return Err(bad("proxies are neither used nor free"));
+        }
+        for (kind, tree) in kinds.into_iter().zip(&self.trees) {
+            tree.check_loaded().map_err(bad)?;
+            let in_tree =
+                |(id, proxy): (usize, &Proxy)| proxy.kind != Some(kind) || tree.contains(id as u32);
+            if tree.len() != alive(kind) || !self.proxies.iter().enumerate().all(in_tree) {
+                return Err(bad("a tree holds other proxies than there are"));
+            }
+        }
+        let mut buffered = vec![false; self.proxies.len()];
+        for id in &self.moved {
+            match buffered.get_mut(id.0 as usize) {
+                Some(buffered) if !*buffered => *buffered = true,
+                _ => return Err(bad("the moved proxies are wrong")),
+            }
+        }
+        if self.proxies.iter().zip(&buffered).any(|(proxy, &buffered)| proxy.moved != buffered) {
+            return Err(bad("the moved proxies are not those that are marked"));
+        }
+        Ok(())
+    }
+
     /// Checks every invariant. For tests.
     ///
     /// # Errors
@@ -522,11 +588,14 @@ impl BroadPhase {
         for tree in &self.trees {
             tree.validate()?;
         }
+        let mut buffered = vec![0_u32; self.proxies.len()];
+        for id in &self.moved {
+            buffered[id.0 as usize] += 1;
+        }
         let mut counts = [0; 3];
         for (index, proxy) in self.proxies.iter().enumerate() {
-            let buffered = self.moved.iter().filter(|id| id.0 as usize == index).count();
-            if buffered != usize::from(proxy.moved) {
-                return Err(format!("proxy {index} is {buffered} times in the buffer"));
+            if buffered[index] != u32::from(proxy.moved) {
+                return Err(format!("proxy {index} is {} times in the buffer", buffered[index]));
             }
             let Some(kind) = proxy.kind else { continue };
             counts[kind as usize] += 1;

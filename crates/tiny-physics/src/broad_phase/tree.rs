@@ -12,6 +12,7 @@
 use super::boxes::{Boxes, WIDTH};
 use super::stack::Stack;
 use super::{BoxCast, NONE, clamped};
+use crate::codec::data;
 use crate::math::Aabb;
 use core::ops::ControlFlow;
 
@@ -39,6 +40,9 @@ impl Node {
         self.category.iter().fold(0, |all, category| all | category)
     }
 }
+
+data!(Node { category, child, parent, lane, level, count });
+data!(DynamicTree { boxes, nodes, places, root, free, count, changes, built_cost });
 
 /// A child with its box: what is moved about when nodes are cut and built.
 #[derive(Clone, Copy)]
@@ -425,6 +429,45 @@ impl DynamicTree {
         }
         if leaves != self.count || known != self.count || inner != self.nodes.len() {
             return Err(format!("{leaves} leaves, {inner} nodes, {} boxes", self.count));
+        }
+        Ok(())
+    }
+
+    /// Checks that every link of a tree that was read leads to where it should, so that no walk leaves the
+    /// lists or runs in a circle.
+    pub(super) fn check_loaded(&self) -> Result<(), &'static str> {
+        let count = self.nodes.len();
+        let inside = |index: u32| index == NONE || (index as usize) < count;
+        if self.boxes.len() != count || !inside(self.root) {
+            return Err("a tree has no root");
+        }
+        let is_leaf = |place: u32| (place as usize / WIDTH) < count;
+        if self.places.iter().any(|&place| place != NONE && !is_leaf(place)) {
+            return Err("a leaf of a tree is nowhere");
+        }
+        for node in &self.nodes {
+            let below = |&child: &u32| child == NONE || node.level == 0 || (child as usize) < count;
+            if node.level > 64 || !inside(node.parent) || node.lane as usize >= WIDTH {
+                return Err("a node of a tree is wrong");
+            }
+            if !node.child.iter().all(below) {
+                return Err("a branch of a tree leads nowhere");
+            }
+        }
+        let mut free = self.free;
+        for _ in 0..=count {
+            if free == NONE {
+                break;
+            }
+            free = self.nodes.get(free as usize).ok_or("a free node is nowhere")?.parent;
+        }
+        if free != NONE {
+            return Err("the free nodes of a tree run in a circle");
+        }
+        // Levels go down by one on each link, so the walk of this ends.
+        let root_is_top = self.root == NONE || self.nodes[self.root as usize].parent == NONE;
+        if !root_is_top || self.validate().is_err() {
+            return Err("a tree is not one");
         }
         Ok(())
     }

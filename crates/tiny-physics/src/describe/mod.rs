@@ -5,6 +5,7 @@
 
 mod body;
 mod chain;
+mod data;
 mod filter;
 mod joint;
 mod settings;

@@ -357,6 +357,8 @@ pub(crate) struct Piece {
     value: u16,
 }
 
+crate::codec::data!(Piece { x, y, width, height, value });
+
 /// Letters of [`TileGrid::parse`] in the order of its palette.
 const LETTERS: &str = "#_\"[]/\\lhHL-";
 

@@ -1,5 +1,7 @@
 //! Bodies: hot rows for the solver, poses, and everything else.
 
+use super::clone::{Serial, clone_by_field};
+use crate::codec::data;
 use crate::describe::{BodyKind, Locks};
 use crate::math::{DVec2, Pose, Rot, Vec2};
 use crate::simd::Row;
@@ -37,7 +39,7 @@ pub(crate) struct Motion {
 
 /// All of a body that a step does not touch in its inner loops. What it does touch once a step lies in the
 /// first cache line.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct BodyInfo {
     pub(crate) kind: BodyKind,
@@ -124,7 +126,7 @@ impl Default for BodyInfo {
 
 /// All bodies of a world, by stable index. Body 0 is always there, static and without shapes: empty
 /// lanes of constraint blocks point to it, so its row must never be written.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub(crate) struct Bodies {
     /// Velocity, motion since the start of the step, inverse masses: see [`Slot`].
     pub(crate) rows: Vec<Row>,
@@ -141,9 +143,37 @@ pub(crate) struct Bodies {
     pub(crate) awake: Vec<u32>,
     /// `awake` has been appended to since it was last sorted.
     pub(crate) awake_unsorted: bool,
-    free: Vec<u32>,
-    count: usize,
+    pub(crate) free: Vec<u32>,
+    pub(crate) count: usize,
+    serial: Serial,
 }
+
+clone_by_field!(Bodies {
+    rows,
+    poses,
+    previous,
+    motions,
+    starts,
+    infos,
+    awake,
+    awake_unsorted,
+    free,
+    count,
+    serial
+});
+data!(Bodies {
+    rows,
+    poses,
+    previous,
+    motions,
+    starts,
+    infos,
+    awake,
+    awake_unsorted,
+    free,
+    count,
+    serial
+});
 
 impl Bodies {
     pub(crate) fn new() -> Self {
@@ -158,6 +188,7 @@ impl Bodies {
             awake_unsorted: false,
             free: Vec::new(),
             count: 0,
+            serial: Serial::default(),
         }
     }
 
@@ -171,13 +202,13 @@ impl Bodies {
         (1..self.infos.len() as u32).filter(|&i| self.infos[i as usize].alive)
     }
 
-    /// Puts a record in and gives its index. The generation of a reused place has gone up.
+    /// Puts a record in, under a generation that no record of this place had, and gives its index.
     pub(crate) fn insert(&mut self, mut info: BodyInfo, pose: Pose) -> u32 {
         self.count += 1;
         info.alive = true;
+        info.generation = self.serial.next();
         if let Some(index) = self.free.pop() {
             let i = index as usize;
-            info.generation = self.infos[i].generation;
             self.infos[i] = info;
             self.poses[i] = pose;
             self.previous[i] = pose;
@@ -198,8 +229,7 @@ impl Bodies {
     /// Takes a record out. The caller has unlinked everything that refers to it.
     pub(crate) fn remove(&mut self, index: u32) {
         self.count -= 1;
-        let info = &mut self.infos[index as usize];
-        *info = BodyInfo { generation: info.generation.wrapping_add(1), ..BodyInfo::default() };
+        self.infos[index as usize] = BodyInfo::default();
         self.rows[index as usize] = [0.0; 8];
         self.free.push(index);
     }

@@ -1,7 +1,10 @@
 //! Contact records: pairs of shapes whose fat boxes overlap.
 
 use super::bodies::{Bodies, NULL};
+use super::clone::clone_by_field;
 use super::pair_table::PairTable;
+use crate::codec::{Data, Reader, Sink, bad};
+use crate::error::Error;
 use crate::geometry::manifold::PairClass;
 
 /// Impulses of a contact point that is not in the graph at the moment.
@@ -32,7 +35,7 @@ pub(crate) enum Place {
 }
 
 /// The lasting record of a pair.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Contact {
     pub(crate) alive: bool,
     /// Do the shapes touch (or nearly), as of the last narrow phase?
@@ -58,11 +61,35 @@ pub(crate) struct Contact {
 }
 
 /// All contacts of a world.
-#[derive(Clone, Debug, PartialEq, Default)]
+#[derive(Debug, PartialEq, Default)]
 pub(crate) struct Contacts {
     pub(crate) records: Vec<Contact>,
     pub(crate) pairs: PairTable,
-    free: Vec<u32>,
+    pub(crate) free: Vec<u32>,
+}
+
+clone_by_field!(Contacts { records, pairs, free });
+
+impl Data for Contacts {
+    fn save(&self, sink: &mut impl Sink) {
+        let Self { records, pairs: _, free } = self;
+        records.save(sink);
+        free.save(sink);
+    }
+
+    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        let records: Vec<Contact> = Data::load(reader)?;
+        let free = Data::load(reader)?;
+        let mut pairs = PairTable::default();
+        for (index, contact) in records.iter().enumerate().filter(|(_, contact)| contact.alive) {
+            let (a, b) = (contact.shape_a, contact.shape_b);
+            if a == b || pairs.get(a, b).is_some() {
+                return Err(bad("two contacts are of the same shapes"));
+            }
+            pairs.insert(a, b, index as u32);
+        }
+        Ok(Self { records, pairs, free })
+    }
 }
 
 impl Contacts {

@@ -12,7 +12,10 @@
 
 use super::blocks::{BlockHead, ConstraintBlock, ManifoldBlock, SurfaceBlock, flags};
 use super::bodies::Bodies;
+use super::clone::clone_by_field;
 use super::contacts::{Contact, Contacts, Place, SavedPoint};
+use crate::codec::{Data, Reader, Sink};
+use crate::error::Error;
 use crate::geometry::manifold::PairClass;
 use crate::simd::BLOCK;
 
@@ -24,7 +27,7 @@ pub(crate) const OVERFLOW: usize = COLOURS;
 pub(crate) const IDLE: usize = COLOURS + 1;
 
 /// Contacts of one colour and class.
-#[derive(Clone, Debug, PartialEq, Default)]
+#[derive(Debug, PartialEq, Default)]
 pub(crate) struct Bucket {
     /// Contact index of each slot.
     pub(crate) contacts: Vec<u32>,
@@ -34,6 +37,8 @@ pub(crate) struct Bucket {
     pub(crate) surfaces: Vec<SurfaceBlock>,
     pub(crate) heads: Vec<BlockHead>,
 }
+
+clone_by_field!(Bucket { contacts, manifolds, constraints, surfaces, heads });
 
 impl Bucket {
     /// The two bodies of a slot.
@@ -178,13 +183,33 @@ fn contact_flags(contact: &Contact) -> u8 {
 pub(crate) type BlockAddress = (u8, u8, u32);
 
 /// All colours, the overflow and the idle contacts.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub(crate) struct Graph {
     /// `buckets[colour][class]`.
     pub(crate) buckets: Vec<[Bucket; PairClass::COUNT]>,
     touching: usize,
     /// Blocks that got a touching contact since the last narrow phase.
     fresh: Vec<BlockAddress>,
+}
+
+clone_by_field!(Graph { buckets, touching, fresh });
+
+impl Data for Graph {
+    fn save(&self, sink: &mut impl Sink) {
+        // Fresh blocks are those of the step at work.
+        let Self { buckets, touching: _, fresh: _ } = self;
+        buckets.iter().flatten().for_each(|bucket| bucket.save(sink));
+    }
+
+    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        let mut graph = Self::new();
+        for bucket in graph.buckets.iter_mut().flatten() {
+            *bucket = Data::load(reader)?;
+        }
+        let coloured = graph.buckets[..IDLE].iter().flatten();
+        graph.touching = coloured.map(|bucket| bucket.contacts.len()).sum();
+        Ok(graph)
+    }
 }
 
 impl Graph {

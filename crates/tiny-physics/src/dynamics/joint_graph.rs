@@ -5,11 +5,13 @@
 //! to the ground are solved last. What finds no colour goes to the overflow.
 
 use super::bodies::Bodies;
+use super::clone::clone_by_field;
 use super::joint_blocks::{
     DistanceBlock, DriveBlock, GearBlock, Impulses, JointClass, JointLanes, PrismaticBlock,
     PulleyBlock, RevoluteBlock, WeldBlock, WheelBlock,
 };
 use super::joints::{JointPlace, JointRecord, Joints};
+use crate::codec::data;
 use crate::simd::BLOCK;
 use crate::threads::Team;
 
@@ -19,7 +21,7 @@ pub(crate) const JOINT_COLOURS: usize = 24;
 pub(crate) const JOINT_OVERFLOW: usize = JOINT_COLOURS;
 
 /// Joints of one colour and class.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub(crate) struct JointBucket<B> {
     /// Joint index of each slot.
     pub(crate) joints: Vec<u32>,
@@ -27,6 +29,8 @@ pub(crate) struct JointBucket<B> {
     /// Blocks whose lanes have to be written from the joints' descriptions again.
     pub(crate) stale: Vec<bool>,
 }
+
+clone_by_field!(JointBucket<B: Copy> { joints, blocks, stale });
 
 impl<B> Default for JointBucket<B> {
     fn default() -> Self {
@@ -82,7 +86,7 @@ impl<B: JointLanes> JointBucket<B> {
 }
 
 /// All joints of one colour.
-#[derive(Clone, Debug, PartialEq, Default)]
+#[derive(Debug, PartialEq, Default)]
 pub(crate) struct JointColour {
     pub(crate) distance: JointBucket<DistanceBlock>,
     pub(crate) revolute: JointBucket<RevoluteBlock>,
@@ -93,6 +97,8 @@ pub(crate) struct JointColour {
     pub(crate) pulley: JointBucket<PulleyBlock>,
     pub(crate) gear: JointBucket<GearBlock>,
 }
+
+clone_by_field!(JointColour { distance, revolute, prismatic, weld, wheel, drive, pulley, gear });
 
 /// Does something with the bucket of a class.
 macro_rules! with_bucket {
@@ -196,7 +202,7 @@ impl JointColour {
 }
 
 /// All colours and the overflow.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub(crate) struct JointGraph {
     /// Colours, then the overflow.
     pub(crate) colours: Vec<JointColour>,
@@ -204,8 +210,11 @@ pub(crate) struct JointGraph {
     pub(crate) described_h: f32,
     /// Some block is stale.
     pub(crate) any_stale: bool,
-    count: usize,
+    pub(crate) count: usize,
 }
+
+clone_by_field!(JointGraph { colours, described_h, any_stale, count });
+data!(JointGraph { colours, described_h, any_stale, count });
 
 impl JointGraph {
     pub(crate) fn new() -> Self {

@@ -1,7 +1,9 @@
 //! Joint records: what the user asked for, and where the solver's copy of it is.
 
 use super::bodies::{Bodies, NULL};
+use super::clone::{Serial, clone_by_field};
 use super::joint_blocks::{Impulses, JointClass};
+use crate::codec::data;
 use crate::describe::JointDef;
 use crate::math::Vec2;
 
@@ -20,7 +22,7 @@ pub(crate) enum JointPlace {
 }
 
 /// The lasting record of a joint.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct JointRecord {
     pub(crate) alive: bool,
     pub(crate) generation: u32,
@@ -65,14 +67,18 @@ pub(crate) struct JointLoad {
 }
 
 /// All joints of a world, by stable index.
-#[derive(Clone, Debug, PartialEq, Default)]
+#[derive(Debug, PartialEq, Default)]
 pub(crate) struct Joints {
     pub(crate) records: Vec<JointRecord>,
     /// Joints that can break, ascending.
     pub(crate) breakable: Vec<u32>,
-    free: Vec<u32>,
-    count: usize,
+    pub(crate) free: Vec<u32>,
+    pub(crate) count: usize,
+    serial: Serial,
 }
+
+clone_by_field!(Joints { records, breakable, free, count, serial });
+data!(Joints { records, breakable, free, count, serial });
 
 impl Joints {
     /// Joints alive.
@@ -85,12 +91,12 @@ impl Joints {
         (0..self.records.len() as u32).filter(|&i| self.records[i as usize].alive)
     }
 
-    /// Puts a record in: into both bodies' lists too. The generation of a reused place has gone up.
+    /// Puts a record in, under a new generation: into both bodies' lists too.
     pub(crate) fn insert(&mut self, bodies: &mut Bodies, mut record: JointRecord) -> u32 {
         self.count += 1;
         record.alive = true;
+        record.generation = self.serial.next();
         let index = if let Some(index) = self.free.pop() {
-            record.generation = self.records[index as usize].generation;
             self.records[index as usize] = record;
             index
         } else {
@@ -111,7 +117,6 @@ impl Joints {
         self.unlink(bodies, index, 1);
         let record = &mut self.records[index as usize];
         record.alive = false;
-        record.generation = record.generation.wrapping_add(1);
         record.def.break_at = None;
         self.note_breakable(index);
         self.free.push(index);

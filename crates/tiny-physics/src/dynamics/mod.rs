@@ -5,7 +5,9 @@
 
 mod blocks;
 mod bodies;
+mod clone;
 mod contacts;
+mod data;
 mod graph;
 mod joint_blocks;
 mod joint_graph;
@@ -18,6 +20,7 @@ pub(crate) use blocks::{
     BlockHead, ConstraintBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags,
 };
 pub(crate) use bodies::{Bodies, BodyInfo, Motion, NULL, Slot};
+pub(crate) use clone::{Serial, clone_by_field};
 pub(crate) use contacts::{Contact, Contacts, Place, SavedPoint};
 pub(crate) use graph::{Bucket, COLOURS, Graph, IDLE, OVERFLOW};
 pub(crate) use joint_blocks::*;

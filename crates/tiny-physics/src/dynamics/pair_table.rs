@@ -3,12 +3,14 @@
 /// Maps unordered pairs of shape indices to contact indices. Open addressing with linear probing,
 /// deletion by shifting back, so there are no tombstones and the content alone decides look-ups.
 /// It is never iterated.
-#[derive(Clone, Debug, PartialEq, Default)]
+#[derive(Debug, PartialEq, Default)]
 pub(crate) struct PairTable {
     /// (key, contact); an empty place has key [`EMPTY`].
     places: Vec<(u64, u32)>,
     len: usize,
 }
+
+super::clone::clone_by_field!(PairTable { places, len });
 
 const EMPTY: u64 = u64::MAX;
 

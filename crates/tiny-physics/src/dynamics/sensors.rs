@@ -1,5 +1,8 @@
 //! What sensors saw in the last step.
 
+use super::clone::clone_by_field;
+use crate::codec::data;
+
 /// A sensor and a shape that overlaps it, with the generations of both: a shape that took the place of
 /// another is not the same visitor.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
@@ -10,8 +13,10 @@ pub(crate) struct Overlap {
     pub(crate) visitor_generation: u32,
 }
 
+data!(Overlap { sensor, visitor } apart { sensor_generation, visitor_generation });
+
 /// All sensors of a world and what they see.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(crate) struct Sensors {
     /// Shapes that are sensors, ascending.
     pub(crate) shapes: Vec<u32>,
@@ -22,6 +27,9 @@ pub(crate) struct Sensors {
     /// Must `changed` be cleared?
     pub(crate) any_changed: bool,
 }
+
+clone_by_field!(Sensors { shapes, overlaps, changed, any_changed });
+data!(Sensors { shapes, overlaps, changed, any_changed });
 
 impl Sensors {
     /// Notes that a shape has become a sensor.

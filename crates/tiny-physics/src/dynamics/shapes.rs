@@ -1,7 +1,9 @@
 //! Shapes: what hangs on bodies.
 
 use super::bodies::NULL;
+use super::clone::{Serial, clone_by_field};
 use crate::broad_phase::ProxyId;
+use crate::codec::data;
 use crate::describe::{ChainLink, Filter, Material};
 use crate::geometry::Shape;
 use crate::geometry::manifold::ShapeClass;
@@ -9,7 +11,7 @@ use crate::math::{Aabb, Transform, Vec2};
 use crate::simd::Row;
 
 /// One shape of a body. What a step touches lies in the first cache line.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct ShapeRecord {
     pub(crate) body: u32,
@@ -76,7 +78,7 @@ pub(crate) mod guard {
     }
 
     /// Those that a shape has by itself.
-    pub(super) fn of(record: &ShapeRecord) -> u32 {
+    pub(crate) fn of(record: &ShapeRecord) -> u32 {
         let chain = if record.link.is_some() { CHAIN } else { 0 };
         chain | if record.one_way.is_some() { ONE_WAY } else { 0 }
     }
@@ -88,7 +90,7 @@ pub(crate) mod guard {
 }
 
 /// All shapes of a world, by stable index.
-#[derive(Clone, Debug, PartialEq, Default)]
+#[derive(Debug, PartialEq, Default)]
 pub(crate) struct Shapes {
     pub(crate) records: Vec<ShapeRecord>,
     /// The shape as a rounded box in the frame of the body's centre of mass, for the lane kernels:
@@ -102,9 +104,13 @@ pub(crate) struct Shapes {
     pub(crate) guards: Vec<u32>,
     /// Boxes in which static shapes came, went or moved since guards were last found.
     pub(crate) changed_ground: Vec<Aabb>,
-    free: Vec<u32>,
-    count: usize,
+    pub(crate) free: Vec<u32>,
+    pub(crate) count: usize,
+    serial: Serial,
 }
+
+clone_by_field!(Shapes { records, rows, fat, guards, changed_ground, free, count, serial });
+data!(Shapes { records, rows, fat, guards, changed_ground, free, count, serial });
 
 impl Shapes {
     /// Shapes alive.
@@ -140,8 +146,8 @@ impl Shapes {
     fn insert_record(&mut self, mut record: ShapeRecord) -> u32 {
         self.count += 1;
         record.alive = true;
+        record.generation = self.serial.next();
         if let Some(index) = self.free.pop() {
-            record.generation = self.records[index as usize].generation;
             self.records[index as usize] = record;
             self.rows[index as usize] = [0.0; 8];
             self.fat[index as usize] = Aabb::EMPTY;
@@ -158,7 +164,6 @@ impl Shapes {
         self.count -= 1;
         let record = &mut self.records[index as usize];
         record.alive = false;
-        record.generation = record.generation.wrapping_add(1);
         record.body = NULL;
         record.proxy = NULL;
         record.next = NULL;

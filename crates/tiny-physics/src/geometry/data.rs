@@ -6,24 +6,29 @@
 //! Besides, `rect` (half extents, optional center, angle and radius) and `regular` (count, size, optional
 //! radius) are read, and vertices in any order, which become their hull. What is read is checked.
 
+use super::shape::check_size;
 use super::{Polygon, Shape};
 use crate::error::Error;
 use crate::math::{Rot, Vec2};
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// What stands in the file.
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "Shape", rename_all = "snake_case", deny_unknown_fields)]
 pub(super) enum ShapeData {
     Circle {
+        #[serde(deserialize_with = "read_radius")]
         radius: f32,
     },
     Aabb {
+        #[serde(deserialize_with = "read_half_extents")]
         half_extents: Vec2,
     },
     Capsule {
         a: Vec2,
         b: Vec2,
+        #[serde(deserialize_with = "read_radius")]
         radius: f32,
     },
     Segment {
@@ -50,6 +55,7 @@ pub(super) struct PolygonData {
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RectData {
+    #[serde(deserialize_with = "read_half_extents")]
     half_extents: Vec2,
     #[serde(default)]
     center: Vec2,
@@ -67,6 +73,21 @@ pub(super) struct RegularData {
     size: f32,
     #[serde(default)]
     radius: f32,
+}
+
+/// Checks a number while its field is read, so that the reader can tell the field.
+fn read_radius<'de, D: Deserializer<'de>>(reader: D) -> Result<f32, D::Error> {
+    let radius = f32::deserialize(reader)?;
+    check_size("radius", radius).map_err(D::Error::custom)?;
+    Ok(radius)
+}
+
+/// The same for half extents.
+fn read_half_extents<'de, D: Deserializer<'de>>(reader: D) -> Result<Vec2, D::Error> {
+    let half_extents = Vec2::deserialize(reader)?;
+    check_size("half width", half_extents.x).map_err(D::Error::custom)?;
+    check_size("half height", half_extents.y).map_err(D::Error::custom)?;
+    Ok(half_extents)
 }
 
 fn is_zero(value: &f32) -> bool {

@@ -17,6 +17,7 @@ mod point;
 mod polygon;
 mod ray;
 mod rounded_core;
+mod saved;
 mod shape;
 mod sweep;
 mod toi;

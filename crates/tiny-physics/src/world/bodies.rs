@@ -361,29 +361,4 @@ impl World {
             self.wake_index(other);
         }
     }
-
-    /// A body whose numbers stopped being finite: it stops where it last was.
-    pub(super) fn freeze(&mut self, index: u32) {
-        let row = &mut self.bodies.rows[index as usize];
-        for value in [0, 1, 2, 4, 5, 6] {
-            row[value] = 0.0;
-        }
-        let info = &mut self.bodies.infos[index as usize];
-        info.force = Vec2::ZERO;
-        info.torque = 0.0;
-        self.forget_joint_impulses(index);
-    }
-
-    /// Joints of a body start anew: what they have gathered may not be finite.
-    fn forget_joint_impulses(&mut self, index: u32) {
-        let Self { bodies, joints, joint_graph, .. } = self;
-        let first = bodies.infos[index as usize].first_joint;
-        let mut indices: Vec<u32> = joints.of_body(first).map(|(joint, _)| joint).collect();
-        indices.sort_unstable();
-        for joint in indices {
-            joint_graph.remove(bodies, joints, joint);
-            joints.records[joint as usize].saved = Default::default();
-            joint_graph.insert(bodies, joints, joint);
-        }
-    }
 }

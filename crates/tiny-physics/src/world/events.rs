@@ -1,6 +1,8 @@
 //! What happened in the last step, to be read after it.
 
 use super::ids::{BodyId, JointId, ShapeId};
+use crate::codec::data;
+use crate::dynamics::clone_by_field;
 use crate::math::{DVec2, Vec2};
 
 /// Two shapes began to touch.
@@ -91,7 +93,7 @@ pub struct JointBreak {
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Clone, PartialEq, Debug, Default)]
+#[derive(PartialEq, Debug, Default)]
 pub struct Events {
     pub(crate) contact_begin: Vec<ContactBegin>,
     pub(crate) contact_end: Vec<ContactEnd>,
@@ -106,6 +108,39 @@ pub struct Events {
     pub(crate) pending_woke: Vec<BodyId>,
     pub(crate) pending_asleep: Vec<BodyId>,
 }
+
+data!(ContactBegin { shape_a, shape_b });
+data!(ContactEnd { shape_a, shape_b });
+data!(SensorBegin { sensor, visitor });
+data!(SensorEnd { sensor, visitor });
+data!(Hit { shape_a, shape_b, position, normal, speed });
+data!(JointBreak { joint, force, torque, user_data });
+data!(Events {
+    contact_begin,
+    contact_end,
+    hits,
+    sensor_begin,
+    sensor_end,
+    joint_breaks,
+    woke,
+    fell_asleep,
+    pending_end,
+    pending_woke,
+    pending_asleep
+});
+clone_by_field!(Events {
+    contact_begin,
+    contact_end,
+    hits,
+    sensor_begin,
+    sensor_end,
+    joint_breaks,
+    woke,
+    fell_asleep,
+    pending_end,
+    pending_woke,
+    pending_asleep
+});
 
 impl Events {
     /// Contacts that began.

@@ -59,3 +59,8 @@ handle! {
     /// Handle of a joint. It goes stale when the joint is removed and never means another joint.
     JointId, "joint"
 }
+
+crate::codec::data!(BodyId { index } apart { generation });
+crate::codec::data!(ShapeId { index } apart { generation });
+crate::codec::data!(JointId { index } apart { generation });
+crate::codec::data!(TileGridId { index } apart { generation });

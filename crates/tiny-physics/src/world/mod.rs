@@ -3,10 +3,14 @@
 mod bodies;
 mod body_changes;
 mod build;
+mod bytes;
+mod check;
 mod contacts;
 mod debug_draw;
 mod events;
 mod forces;
+mod frame;
+mod freeze;
 mod hash;
 mod hooks;
 mod ids;
@@ -78,7 +82,7 @@ const CONTACT_RATE_FRACTION: f32 = 0.125;
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct World {
     /// Acceleration of every dynamic body, metres a second squared.
     pub gravity: Vec2,
@@ -105,7 +109,7 @@ pub struct World {
 }
 
 /// Lists that a step fills anew; kept only for their memory.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 struct Scratch {
     pairs: Vec<(u32, u32)>,
     parted: Vec<u32>,

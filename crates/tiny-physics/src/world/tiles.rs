@@ -2,34 +2,79 @@
 
 use super::World;
 use super::ids::{BodyId, ShapeId, TileGridId};
+use crate::codec::{Data, Reader, Sink, bad, data};
 use crate::describe::{BLOCK_CELLS, Piece, TileGrid};
+use crate::dynamics::{Serial, clone_by_field};
 use crate::error::Error;
 
 /// All tile grids of a world.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct TileGrids {
     slots: Vec<Slot>,
+    serial: Serial,
 }
 
-#[derive(Clone, Debug)]
+clone_by_field!(TileGrids { slots, serial });
+data!(TileGrids { slots, serial });
+
+#[derive(Debug)]
 struct Slot {
     generation: u32,
     grid: Option<Placed>,
 }
 
+clone_by_field!(Slot { generation, grid });
+data!(Slot { grid } apart { generation });
+
 /// A grid and the bodies of its blocks.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 struct Placed {
     grid: TileGrid,
     blocks: Vec<BlockBody>,
 }
 
+impl Clone for Placed {
+    fn clone(&self) -> Self {
+        Self { grid: self.grid.clone(), blocks: self.blocks.clone() }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        let TileGrid { position, angle, cell_size, width, height, palette, cells } = &mut self.grid;
+        let grid = &source.grid;
+        (*position, *angle, *cell_size) = (grid.position, grid.angle, grid.cell_size);
+        (*width, *height) = (grid.width, grid.height);
+        palette.clone_from(&grid.palette);
+        cells.clone_from(&grid.cells);
+        self.blocks.clone_from(&source.blocks);
+    }
+}
+
+impl Data for Placed {
+    fn save(&self, sink: &mut impl Sink) {
+        self.grid.save(sink);
+        self.blocks.save(sink);
+    }
+
+    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        let (grid, blocks): (TileGrid, Vec<BlockBody>) = Data::load(reader)?;
+        grid.validate()?;
+        let (columns, rows) = grid.blocks();
+        if blocks.len() != columns as usize * rows as usize {
+            return Err(bad("blocks of tiles are missing"));
+        }
+        Ok(Self { grid, blocks })
+    }
+}
+
 /// The body of a block, and the shapes of its pieces.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 struct BlockBody {
     body: Option<BodyId>,
     shapes: Vec<(Piece, ShapeId)>,
 }
+
+clone_by_field!(BlockBody { body, shapes });
+data!(BlockBody { body, shapes });
 
 impl World {
     /// Adds a tile map. It is made of static bodies, one for each block of 16 by 16 cells that is not
@@ -46,6 +91,7 @@ impl World {
             slots.push(Slot { generation: 0, grid: None });
             slots.len() - 1
         });
+        slots[index].generation = self.tiles.serial.next();
         slots[index].grid = Some(Placed { grid, blocks });
         let id = TileGridId::new(index as u32, slots[index].generation);
         for y in 0..rows {
@@ -68,7 +114,6 @@ impl World {
         }
         let slot = &mut self.tiles.slots[id.index()];
         slot.grid = None;
-        slot.generation = slot.generation.wrapping_add(1);
         Ok(())
     }
 
@@ -156,10 +201,5 @@ impl World {
         let slot = self.tiles.slots.get_mut(id.index());
         let slot = slot.filter(|slot| slot.generation == id.generation);
         slot.and_then(|slot| slot.grid.as_mut()).ok_or_else(|| id.into())
-    }
-
-    /// Cell values of all grids, for the hash.
-    pub(super) fn tile_values(&self) -> impl Iterator<Item = &[u16]> + '_ {
-        self.tiles.slots.iter().flat_map(|slot| &slot.grid).map(|placed| &placed.grid.cells[..])
     }
 }

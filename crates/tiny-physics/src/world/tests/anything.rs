@@ -177,6 +177,7 @@ impl Model {
             .flat_map(|sensor| world.sensor_overlaps(sensor).map(move |visitor| (sensor, visitor)))
             .collect();
         assert_eq!(seen, self.overlaps);
+        check_overlaps(world, &seen);
         for (a, b) in &self.contacts {
             assert!(world.shape(*a).is_some() && world.shape(*b).is_some(), "{a} {b} are gone");
         }
@@ -185,6 +186,35 @@ impl Model {
         }
         for body in events.woke().iter().chain(events.fell_asleep()) {
             assert!(world.body(*body).is_some() || body.index() < 1 << 16);
+        }
+    }
+}
+
+/// Sensors see what overlaps them now; what they see beyond that went by fast.
+fn check_overlaps(world: &World, seen: &BTreeSet<(ShapeId, ShapeId)>) {
+    let info = |shape: ShapeId| {
+        let shape = world.shape(shape).unwrap();
+        (shape, world.body(shape.body()).unwrap())
+    };
+    let is_fast = |body: BodyId| world.scratch.fast.iter().any(|fast| fast.body == body.index);
+    for of in world.shape_ids() {
+        for visitor in world.shape_ids() {
+            let ((sensor, body), (shape, other)) = (info(of), info(visitor));
+            let may_see = sensor.is_sensor()
+                && !shape.is_sensor()
+                && body.id() != other.id()
+                && (body.is_enabled() && other.is_enabled())
+                && sensor.filter().collides(&shape.filter())
+                && (body.kind() != BodyKind::Static || other.kind() != BodyKind::Static);
+            let gap = shape.pose().relative_to(sensor.pose());
+            let overlaps =
+                crate::geometry::distance(sensor.shape(), shape.shape(), gap).separation <= 0.0;
+            let sees = seen.contains(&(of, visitor));
+            if may_see && overlaps {
+                assert!(sees, "{of} does not see {visitor}");
+            } else if sees {
+                assert!(may_see && (is_fast(body.id()) || is_fast(other.id())), "{of} {visitor}");
+            }
         }
     }
 }

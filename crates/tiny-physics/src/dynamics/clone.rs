@@ -1,0 +1,64 @@
+//! Copies into memory that is there already.
+
+/// Implements `Clone` field by field, with a `clone_from` that keeps the memory of every field: the
+/// derived one drops it. A new field has to be named here, or this does not compile.
+macro_rules! clone_by_field {
+    ($type:ident $(<$generic:ident: $bound:path>)? { $($field:ident),* $(,)? }) => {
+        impl $(<$generic: $bound>)? Clone for $type $(<$generic>)? {
+            fn clone(&self) -> Self {
+                let Self { $($field),* } = self;
+                Self { $($field: $field.clone()),* }
+            }
+
+            fn clone_from(&mut self, source: &Self) {
+                let Self { $($field),* } = self;
+                $($field.clone_from(&source.$field);)*
+            }
+        }
+    };
+}
+
+/// Number of records ever put into a store, by this world or by any world that it was copied from: the
+/// source of generations. Going back to an earlier state does not turn it back, so that a handle made
+/// in the time that was undone never means something else. It is no part of the state: it is not
+/// hashed and does not make two worlds differ.
+#[derive(Debug, Default)]
+pub(crate) struct Serial(u32);
+
+impl Serial {
+    /// The generation of a new record.
+    pub(crate) fn next(&mut self) -> u32 {
+        self.0 = self.0.wrapping_add(1);
+        self.0
+    }
+}
+
+impl crate::codec::Data for Serial {
+    fn save(&self, sink: &mut impl crate::codec::Sink) {
+        sink.apart(self.0);
+    }
+    fn load(reader: &mut crate::codec::Reader<'_>) -> Result<Self, crate::error::Error> {
+        Ok(Self(crate::codec::Data::load(reader)?))
+    }
+}
+
+impl Clone for Serial {
+    fn clone(&self) -> Self {
+        Self(self.0)
+    }
+
+    /// Never lower than before.
+    fn clone_from(&mut self, source: &Self) {
+        if source.0 > self.0 {
+            self.0 = source.0;
+        }
+    }
+}
+
+impl PartialEq for Serial {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+pub(crate) use clone_by_field;

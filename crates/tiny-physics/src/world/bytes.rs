@@ -1,0 +1,277 @@
+//! Worlds as bytes: frames for files and networks.
+//!
+//! A header (magic, version, length and hash of what follows), then all stores one after the other. Whatever
+//! can be derived at little cost is left out. Reading checks the hash, which finds accidents; then every link
+//! of the stores, which finds the rest.
+
+use super::hooks::Hooks;
+use super::{Scratch, Stats, World};
+use crate::codec::{Data, Reader, Sink, Writer, bad};
+use crate::error::Error;
+use crate::simd::SimdLevel;
+use crate::threads::Pool;
+
+/// The first bytes of a frame.
+const MAGIC: [u8; 4] = *b"tpw1";
+/// Goes up whenever the bytes of the same world change.
+const VERSION: u32 = 1;
+/// Magic, version, length, hash.
+const HEADER: usize = 4 + 4 + 8 + 8;
+
+impl World {
+    /// The whole world as bytes, for [`World::from_bytes`] in another process or platform. Hooks, threads,
+    /// SIMD level and statistics are not part of it.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut writer = Writer(vec![0; HEADER]);
+        self.save(&mut writer);
+        let mut bytes = writer.0;
+        let (length, hash) = (bytes.len() - HEADER, hash_bytes(&bytes[HEADER..]));
+        bytes[..4].copy_from_slice(&MAGIC);
+        bytes[4..8].copy_from_slice(&VERSION.to_le_bytes());
+        bytes[8..16].copy_from_slice(&(length as u64).to_le_bytes());
+        bytes[16..24].copy_from_slice(&hash.to_le_bytes());
+        bytes
+    }
+
+    /// The world of [`World::to_bytes`]: it goes on bit for bit as the original does, and handles of the
+    /// original are valid in it. One thread, the best SIMD level of this machine.
+    ///
+    /// # Errors
+    /// The bytes are not those of a world, of another version, truncated or damaged.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
+        let payload = check_header(bytes)?;
+        let mut reader = Reader(payload);
+        let world = Self::load(&mut reader)?;
+        reader.finish()?;
+        world.check_loaded().map_err(bad)?;
+        Ok(world)
+    }
+
+    /// Goes back to the world of [`World::to_bytes`] in place: what [`Clone::clone_from`] is for frames in
+    /// memory. Keeps hooks, threads, SIMD level and statistics.
+    ///
+    /// # Errors
+    /// As [`World::from_bytes`]; this world has not changed then.
+    pub fn restore_bytes(&mut self, bytes: &[u8]) -> Result<(), Error> {
+        let mut world = Self::from_bytes(bytes)?;
+        world.hooks.clone_from(&self.hooks);
+        self.clone_from(&world);
+        Ok(())
+    }
+}
+
+/// What follows the header, if that is right.
+fn check_header(bytes: &[u8]) -> Result<&[u8], Error> {
+    let mut reader = Reader(bytes);
+    if <[u8; 4]>::load(&mut reader)? != MAGIC {
+        return Err(bad("it does not begin like one"));
+    }
+    if u32::load(&mut reader)? != VERSION {
+        return Err(bad("it was written by another version of the engine"));
+    }
+    let (length, hash) = (u64::load(&mut reader)?, u64::load(&mut reader)?);
+    if reader.0.len() as u64 != length && !cfg!(fuzzing) {
+        return Err(bad("it ends too early or too late"));
+    }
+    if hash_bytes(reader.0) != hash && !cfg!(fuzzing) {
+        return Err(bad("it is damaged"));
+    }
+    Ok(reader.0)
+}
+
+/// FNV-1a over words in four independent lanes: it finds accidents, not attacks.
+fn hash_bytes(bytes: &[u8]) -> u64 {
+    const PRIME: u64 = 0x0000_0100_0000_01B3;
+    let mut lanes = [0xCBF2_9CE4_8422_2325_u64, 1, 2, 3];
+    let chunks = bytes.chunks_exact(32);
+    let rest = chunks.remainder();
+    for chunk in chunks {
+        for (lane, word) in lanes.iter_mut().zip(chunk.chunks_exact(8)) {
+            let word = word.try_into().map_or(0, u64::from_le_bytes);
+            *lane = (*lane ^ word).wrapping_mul(PRIME).rotate_left(23);
+        }
+    }
+    rest.iter().for_each(|&byte| lanes[0] = (lanes[0] ^ u64::from(byte)).wrapping_mul(PRIME));
+    lanes.iter().fold(bytes.len() as u64, |hash, lane| {
+        let mixed = (hash ^ lane).wrapping_mul(PRIME);
+        mixed ^ mixed >> 29
+    })
+}
+
+impl Data for World {
+    fn save(&self, sink: &mut impl Sink) {
+        let Self {
+            gravity,
+            settings,
+            bodies,
+            shapes,
+            contacts,
+            graph,
+            joints,
+            joint_graph,
+            broad_phase,
+            tiles,
+            sensors,
+            hooks: _,
+            events,
+            step_count,
+            inv_h,
+            dt,
+            level: _,
+            pool: _,
+            stats: _,
+            scratch: _,
+        } = self;
+        gravity.save(sink);
+        settings.save(sink);
+        bodies.save(sink);
+        shapes.save(sink);
+        contacts.save(sink);
+        graph.save(sink);
+        joints.save(sink);
+        joint_graph.save(sink);
+        broad_phase.save(sink);
+        tiles.save(sink);
+        sensors.save(sink);
+        events.save(sink);
+        step_count.save(sink);
+        inv_h.save(sink);
+        dt.save(sink);
+    }
+
+    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        Ok(Self {
+            gravity: Data::load(reader)?,
+            settings: Data::load(reader)?,
+            bodies: Data::load(reader)?,
+            shapes: Data::load(reader)?,
+            contacts: Data::load(reader)?,
+            graph: Data::load(reader)?,
+            joints: Data::load(reader)?,
+            joint_graph: Data::load(reader)?,
+            broad_phase: Data::load(reader)?,
+            tiles: Data::load(reader)?,
+            sensors: Data::load(reader)?,
+            hooks: Hooks::default(),
+            events: Data::load(reader)?,
+            step_count: Data::load(reader)?,
+            inv_h: Data::load(reader)?,
+            dt: Data::load(reader)?,
+            level: SimdLevel::detect(),
+            pool: Pool::default(),
+            stats: Stats::default(),
+            scratch: Scratch::default(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{BodyKind, JointDef, RigidBody, Shape, ShapeDef, Vec2};
+
+    /// Something of everything: piles, joints of several kinds, sensors, sleepers, gaps in all lists.
+    fn busy_world() -> World {
+        let mut world = World::new(Vec2::new(0.0, -9.8));
+        let ground = RigidBody::fixed().shape(Shape::rect(20.0, 1.0).unwrap());
+        let ground = world.add_body(ground).unwrap();
+        let gate = ShapeDef::new(Shape::rect(3.0, 3.0).unwrap()).sensor();
+        world.add_body(RigidBody::fixed().position(Vec2::new(2.0, 2.0)).shape(gate)).unwrap();
+        let mut ids = Vec::new();
+        for i in 0..24 {
+            let shape = match i % 4 {
+                0 => Shape::circle(0.4).unwrap(),
+                1 => Shape::rect(0.5, 0.3).unwrap(),
+                2 => Shape::regular(5, 0.5).unwrap(),
+                _ => Shape::capsule(Vec2::new(-0.3, 0.0), Vec2::new(0.3, 0.0), 0.2).unwrap(),
+            };
+            let mut shape = ShapeDef::new(shape);
+            shape.contact_events = i % 3 == 0;
+            let place = Vec2::new((i % 6) as f32 - 3.0, 1.5 + (i / 6) as f32);
+            let body = RigidBody::dynamic().position(place).shape(shape);
+            ids.push(world.add_body(body).unwrap());
+        }
+        let lift = RigidBody { kind: BodyKind::Kinematic, ..RigidBody::dynamic() };
+        world.add_body(lift.position(Vec2::new(8.0, 3.0)).velocity(Vec2::new(0.1, 0.0))).unwrap();
+        let kinds =
+            [JointDef::revolute(), JointDef::distance(1.0), JointDef::weld(), JointDef::gear(2.0)];
+        for (i, def) in kinds.into_iter().enumerate() {
+            world.add_joint(ids[i], ids[i + 6], def.break_at(1.0e5, 1.0e5)).unwrap();
+        }
+        world.add_joint(ground, ids[23], JointDef::wheel(Vec2::Y)).unwrap();
+        (0..40).for_each(|_| world.step(1.0 / 60.0));
+        world.remove_body(ids[11]).unwrap();
+        world.remove_body(ids[17]).unwrap();
+        world.body_mut(ids[5]).unwrap().sleep();
+        world
+    }
+
+    fn set_hash(bytes: &mut [u8]) {
+        let hash = hash_bytes(&bytes[HEADER..]);
+        bytes[16..24].copy_from_slice(&hash.to_le_bytes());
+    }
+
+    #[test]
+    fn bytes_bring_the_same_world_back() {
+        let mut world = busy_world();
+        let bytes = world.to_bytes();
+        let mut copy = World::from_bytes(&bytes).unwrap();
+        assert_eq!(copy.to_bytes(), bytes);
+        for _ in 0..120 {
+            assert_eq!(copy.state_hash(), world.state_hash());
+            world.step(1.0 / 60.0);
+            copy.step(1.0 / 60.0);
+            assert_eq!(copy.events(), world.events());
+        }
+    }
+
+    #[test]
+    fn refuses_what_is_cut_off_or_damaged() {
+        let bytes = busy_world().to_bytes();
+        for length in (0..bytes.len()).step_by(7) {
+            assert!(World::from_bytes(&bytes[..length]).is_err());
+        }
+        let mut damaged = bytes.clone();
+        damaged[bytes.len() / 2] ^= 4;
+        assert!(World::from_bytes(&damaged).is_err());
+        let mut other = bytes;
+        other[4] += 1;
+        let error = World::from_bytes(&other).unwrap_err().to_string();
+        assert!(error.contains("another version"), "{error}");
+    }
+
+    /// Damage with a right hash is refused, or makes a world that can be used.
+    #[test]
+    fn survives_malice() {
+        let bytes = busy_world().to_bytes();
+        let mut state = 1_u64;
+        let mut random = |below: usize| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 33) as usize % below
+        };
+        let (mut refused, rounds) = (0, 3000);
+        for _ in 0..rounds {
+            let mut bad = bytes.clone();
+            for _ in 0..=random(2) {
+                let at = HEADER + random(bad.len() - HEADER);
+                bad[at] = match random(4) {
+                    0 => 0,
+                    1 => 255,
+                    2 => bad[at] ^ 1 << random(8),
+                    _ => random(256) as u8,
+                };
+            }
+            set_hash(&mut bad);
+            match World::from_bytes(&bad) {
+                Err(_) => refused += 1,
+                Ok(mut world) => {
+                    (0..3).for_each(|_| world.step(1.0 / 60.0));
+                    let bodies: Vec<_> = world.body_ids().collect();
+                    bodies.into_iter().step_by(5).for_each(|id| world.remove_body(id).unwrap());
+                    world.step(1.0 / 60.0);
+                }
+            }
+        }
+        assert!(refused > rounds / 20, "{refused}");
+    }
+}

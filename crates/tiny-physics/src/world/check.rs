@@ -1,0 +1,324 @@
+//! Checks of a world that was read from bytes: every link leads where it should, so that whatever the bytes
+//! say, no later walk leaves a list or runs in a circle. Numbers that are merely strange are left to the
+//! step, which stops bodies that are no longer finite.
+
+use super::World;
+use crate::broad_phase::ProxyId;
+use crate::describe::BodyKind;
+use crate::dynamics::{
+    Bucket, Contact, FrameLanes, IDLE, JOINT_OVERFLOW, JointBucket, JointClass, JointLanes,
+    JointPlace, JointRecord, NULL, Place, guard,
+};
+use crate::geometry::manifold::{PairClass, ShapeClass};
+use crate::simd::BLOCK;
+
+type Check = Result<(), &'static str>;
+
+/// The reason as an error unless the condition holds.
+fn ensure(condition: bool, reason: &'static str) -> Check {
+    if condition { Ok(()) } else { Err(reason) }
+}
+
+/// Are the numbers distinct, and just those for which `member` holds?
+fn is_set(list: &[u32], count: usize, member: impl Fn(usize) -> bool) -> bool {
+    let mut seen = vec![false; count];
+    for &index in list {
+        match seen.get_mut(index as usize) {
+            Some(seen) if !*seen => *seen = true,
+            _ => return false,
+        }
+    }
+    seen.iter().enumerate().all(|(index, &seen)| seen == member(index))
+}
+
+/// Blocks that so many slots need.
+fn blocks(slots: usize) -> usize {
+    slots.div_ceil(BLOCK)
+}
+
+impl World {
+    /// Says what is wrong with a world that was read.
+    pub(super) fn check_loaded(&self) -> Check {
+        self.check_bodies()?;
+        self.check_shapes()?;
+        self.check_contacts()?;
+        self.check_graph()?;
+        self.check_joints()?;
+        self.check_joint_graph()?;
+        self.check_sensors()?;
+        self.validate().map_err(|_| "its parts contradict each other")
+    }
+
+    fn is_body(&self, index: u32) -> bool {
+        self.bodies.infos.get(index as usize).is_some_and(|info| info.alive)
+    }
+
+    /// Body 0, which nothing moves, may be an end of a joint.
+    fn check_bodies(&self) -> Check {
+        let bodies = &self.bodies;
+        let count = bodies.infos.len();
+        let lengths = [bodies.rows.len(), bodies.poses.len(), bodies.previous.len()];
+        ensure(count > 0 && lengths.iter().all(|&length| length == count), "bodies are missing")?;
+        ensure(
+            bodies.motions.len() == count && bodies.starts.len() == count,
+            "bodies are missing",
+        )?;
+        ensure(
+            !bodies.infos[0].alive && bodies.infos[0].kind == BodyKind::Static,
+            "body 0 is alive",
+        )?;
+        ensure(
+            bodies.infos.iter().filter(|info| info.alive).count() == bodies.count,
+            "bodies are miscounted",
+        )?;
+        let is_free = |i: usize| i > 0 && !bodies.infos[i].alive;
+        ensure(is_set(&bodies.free, count, is_free), "the free bodies are not")?;
+        let is_awake = |i: usize| bodies.infos[i].awake;
+        ensure(is_set(&bodies.awake, count, is_awake), "the awake bodies are not")?;
+        ensure(
+            bodies.awake_unsorted || bodies.awake.is_sorted(),
+            "the awake bodies are in disorder",
+        )?;
+        for (info, pose) in bodies.infos.iter().zip(&bodies.poses) {
+            let moves = info.alive && info.enabled && info.kind != BodyKind::Static;
+            ensure(!info.awake || moves, "a body that cannot move is awake")?;
+            ensure(pose.is_finite(), "a body is nowhere")?;
+            let next = info.island_next;
+            let sleeps = |i: u32| {
+                bodies.infos.get(i as usize).is_some_and(|info| {
+                    info.alive && !info.awake && info.enabled && info.kind != BodyKind::Static
+                })
+            };
+            ensure(
+                next == NULL || !info.alive || (!info.awake && sleeps(next)),
+                "an island is broken",
+            )?;
+        }
+        Ok(())
+    }
+
+    fn check_shapes(&self) -> Check {
+        let shapes = &self.shapes;
+        let count = shapes.records.len();
+        ensure(
+            shapes.rows.len() == count && shapes.fat.len() == count && shapes.guards.len() == count,
+            "shapes are missing",
+        )?;
+        ensure(
+            shapes.records.iter().filter(|r| r.alive).count() == shapes.count,
+            "shapes are miscounted",
+        )?;
+        ensure(
+            is_set(&shapes.free, count, |i| !shapes.records[i].alive),
+            "the free shapes are not",
+        )?;
+        let mut proxies = 0;
+        for (index, record) in shapes.records.iter().enumerate().filter(|(_, record)| record.alive)
+        {
+            ensure(self.is_body(record.body), "a shape hangs on nothing")?;
+            ensure(record.class == ShapeClass::of(&record.shape), "a shape is of another class")?;
+            let own = shapes.guards[index] & !0xffff;
+            ensure(own == guard::of(record), "a shape is guarded wrongly")?;
+            if record.proxy != NULL {
+                let user = self.broad_phase.user(ProxyId(record.proxy));
+                ensure(user == Some(index as u32), "a shape is not in the broad phase")?;
+                proxies += 1;
+            }
+        }
+        ensure(proxies == self.broad_phase.len(), "the broad phase knows other shapes")?;
+        self.check_shape_lists()
+    }
+
+    fn check_shape_lists(&self) -> Check {
+        let mut seen = vec![false; self.shapes.records.len()];
+        for (index, info) in self.bodies.infos.iter().enumerate() {
+            let mut shape = info.first_shape;
+            for _ in 0..info.shape_count {
+                let record = self.shapes.records.get(shape as usize).filter(|record| record.alive);
+                let record = record.ok_or("a list of shapes leads nowhere")?;
+                let once = !core::mem::replace(&mut seen[shape as usize], true);
+                ensure(once && record.body as usize == index, "a list of shapes holds another's")?;
+                shape = record.next;
+            }
+            ensure(shape == NULL, "a list of shapes is too long")?;
+        }
+        let listed = |(record, &seen): (&crate::dynamics::ShapeRecord, &bool)| record.alive == seen;
+        ensure(self.shapes.records.iter().zip(&seen).all(listed), "a shape is in no list")
+    }
+
+    fn check_contacts(&self) -> Check {
+        let contacts = &self.contacts;
+        let records = &contacts.records;
+        ensure(records.len() < (NULL / 2) as usize, "there are too many contacts")?;
+        ensure(
+            is_set(&contacts.free, records.len(), |i| !records[i].alive),
+            "the free contacts are not",
+        )?;
+        let shape = |index: u32| self.shapes.records.get(index as usize).filter(|r| r.alive);
+        for contact in records.iter().filter(|contact| contact.alive) {
+            let (Some(a), Some(b)) = (shape(contact.shape_a), shape(contact.shape_b)) else {
+                return Err("a contact is of no shapes");
+            };
+            let bodies = (a.body, b.body) == (contact.body_a, contact.body_b) && a.body != b.body;
+            let class = a.class >= b.class && contact.class == PairClass::of(a.class, b.class);
+            ensure(bodies && class, "a contact is of other shapes")?;
+        }
+        let ends = |contact: &Contact| [contact.body_a, contact.body_b];
+        let links = records.iter().map(|c| c.alive.then(|| (ends(c), c.links)));
+        self.check_edges(&links.collect::<Vec<_>>(), |body| self.bodies.infos[body].first_contact)
+    }
+
+    /// Checks doubly linked lists of edges (record * 2 + side) by body: each edge once, in the right one.
+    fn check_edges(
+        &self,
+        records: &[Option<([u32; 2], [(u32, u32); 2])>],
+        first: impl Fn(usize) -> u32,
+    ) -> Check {
+        let mut left = 2 * records.iter().flatten().count();
+        for body in 0..self.bodies.infos.len() {
+            let (mut previous, mut edge) = (NULL, first(body));
+            while edge != NULL {
+                let (index, side) = (edge as usize / 2, edge as usize % 2);
+                let record = records.get(index).copied().flatten();
+                let (ends, links) = record.ok_or("a list of contacts or joints leads nowhere")?;
+                let right = ends[side] as usize == body && links[side].0 == previous && left > 0;
+                ensure(right, "a list of contacts or joints is broken")?;
+                left -= 1;
+                (previous, edge) = (edge, links[side].1);
+            }
+        }
+        ensure(left == 0, "a contact or joint is in no list")
+    }
+
+    fn check_graph(&self) -> Check {
+        let mut placed = 0;
+        for (colour, buckets) in self.graph.buckets.iter().enumerate() {
+            for (class, bucket) in PairClass::ALL.into_iter().zip(buckets) {
+                self.check_bucket(colour, class, bucket)?;
+                placed += bucket.contacts.len();
+            }
+        }
+        let alive = self.contacts.records.iter().filter(|contact| contact.alive);
+        let waiting = alive.filter(|contact| contact.place != Place::Asleep).count();
+        ensure(placed == waiting, "contacts are lost")
+    }
+
+    fn check_bucket(&self, colour: usize, class: PairClass, bucket: &Bucket) -> Check {
+        let count = blocks(bucket.contacts.len());
+        let constrained = if colour == IDLE { 0 } else { count };
+        let lengths = bucket.manifolds.len() == count && bucket.heads.len() == count;
+        let solved = [bucket.constraints.len(), bucket.surfaces.len()];
+        ensure(lengths && solved == [constrained; 2], "blocks are missing")?;
+        for slot in 0..count * BLOCK {
+            let (block, lane) = (slot / BLOCK, slot % BLOCK);
+            let expected = match bucket.contacts.get(slot) {
+                None => [0; 4],
+                Some(&index) => {
+                    let record = self.contacts.records.get(index as usize);
+                    let contact =
+                        record.filter(|contact| contact.alive).ok_or("a lane has no contact")?;
+                    let place = Place::Graph { colour: colour as u8, slot: slot as u32 };
+                    ensure(
+                        contact.place == place && contact.class == class,
+                        "a contact is elsewhere",
+                    )?;
+                    [contact.body_a, contact.body_b, contact.shape_a, contact.shape_b]
+                }
+            };
+            let lanes = &bucket.manifolds[block];
+            let found = [&lanes.body_a, &lanes.body_b, &lanes.shape_a, &lanes.shape_b];
+            ensure(found.map(|lanes| lanes[lane]) == expected, "a lane is of other bodies")?;
+            if let Some(lanes) = bucket.constraints.get(block) {
+                let found = [lanes.body_a[lane], lanes.body_b[lane]];
+                ensure(found == expected[..2], "a constraint is of other bodies")?;
+            }
+        }
+        Ok(())
+    }
+
+    fn check_joints(&self) -> Check {
+        let joints = &self.joints;
+        let records = &joints.records;
+        ensure(records.len() < (NULL / 2) as usize, "there are too many joints")?;
+        ensure(
+            records.iter().filter(|r| r.alive).count() == joints.count,
+            "joints are miscounted",
+        )?;
+        ensure(
+            is_set(&joints.free, records.len(), |i| !records[i].alive),
+            "the free joints are not",
+        )?;
+        for record in records.iter().filter(|record| record.alive) {
+            let (a, b) = (record.body_a, record.body_b);
+            ensure(self.is_body(a) && self.is_body(b) && a != b, "a joint joins nothing")?;
+            record.def.validate().map_err(|_| "a joint is out of range")?;
+        }
+        let breakable = |i: usize| records[i].def.break_at.is_some();
+        let is_breakable = is_set(&joints.breakable, records.len(), breakable);
+        ensure(is_breakable && joints.breakable.is_sorted(), "the breakable joints are not")?;
+        let ends = |record: &JointRecord| [record.body_a, record.body_b];
+        let links = records.iter().map(|r| r.alive.then(|| (ends(r), r.links)));
+        self.check_edges(&links.collect::<Vec<_>>(), |body| self.bodies.infos[body].first_joint)
+    }
+
+    fn check_joint_graph(&self) -> Check {
+        let graph = &self.joint_graph;
+        ensure(graph.colours.len() == JOINT_OVERFLOW + 1, "colours of joints are missing")?;
+        for (colour, buckets) in graph.colours.iter().enumerate() {
+            self.check_joint_bucket(colour, JointClass::Distance, &buckets.distance)?;
+            self.check_joint_bucket(colour, JointClass::Revolute, &buckets.revolute)?;
+            self.check_joint_bucket(colour, JointClass::Prismatic, &buckets.prismatic)?;
+            self.check_joint_bucket(colour, JointClass::Weld, &buckets.weld)?;
+            self.check_joint_bucket(colour, JointClass::Wheel, &buckets.wheel)?;
+            self.check_joint_bucket(colour, JointClass::Drive, &buckets.drive)?;
+            self.check_joint_bucket(colour, JointClass::Pulley, &buckets.pulley)?;
+            self.check_joint_bucket(colour, JointClass::Gear, &buckets.gear)?;
+        }
+        let placed: usize = graph.colours.iter().map(|colour| colour.count()).sum();
+        let records = self.joints.records.iter().filter(|record| record.alive);
+        let waiting = records.filter(|record| record.place != JointPlace::Asleep).count();
+        ensure(placed == graph.count && placed == waiting, "joints are lost")
+    }
+
+    fn check_joint_bucket<B: JointLanes>(
+        &self,
+        colour: usize,
+        class: JointClass,
+        bucket: &JointBucket<B>,
+    ) -> Check {
+        let count = blocks(bucket.joints.len());
+        ensure(bucket.blocks.len() == count && bucket.stale.len() == count, "blocks are missing")?;
+        for slot in 0..count * BLOCK {
+            let expected = match bucket.joints.get(slot) {
+                None => [0; 2],
+                Some(&index) => {
+                    let record = self.joints.records.get(index as usize);
+                    let record =
+                        record.filter(|record| record.alive).ok_or("a lane has no joint")?;
+                    let place = JointPlace::Graph { colour: colour as u8, slot: slot as u32 };
+                    ensure(
+                        record.place == place && record.class() == Some(class),
+                        "a joint is elsewhere",
+                    )?;
+                    [record.body_a, record.body_b]
+                }
+            };
+            let mut block = bucket.blocks[slot / BLOCK];
+            let FrameLanes { body_a, body_b, .. } = block.frame();
+            let found = [body_a[slot % BLOCK], body_b[slot % BLOCK]];
+            ensure(found == expected, "a joint's lane is of other bodies")?;
+        }
+        Ok(())
+    }
+
+    fn check_sensors(&self) -> Check {
+        let sensors = &self.sensors;
+        let count = self.shapes.records.len();
+        let is_sensor = |i: usize| self.shapes.records[i].alive && self.shapes.records[i].sensor;
+        let right = is_set(&sensors.shapes, count, is_sensor) && sensors.shapes.is_sorted();
+        ensure(right, "the sensors are not")?;
+        let inside = |shape: u32| (shape as usize) < count;
+        let known = sensors.overlaps.iter().all(|o| inside(o.sensor) && inside(o.visitor));
+        ensure(known && sensors.overlaps.is_sorted(), "sensors see what is not there")
+    }
+}

@@ -1,0 +1,95 @@
+//! Frames: copies of a world to go back to.
+
+use super::{Scratch, Stats, World};
+
+/// A copy has the same future, bit for bit. It shares the threads of the original; statistics start
+/// anew.
+///
+/// `clone_from` goes back to a saved frame in place, or saves one over an older one, without
+/// allocating where the memory at hand is enough. The world keeps its own threads, SIMD level and statistics.
+/// Handles that were valid in the frame are valid again. Handles made since, in a time that is now undone,
+/// are refused for good: bodies that are added after going back get handles that were never given.
+///
+/// ```
+/// use tiny_physics::{RigidBody, Shape, Vec2, World};
+/// # fn main() -> Result<(), tiny_physics::Error> {
+/// let mut world = World::new(Vec2::new(0.0, -9.8));
+/// let ball = || RigidBody::new(Shape::Circle { radius: 0.5 }, Vec2::ZERO, 1.0);
+/// let first = world.add_body(ball())?;
+/// let frame = world.clone();
+/// world.step(1.0 / 60.0);
+/// let undone = world.add_body(ball())?;
+/// world.clone_from(&frame);
+/// let again = world.add_body(ball())?;
+/// assert!(world.body(first).is_some() && world.body(again).is_some());
+/// assert!(world.body(undone).is_none());
+/// # Ok(())
+/// # }
+/// ```
+impl Clone for World {
+    fn clone(&self) -> Self {
+        Self {
+            gravity: self.gravity,
+            settings: self.settings,
+            bodies: self.bodies.clone(),
+            shapes: self.shapes.clone(),
+            contacts: self.contacts.clone(),
+            graph: self.graph.clone(),
+            joints: self.joints.clone(),
+            joint_graph: self.joint_graph.clone(),
+            broad_phase: self.broad_phase.clone(),
+            tiles: self.tiles.clone(),
+            sensors: self.sensors.clone(),
+            hooks: self.hooks.clone(),
+            events: self.events.clone(),
+            step_count: self.step_count,
+            inv_h: self.inv_h,
+            dt: self.dt,
+            level: self.level,
+            pool: self.pool.clone(),
+            stats: Stats::default(),
+            scratch: Scratch::default(),
+        }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        let Self {
+            gravity,
+            settings,
+            bodies,
+            shapes,
+            contacts,
+            graph,
+            joints,
+            joint_graph,
+            broad_phase,
+            tiles,
+            sensors,
+            hooks,
+            events,
+            step_count,
+            inv_h,
+            dt,
+            level: _,
+            pool: _,
+            stats: _,
+            scratch: _,
+        } = self;
+        *gravity = source.gravity;
+        *settings = source.settings;
+        *step_count = source.step_count;
+        *inv_h = source.inv_h;
+        *dt = source.dt;
+        tiles.clone_from(&source.tiles);
+        hooks.clone_from(&source.hooks);
+        bodies.clone_from(&source.bodies);
+        shapes.clone_from(&source.shapes);
+        contacts.clone_from(&source.contacts);
+        graph.clone_from(&source.graph);
+        joints.clone_from(&source.joints);
+        joint_graph.clone_from(&source.joint_graph);
+        broad_phase.clone_from(&source.broad_phase);
+        sensors.clone_from(&source.sensors);
+        events.clone_from(&source.events);
+    }
+}

@@ -1,0 +1,93 @@
+//! Bodies whose numbers stopped being finite.
+
+use super::World;
+use crate::dynamics::SavedPoint;
+use crate::math::Vec2;
+
+impl World {
+    /// Stops a body where it last was, and lets all that acts on it start anew: what has been gathered there may
+    /// not be finite either and would come back in the next step.
+    pub(super) fn freeze(&mut self, index: u32) {
+        let row = &mut self.bodies.rows[index as usize];
+        for value in [0, 1, 2, 4, 5, 6] {
+            row[value] = 0.0;
+        }
+        let info = &mut self.bodies.infos[index as usize];
+        info.force = Vec2::ZERO;
+        info.torque = 0.0;
+        self.forget_joint_impulses(index);
+        self.forget_contact_impulses(index);
+    }
+
+    fn forget_joint_impulses(&mut self, index: u32) {
+        let Self { bodies, joints, joint_graph, .. } = self;
+        let first = bodies.infos[index as usize].first_joint;
+        let mut indices: Vec<u32> = joints.of_body(first).map(|(joint, _)| joint).collect();
+        indices.sort_unstable();
+        for joint in indices {
+            joint_graph.remove(bodies, joints, joint);
+            joints.records[joint as usize].saved = Default::default();
+            joint_graph.insert(bodies, joints, joint);
+        }
+    }
+
+    fn forget_contact_impulses(&mut self, index: u32) {
+        let Self { bodies, contacts, graph, .. } = self;
+        let first = bodies.infos[index as usize].first_contact;
+        let mut indices: Vec<u32> = contacts.of_body(first).map(|(contact, _)| contact).collect();
+        indices.sort_unstable();
+        for contact in indices {
+            graph.remove(bodies, contacts, contact);
+            contacts.records[contact as usize].saved = [SavedPoint::NONE; 2];
+            graph.insert(bodies, contacts, contact);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{JointDef, RigidBody, Shape};
+
+    /// Poison in one box of a heap: the step reports it, nothing is NaN afterwards, what is far away has
+    /// not noticed, and the heap comes to rest again.
+    #[test]
+    fn poison_does_not_spread() {
+        let build = |poison: f32| {
+            let mut world = World::new(Vec2::new(0.0, -9.8));
+            let ground = RigidBody::fixed().shape(Shape::rect(40.0, 1.0).unwrap());
+            world.add_body(ground).unwrap();
+            let mut ids = Vec::new();
+            for i in 0..20 {
+                let place = Vec2::new((i % 4) as f32 * 0.9, 1.6 + (i / 4) as f32 * 1.1);
+                let shape = Shape::rect(0.5, 0.5).unwrap();
+                let body = RigidBody::dynamic().position(place).shape(shape);
+                ids.push(world.add_body(body).unwrap());
+            }
+            let ball = RigidBody::dynamic().position(Vec2::new(30.0, 9.0));
+            let far = world.add_body(ball.shape(Shape::circle(0.5).unwrap())).unwrap();
+            world.add_joint(ids[3], ids[7], JointDef::revolute()).unwrap();
+            (0..30).for_each(|_| world.step(1.0 / 60.0));
+            let row = &mut world.bodies.rows[ids[6].index()];
+            row[0] += poison;
+            world.step(1.0 / 60.0);
+            (world, ids, far)
+        };
+        let (clean, _, clean_far) = build(0.0);
+        for poison in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            let (mut world, ids, far) = build(poison);
+            assert!(world.stats().frozen_bodies > 0 && clean.stats().frozen_bodies == 0);
+            world.validate().unwrap();
+            let place = |world: &World, id| world.body(id).unwrap().position();
+            assert_eq!(place(&world, far), place(&clean, clean_far));
+            world.step(1.0 / 60.0);
+            assert_eq!(world.stats().frozen_bodies, 0);
+            (0..300).for_each(|_| world.step(1.0 / 60.0));
+            world.validate().unwrap();
+            for id in ids {
+                let body = world.body(id).unwrap();
+                assert!(body.position().y < 8.0 && body.velocity().length() < 0.5);
+            }
+        }
+    }
+}
