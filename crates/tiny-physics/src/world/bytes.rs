@@ -116,7 +116,6 @@ impl Data for World {
             events,
             step_count,
             inv_h,
-            dt,
             level: _,
             pool: _,
             stats: _,
@@ -136,7 +135,6 @@ impl Data for World {
         events.save(sink);
         step_count.save(sink);
         inv_h.save(sink);
-        dt.save(sink);
     }
 
     fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
@@ -156,7 +154,6 @@ impl Data for World {
             events: Data::load(reader)?,
             step_count: Data::load(reader)?,
             inv_h: Data::load(reader)?,
-            dt: Data::load(reader)?,
             level: SimdLevel::detect(),
             pool: Pool::default(),
             stats: Stats::default(),

@@ -44,7 +44,6 @@ impl Clone for World {
             events: self.events.clone(),
             step_count: self.step_count,
             inv_h: self.inv_h,
-            dt: self.dt,
             level: self.level,
             pool: self.pool.clone(),
             stats: Stats::default(),
@@ -69,7 +68,6 @@ impl Clone for World {
             events,
             step_count,
             inv_h,
-            dt,
             level: _,
             pool: _,
             stats: _,
@@ -79,7 +77,6 @@ impl Clone for World {
         *settings = source.settings;
         *step_count = source.step_count;
         *inv_h = source.inv_h;
-        *dt = source.dt;
         tiles.clone_from(&source.tiles);
         hooks.clone_from(&source.hooks);
         bodies.clone_from(&source.bodies);
