@@ -81,7 +81,7 @@ static ENTRIES: &[Entry] = &[
     entry("circles_100k", "A pile of 100,000 circles", 120, BENCHMARK_HUGE, seed::circles_100k),
     entry("circles_1m", "A pile of 1,000,000 circles", 120, BENCHMARK_HUGE, seed::circles_1m),
     entry("tiles", "500 movers walk in a platformer level", 600, &[tags::BENCHMARK, tags::SEEDED], level::tiles),
-    entry("tile_map", "Balls and crates on hills and platforms of tiles, and a chain", 600, &[tags::SHOW, tags::SEEDED], level::tile_map),
+    entry("tile_map", "Balls and crates on hills and platforms of tiles, and a chain", 600, &[tags::SEEDED], level::tile_map),
     entry("stack", "A tower of crates", 600, SHOW, show::stack),
     entry("pyramid", "A small pyramid of crates", 600, SHOW, show::pyramid),
     entry("newton_cradle", "Five balls hand a knock through", 600, SHOW, show::newton_cradle),

@@ -219,9 +219,9 @@ impl CharacterMover {
                 return;
             };
             self.position += rest * hit.fraction;
-            rest = rest * (1.0 - hit.fraction);
+            rest *= 1.0 - hit.fraction;
             planes[cast] = hit.normal;
-            rest = rest - hit.normal * hit.normal.dot(rest);
+            rest -= hit.normal * hit.normal.dot(rest);
             if planes[..cast].iter().any(|plane| plane.dot(rest) < -PARALLEL * rest.length()) {
                 return;
             }
@@ -316,7 +316,7 @@ impl CharacterMover {
             };
             self.position += rest * hit.fraction;
             left *= 1.0 - hit.fraction;
-            rest = rest * (1.0 - hit.fraction);
+            rest *= 1.0 - hit.fraction;
             if velocity.dot(hit.normal) < 0.0
                 && rest.dot(up) <= 0.0
                 && self.holds(world, frame, &hit)
@@ -324,10 +324,10 @@ impl CharacterMover {
                 self.land(world, frame, &hit, speed, left);
                 return;
             }
-            rest = rest - hit.normal * hit.normal.dot(rest);
+            rest -= hit.normal * hit.normal.dot(rest);
             let into = hit.normal.dot(velocity);
             if into < 0.0 {
-                velocity = velocity - hit.normal * into;
+                velocity -= hit.normal * into;
             }
             self.push(world, frame, &hit, speed);
         }
