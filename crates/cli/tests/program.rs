@@ -114,7 +114,7 @@ fn neither_threads_nor_simd_change_the_hash() {
 #[test]
 fn the_table_says_the_same() {
     let out = good(&["run", "seed_demo", "--steps", "10"]);
-    for word in ["bodies       22", "ms per step", "penetration", "hash"] {
+    for word in ["bodies       24", "ms per step", "penetration", "hash"] {
         assert!(out.contains(word), "{word} in {out}");
     }
 }
