@@ -69,7 +69,7 @@ impl<'a> Lab<'a> {
         trial.host.step(trial.scene.dt);
         trial.steps += 1;
         self.done += 1;
-        if self.done % 16 == 0 {
+        if self.done.is_multiple_of(16) {
             (self.progress)(self.done, self.total.max(self.done));
         }
     }

@@ -28,7 +28,7 @@ impl Target {
     /// infinitely much.
     pub fn use_of(self, measured: f64) -> f64 {
         let used = match self {
-            Self::AtMost(limit) if limit == 0.0 => {
+            Self::AtMost(0.0) => {
                 if measured <= 0.0 {
                     0.0
                 } else {

@@ -43,7 +43,7 @@ fn chain(links: u32, ratio: f32) -> Scene {
     let capsule = Shape::Capsule { a, b, radius: RADIUS };
     let link_mass = capsule.mass_properties(1.0).mass;
     for i in 0..links {
-        let link = scene.body(moving(ghost(capsule.clone()), Vec2::new(i as f32 + 0.5, 0.0)));
+        let link = scene.body(moving(ghost(capsule), Vec2::new(i as f32 + 0.5, 0.0)));
         let hinge = JointDef::revolute().anchors(anchor, Vec2::new(-0.5, 0.0));
         scene.joint(last, link, hinge);
         (last, anchor) = (link, Vec2::new(0.5, 0.0));

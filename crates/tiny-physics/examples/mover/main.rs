@@ -18,9 +18,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     while level.time < END {
         let input = level.scripted_input(DT);
         level.step(input, DT);
-        if (level.time * 60.0).round() as u32 % 120 == 0 {
+        if ((level.time * 60.0).round() as u32).is_multiple_of(120) {
             print(&level);
         }
+    }
+    if let Some(body) = level.world.body(level.crate_) {
+        println!("the crate was pushed to x = {:.2}", body.position().x);
     }
     Ok(())
 }

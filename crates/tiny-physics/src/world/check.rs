@@ -12,6 +12,9 @@ use crate::dynamics::{
 use crate::geometry::manifold::{PairClass, ShapeClass};
 use crate::simd::BLOCK;
 
+/// The bodies of a contact or joint and its neighbours in their lists.
+type Ends = ([u32; 2], [(u32, u32); 2]);
+
 type Check = Result<(), &'static str>;
 
 /// The reason as an error unless the condition holds.
@@ -169,11 +172,7 @@ impl World {
     }
 
     /// Checks doubly linked lists of edges (record * 2 + side) by body: each edge once, in the right one.
-    fn check_edges(
-        &self,
-        records: &[Option<([u32; 2], [(u32, u32); 2])>],
-        first: impl Fn(usize) -> u32,
-    ) -> Check {
+    fn check_edges(&self, records: &[Option<Ends>], first: impl Fn(usize) -> u32) -> Check {
         let mut left = 2 * records.iter().flatten().count();
         for body in 0..self.bodies.infos.len() {
             let (mut previous, mut edge) = (NULL, first(body));
