@@ -92,7 +92,7 @@ Examples:
   tiny-physics view my_scene.json --paused")]
     View(ViewArgs),
     /// Record a run into a file: its first frame and everything that was done since
-    #[command(after_help = "Example:
+    #[command(after_help = "Examples:
   tiny-physics record rain --steps 300 -o rain.tpr")]
     Record(RecordArgs),
     /// Play a recording again and check that every step has the same bits
@@ -103,7 +103,7 @@ Examples:
     /// Find the first step after which two recordings differ
     #[command(after_help = "It fails where they differ.
 
-Example:
+Examples:
   tiny-physics diff mine.tpr theirs.tpr")]
     Diff(DiffArgs),
 }

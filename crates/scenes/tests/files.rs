@@ -4,7 +4,7 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use tiny_physics::{JointDef, Locks, RigidBody, Shape, ShapeDef, Vec2};
+use tiny_physics::{ChainLink, JointDef, Locks, RigidBody, Shape, ShapeDef, Vec2};
 use tiny_physics_scenes::{Options, Problem, Scene, SceneJoint, all, find, tags};
 
 fn folder() -> PathBuf {
@@ -209,7 +209,8 @@ fn the_schema_knows_every_field() {
     let schema: Value = serde_json::from_str(&text).unwrap();
     let mut scene = Scene { schema: Some(String::new()), ..Scene::default() };
     let joint = SceneJoint { a: 0, b: 1, def: JointDef::revolute() };
-    let shape = ShapeDef::new(Shape::Circle { radius: 1.0 });
+    let mut shape = ShapeDef::new(Shape::Circle { radius: 1.0 });
+    shape.link = Some(ChainLink { previous: None, next: None });
     assert_eq!(keys(&scene), schema_keys(&schema, ""));
     assert_eq!(keys(scene.settings), schema_keys(&schema, "/$defs/settings"));
     assert_eq!(keys(RigidBody::default()), schema_keys(&schema, "/$defs/body"));

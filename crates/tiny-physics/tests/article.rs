@@ -582,8 +582,8 @@ fn twenty_circles_and_boxes_come_to_rest_on_the_floor() {
         world.add_body(step).unwrap();
         for x in [-19.5, 19.5] {
             // Kerbs: some balls are flung off a floor without.
-            let kerb = RigidBody::new(upright(0.5, 1.5), Vec2::new(x, -7.5), 0.0);
-            world.add_body(kerb).unwrap();
+            let wall = RigidBody::new(upright(0.5, 5.0), Vec2::new(x, -4.0), 0.0);
+            world.add_body(wall).unwrap();
         }
         for i in 0..20 {
             let place = Vec2::new(random.range(-8.0, 8.0), random.range(5.0, 15.0));

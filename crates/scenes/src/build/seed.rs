@@ -13,7 +13,7 @@ const PILE_FRICTION: f32 = 0.3;
 const DEMO_BAND: u32 = 20;
 
 /// Twenty circles and boxes that fall on a floor with a step, at places that the seed decides; size is
-/// their number. A kerb at each end keeps what rolls on the floor.
+/// their number. A wall at each end keeps what rolls and bounces on the floor.
 pub(crate) fn seed_demo(options: Options) -> Scene {
     let count = options.size_or(20, 100_000);
     let mut scene =
@@ -21,7 +21,7 @@ pub(crate) fn seed_demo(options: Options) -> Scene {
     scene.body(RigidBody::new(aabb(20.0, 1.0), Vec2::new(0.0, -10.0), 0.0));
     scene.body(RigidBody::new(aabb(2.0, 0.5), Vec2::new(4.0, -8.5), 0.0));
     for x in [-19.5, 19.5] {
-        scene.body(RigidBody::new(aabb(0.5, 1.5), Vec2::new(x, -7.5), 0.0));
+        scene.body(RigidBody::new(aabb(0.5, 5.0), Vec2::new(x, -4.0), 0.0));
     }
     let mut random = Random::new(options.seed);
     let mut places = Vec::new();

@@ -120,7 +120,7 @@ impl World {
         {
             ensure(self.is_body(record.body), "a shape hangs on nothing")?;
             ensure(record.class == ShapeClass::of(&record.shape), "a shape is of another class")?;
-            let own = shapes.guards[index] & !0xffff;
+            let own = shapes.guards[index] & (guard::CHAIN | guard::ONE_WAY);
             ensure(own == guard::of(record), "a shape is guarded wrongly")?;
             if record.proxy != NULL {
                 let user = self.broad_phase.user(ProxyId(record.proxy));

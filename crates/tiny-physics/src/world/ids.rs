@@ -35,7 +35,7 @@ macro_rules! handle {
             }
         }
 
-        impl From<$name> for crate::Error {
+        impl From<$name> for crate::error::Error {
             fn from(id: $name) -> Self {
                 Self::StaleHandle { handle: id.to_string() }
             }
