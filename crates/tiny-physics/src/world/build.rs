@@ -362,7 +362,7 @@ impl LaneShape {
             None => {
                 let core = shape.core();
                 let radius = core.reach(Vec2::ZERO) + core.radius;
-                (Transform::IDENTITY, [0.0, 0.0, radius], 0.0, inner_radius(shape))
+                (Transform::IDENTITY, [0.0, 0.0, radius], 0.0, shape.inner_radius())
             }
         };
         let frame = central.compose(box_frame);
@@ -370,15 +370,6 @@ impl LaneShape {
         let row = [frame.p.x, frame.p.y, frame.q.c, frame.q.s, x, y, radius, exact];
         Self { row, box_frame, thickness }
     }
-}
-
-/// Distance from the centroid to the nearest edge, corner radius included, metres.
-fn inner_radius(shape: &Shape) -> f32 {
-    let (core, center) = (shape.core(), shape.mass_properties(1.0).center);
-    let nearest = (0..core.edge_count())
-        .map(|i| core.normal(i).dot(core.edge(i).0 - center))
-        .fold(f32::MAX, |a, b| if b < a { b } else { a });
-    nearest + core.radius
 }
 
 fn check_body(body: &RigidBody) -> Result<(), Error> {
