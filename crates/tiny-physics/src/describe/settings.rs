@@ -63,7 +63,8 @@ pub struct Settings {
     pub contact_hertz: f32,
     /// Contact damping ratio, no unit.
     pub contact_damping_ratio: f32,
-    /// Greatest speed at which overlap is pushed out, metres a second.
+    /// Greatest speed at which overlap is pushed out, metres a second. What a contact needs to carry its load
+    /// is not bounded.
     pub push_speed: f32,
     /// Approach speed below which nothing bounces, metres a second.
     pub restitution_threshold: f32,
@@ -113,7 +114,7 @@ impl Default for Settings {
             length_unit: 1.0,
             contact_hertz: 240.0,
             contact_damping_ratio: 3.0,
-            push_speed: 3.0,
+            push_speed: 0.4,
             restitution_threshold: 1.0,
             hit_event_threshold: 1.0,
             max_speed: 400.0,

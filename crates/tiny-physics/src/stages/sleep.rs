@@ -5,8 +5,9 @@
 //! in which every body has rested fall asleep together. A sleeping island is a ring of bodies; waking
 //! one wakes the ring.
 
+use super::islands::{self, Islands};
 use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, Contacts, Graph, JointGraph, Joints, NULL, OVERFLOW, Place};
+use crate::dynamics::{Bodies, Contacts, Graph, JointGraph, Joints, NULL, Place};
 use crate::math::Vec2;
 
 /// Steps between two looks for islands at rest: one look costs about as much as a solver pass.
@@ -24,86 +25,41 @@ pub(crate) fn find_resting(
     if !bodies.awake.iter().any(|&i| bodies.infos[i as usize].sleep_time >= time_to_sleep) {
         return;
     }
-    let mut sets = Sets::new(bodies, time_to_sleep);
-    sets.join_contacts(bodies, graph);
-    sets.join_joints(bodies, joints);
-    sets.collect_resting(bodies, islands);
-}
-
-/// Union-find over awake bodies.
-struct Sets {
-    parent: Vec<u32>,
-    /// Must the set of this root stay awake?
-    restless: Vec<bool>,
-    time_to_sleep: f32,
-}
-
-impl Sets {
-    fn new(bodies: &Bodies, time_to_sleep: f32) -> Self {
-        let count = bodies.infos.len();
-        let parent = (0..count as u32).collect();
-        Self { parent, restless: vec![false; count], time_to_sleep }
-    }
-
-    fn find(&mut self, mut i: u32) -> u32 {
-        while self.parent[i as usize] != i {
-            let above = self.parent[self.parent[i as usize] as usize];
-            self.parent[i as usize] = above;
-            i = above;
-        }
-        i
-    }
-
-    /// Joins two bodies' islands. Bodies that are not dynamic join nothing, but a moving one keeps
-    /// the other awake.
-    fn join(&mut self, bodies: &Bodies, a: u32, b: u32) {
+    let mut sets = Islands::find_all(bodies, graph, joints);
+    let mut restless = vec![false; bodies.infos.len()];
+    let touching = islands::touching(graph).chain(joints.pairs());
+    for (a, b) in touching {
         match (bodies.is_dynamic(a), bodies.is_dynamic(b)) {
-            (true, true) => {
-                let (a, b) = (self.find(a), self.find(b));
-                // The smaller index becomes the root: the result depends on the sets alone.
-                let (root, child) = if a < b { (a, b) } else { (b, a) };
-                self.parent[child as usize] = root;
-            }
-            (true, false) => self.restless[a as usize] |= !rests(bodies, b, self.time_to_sleep),
-            (false, true) => self.restless[b as usize] |= !rests(bodies, a, self.time_to_sleep),
-            (false, false) => {}
+            (true, false) => restless[a as usize] |= !rests(bodies, b, time_to_sleep),
+            (false, true) => restless[b as usize] |= !rests(bodies, a, time_to_sleep),
+            _ => {}
         }
     }
+    collect_resting(bodies, time_to_sleep, &mut sets, &mut restless, islands);
+}
 
-    fn join_contacts(&mut self, bodies: &Bodies, graph: &Graph) {
-        for buckets in &graph.buckets[..=OVERFLOW] {
-            for bucket in buckets {
-                for slot in 0..bucket.contacts.len() {
-                    let (a, b) = bucket.bodies(slot);
-                    self.join(bodies, a, b);
-                }
-            }
+/// Lists the islands in which every body has rested and none is `restless`: moved by what it lies on.
+fn collect_resting(
+    bodies: &Bodies,
+    time_to_sleep: f32,
+    sets: &mut Islands,
+    restless: &mut [bool],
+    islands: &mut Vec<u32>,
+) {
+    for &body in &bodies.awake {
+        let rested = bodies.infos[body as usize].sleep_time >= time_to_sleep;
+        if !rested || restless[body as usize] {
+            restless[sets.root(body) as usize] = true;
         }
     }
-
-    fn join_joints(&mut self, bodies: &Bodies, joints: &Joints) {
-        for (a, b) in joints.pairs() {
-            self.join(bodies, a, b);
-        }
-    }
-
-    fn collect_resting(&mut self, bodies: &Bodies, islands: &mut Vec<u32>) {
-        for &body in &bodies.awake {
-            let rested = bodies.infos[body as usize].sleep_time >= self.time_to_sleep;
-            if !rested || self.restless[body as usize] {
-                let root = self.find(body);
-                self.restless[root as usize] = true;
-            }
-        }
-        let mut resting: Vec<(u32, u32)> =
-            bodies.awake.iter().map(|&body| (self.find(body), body)).collect();
-        resting.retain(|&(root, _)| !self.restless[root as usize]);
-        resting.sort_unstable();
-        for (i, &(root, body)) in resting.iter().enumerate() {
-            islands.push(body);
-            if resting.get(i + 1).is_none_or(|&(next, _)| next != root) {
-                islands.push(NULL);
-            }
+    let mut resting: Vec<(u32, u32)> =
+        bodies.awake.iter().map(|&body| (sets.root(body), body)).collect();
+    resting.retain(|&(root, _)| !restless[root as usize]);
+    resting.sort_unstable();
+    for (i, &(root, body)) in resting.iter().enumerate() {
+        islands.push(body);
+        if resting.get(i + 1).is_none_or(|&(next, _)| next != root) {
+            islands.push(NULL);
         }
     }
 }

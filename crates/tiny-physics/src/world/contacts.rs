@@ -4,7 +4,7 @@ use super::World;
 use super::events::{ContactBegin, ContactEnd, Hit};
 use super::ids::{BodyId, ShapeId};
 use crate::describe::BodyKind;
-use crate::dynamics::{Bucket, NULL, OVERFLOW, Place, flags};
+use crate::dynamics::{Bucket, IDLE, NULL, Place, flags};
 use crate::math::{DVec2, Vec2};
 use crate::simd::BLOCK;
 use crate::stages::{one_way, pairs, sleep};
@@ -55,7 +55,7 @@ impl World {
     /// The contacts that touch (or are about to) and are awake, as of the last step, in a fixed order
     /// that threads do not change.
     pub fn contacts(&self) -> impl Iterator<Item = ContactView> + '_ {
-        self.graph.buckets[..=OVERFLOW].iter().flatten().flat_map(move |bucket| {
+        self.graph.buckets[..IDLE].iter().flatten().flat_map(move |bucket| {
             (0..bucket.contacts.len()).map(move |slot| self.view(bucket, slot))
         })
     }
@@ -113,7 +113,7 @@ impl World {
     pub(super) fn collect_hits(&mut self) {
         let threshold = self.settings.hit_event_threshold * self.settings.length_unit;
         let mut hits = core::mem::take(&mut self.events.hits);
-        for bucket in self.graph.buckets[..=OVERFLOW].iter().flatten() {
+        for bucket in self.graph.buckets[..IDLE].iter().flatten() {
             for (block, head) in bucket.heads.iter().enumerate() {
                 if head.flags & flags::HIT == 0 {
                     continue;

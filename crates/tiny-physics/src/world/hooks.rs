@@ -7,7 +7,7 @@
 use super::World;
 use super::contacts::ContactView;
 use super::ids::{BodyId, ShapeId};
-use crate::dynamics::{Bodies, Bucket, OVERFLOW, Shapes, Slot, flags};
+use crate::dynamics::{Bodies, Bucket, IDLE, Shapes, Slot, flags};
 use crate::simd::BLOCK;
 use crate::stages::pairs::PairRule;
 use crate::threads::Team;
@@ -187,7 +187,7 @@ impl World {
     /// All contacts that touch and are awake, in the order of the graph.
     fn touching_places(&self) -> Vec<At> {
         let mut places = Vec::with_capacity(self.graph.touching_count());
-        for (colour, buckets) in self.graph.buckets[..=OVERFLOW].iter().enumerate() {
+        for (colour, buckets) in self.graph.buckets[..IDLE].iter().enumerate() {
             for (class, bucket) in buckets.iter().enumerate() {
                 let slots = 0..bucket.contacts.len() as u32;
                 places.extend(slots.map(|slot| (colour as u8, class as u8, slot)));
