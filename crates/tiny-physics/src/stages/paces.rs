@@ -24,10 +24,11 @@ const MANY_NEWS: usize = 16;
 const VISIBLE: [f32; PACES] = [0.0, 0.0008, 0.02];
 /// Speed below which a body counts as settled, length units a second.
 const SETTLED: f32 = 0.05;
-/// Bodies that an island of each pace may have.
-const MOST_BODIES: [usize; PACES] = [usize::MAX, 1000, 128];
-/// What all refined islands may cost together: bodies times additional refinement.
-const BUDGET: usize = 4096;
+/// Bodies that an island of the finest pace may have.
+const MOST_AT_FINEST: usize = 128;
+/// What all refined islands may cost together: bodies times additional refinement, for each body that one of
+/// them may have.
+const BUDGET: usize = 4;
 
 /// How strain is told.
 #[derive(Clone, Copy, Debug)]
@@ -38,6 +39,8 @@ pub(crate) struct Rules {
     pub(crate) omega_squared: f32,
     /// 1 / plain substep length.
     pub(crate) inv_h: f32,
+    /// Bodies that a refined island may have.
+    pub(crate) most_bodies: usize,
     pub(crate) step: u64,
 }
 
@@ -62,12 +65,12 @@ pub(crate) fn assign(mut stores: Stores<'_>, rules: Rules) {
     }
     let mut islands = Islands::find_all(stores.bodies, stores.graph, stores.joints);
     let mut found = survey(&stores, &mut islands, rules);
-    let mut budget = BUDGET;
+    let mut budget = BUDGET * rules.most_bodies;
     let mut changed = Vec::new();
     for &body in &stores.bodies.awake {
         let root = islands.root(body) as usize;
         if root == body as usize {
-            found[root].grant(rules.length_unit, &mut budget);
+            found[root].grant(rules, &mut budget);
         }
         let info = &stores.bodies.infos[body as usize];
         if stores.bodies.is_dynamic(body) && info.pace != found[root].pace {
@@ -117,15 +120,16 @@ struct Island {
 
 impl Island {
     /// Chooses the pace: the finest that the strain calls for and the bounds allow.
-    fn grant(&mut self, length_unit: f32, budget: &mut usize) {
+    fn grant(&mut self, rules: Rules, budget: &mut usize) {
         let wanted = (1..PACES).rev().find(|&pace| {
             let keep = if pace <= usize::from(self.pace) { 0.5 } else { 1.0 };
-            self.strain > keep * VISIBLE[pace] * length_unit
+            self.strain > keep * VISIBLE[pace] * rules.length_unit
         });
+        let most = [usize::MAX, rules.most_bodies, rules.most_bodies.min(MOST_AT_FINEST)];
         let cost = |pace: usize| self.bodies * (REFINEMENT[pace] as usize - 1);
         let allowed = (1..=wanted.unwrap_or(PLAIN))
             .rev()
-            .find(|&pace| self.bodies <= MOST_BODIES[pace] && cost(pace) <= *budget);
+            .find(|&pace| self.bodies <= most[pace] && cost(pace) <= *budget);
         let pace = allowed.unwrap_or(PLAIN);
         *budget -= cost(pace);
         self.pace = pace as u8;
@@ -191,7 +195,7 @@ fn foresee(stores: &Stores<'_>, islands: &mut Islands, found: &mut [Island], rul
     };
     let mut order = Vec::new();
     for &body in bodies.awake.iter().filter(|&&body| bodies.is_dynamic(body)) {
-        if (2..=MOST_BODIES[1]).contains(&found[islands.root(body) as usize].bodies) {
+        if (2..=rules.most_bodies).contains(&found[islands.root(body) as usize].bodies) {
             order.push((height(body), body));
         }
     }

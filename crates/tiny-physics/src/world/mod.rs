@@ -334,6 +334,7 @@ impl World {
             length_unit: self.settings.length_unit,
             omega_squared: omega * omega,
             inv_h: 1.0 / lengths.h,
+            most_bodies: self.settings.refine_up_to as usize,
             step: self.step_count,
         };
         let Self { bodies, contacts, graph, joints, joint_graph, .. } = self;

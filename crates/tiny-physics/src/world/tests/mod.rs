@@ -6,6 +6,7 @@ mod events;
 mod forces;
 mod hooks;
 mod one_way;
+mod paces;
 
 use super::*;
 use crate::describe::{BodyKind, RigidBody, ShapeDef};
