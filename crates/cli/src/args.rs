@@ -62,7 +62,8 @@ Examples:
     #[command(
         after_help = "Scenes go by name, by file, or by tag: benchmark (where nothing is said), box2d, show, scale (circles from
 10,000 to a million), huge. Each run is a fresh world: one step untimed, then every step timed. Levels take turns,
-A B C A B C, so that what disturbs the machine disturbs all. Times are wall times.
+A B C A B C, so that what disturbs the machine disturbs all. Stages, median and p99 are wall
+time; ns/body is CPU time, with several threads wall time.
 
 Examples:
   tiny-physics bench large_pyramid

@@ -23,11 +23,14 @@ struct Row {
     repeat: usize,
     /// Mean wall time of a step, milliseconds; what the scene does from outside is in it.
     ms: f64,
-    /// Least and greatest of the repeats.
+    /// Mean CPU time of a step, all threads together, milliseconds; none where there is no such clock.
+    cpu_ms: Option<f64>,
+    /// Least and greatest of the repeats' mean wall times.
     ms_range: [f64; 2],
     median_ms: f64,
     p99_ms: f64,
-    /// Mean time of a step by all bodies that can move, nanoseconds.
+    /// Mean time of a step by all bodies that can move, nanoseconds: CPU time with one thread, wall time with
+    /// several.
     ns_per_body: f64,
     stage_ms: Stages,
     /// What is left of the step: the scene's script and the clocks.
@@ -55,6 +58,7 @@ struct End {
 /// One run.
 struct Run {
     steps: Times,
+    cpu_ms: Option<f64>,
     stage_ms: [f64; Stage::ALL.len()],
     build_ms: f64,
     end: End,
@@ -124,6 +128,7 @@ fn run_once(
     let mut simulation = Simulation::new(scene.clone(), &how)?;
     let build_ms = milliseconds(start);
     simulation.step();
+    let cpu_start = cpu_milliseconds();
     let mut step_ms = Vec::with_capacity(steps as usize);
     let mut stage_ms = [0.0; Stage::ALL.len()];
     for _ in 0..steps {
@@ -136,7 +141,22 @@ fn run_once(
         }
         stepped();
     }
-    Ok(Run { steps: Times::of(step_ms), stage_ms, build_ms, end: End::of(&simulation) })
+    let cpu_ms = cpu_milliseconds().zip(cpu_start).map(|(end, start)| end - start);
+    let cpu_ms = cpu_ms.map(|total| total / f64::from(steps));
+    let end = End::of(&simulation);
+    Ok(Run { steps: Times::of(step_ms), cpu_ms, stage_ms, build_ms, end })
+}
+
+/// CPU time of this program so far, all threads together.
+fn cpu_milliseconds() -> Option<f64> {
+    #[cfg(unix)]
+    {
+        use rustix::time::{ClockId, clock_gettime};
+        let time = clock_gettime(ClockId::ProcessCPUTime);
+        Some(time.tv_sec as f64 * 1.0e3 + time.tv_nsec as f64 * 1.0e-6)
+    }
+    #[cfg(not(unix))]
+    None
 }
 
 pub(super) fn milliseconds(start: Instant) -> f64 {
@@ -174,6 +194,9 @@ impl Row {
         let middle = |part: &dyn Fn(&Run) -> f64| median(runs.iter().map(part).collect());
         let ms = middle(&|run| run.steps.mean);
         let means = || runs.iter().map(|run| run.steps.mean);
+        let cpu_ms: Option<Vec<f64>> = runs.iter().map(|run| run.cpu_ms).collect();
+        let cpu_ms = cpu_ms.map(median);
+        let cost_ms = cpu_ms.filter(|_| args.threads == 1).unwrap_or(ms);
         let end = runs[0].end.clone();
         let stages = (0..).zip(Stage::ALL);
         let stage_ms: Stages =
@@ -185,10 +208,11 @@ impl Row {
             steps,
             repeat: runs.len(),
             ms,
+            cpu_ms,
             ms_range: [means().fold(f64::MAX, f64::min), means().fold(0.0, f64::max)],
             median_ms: middle(&|run| run.steps.median),
             p99_ms: middle(&|run| run.steps.p99),
-            ns_per_body: ms * 1.0e6 / end.moving.max(1) as f64,
+            ns_per_body: cost_ms * 1.0e6 / end.moving.max(1) as f64,
             other_ms: middle(&|run| run.steps.mean - run.stage_ms.iter().sum::<f64>()),
             stage_ms,
             build_ms: middle(&|run| run.build_ms),
@@ -219,12 +243,15 @@ fn print_table(out: &mut impl Write, rows: &[Row]) -> Outcome {
          {contacts} contacts, {joints} joints, hash {hash}",
         first.scene, first.steps, first.repeat, first.threads
     )?;
-    write!(out, "{:8}{:>9}{:>9}{:>9}{:>9}  |", "simd", "ms", "median", "p99", "ns/body")?;
+    write!(out, "{:8}{:>9}{:>9}", "simd", "ms", "cpu ms")?;
+    write!(out, "{:>9}{:>9}{:>9}  |", "median", "p99", "ns/body")?;
     Stage::ALL.iter().try_for_each(|stage| write!(out, "{:>13}", stage.name()))?;
     writeln!(out, "{:>9}", "other")?;
     for row in rows {
         let Row { simd, ms, median_ms, p99_ms, ns_per_body, other_ms, .. } = row;
-        write!(out, "{simd:8}{ms:9.4}{median_ms:9.4}{p99_ms:9.4}{ns_per_body:9.1}  |")?;
+        let cpu_ms = row.cpu_ms.map_or("-".into(), |ms| format!("{ms:.4}"));
+        write!(out, "{simd:8}{ms:9.4}{cpu_ms:>9}")?;
+        write!(out, "{median_ms:9.4}{p99_ms:9.4}{ns_per_body:9.1}  |")?;
         let stages = Stage::ALL.iter().filter_map(|stage| row.stage_ms.get(stage.name()));
         for ms in stages {
             write!(out, "{ms:13.4}")?;
