@@ -10,8 +10,7 @@
 
 use super::islands::{Islands, Stores};
 use crate::dynamics::{
-    Bodies, Bucket, Contacts, Graph, IDLE, JointGraph, JointPlace, Joints, NULL, PACES, PLAIN,
-    Place, REFINEMENT, pace_at,
+    Bodies, Bucket, Graph, IDLE, JointPlace, NULL, PACES, PLAIN, Place, REFINEMENT, pace_at,
 };
 use crate::math::Vec2;
 use crate::simd::BLOCK;

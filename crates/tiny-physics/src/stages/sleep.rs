@@ -7,7 +7,7 @@
 
 use super::islands::{self, Islands, Stores};
 use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, Contacts, Graph, JointGraph, Joints, NULL, Place};
+use crate::dynamics::{Bodies, Contacts, Graph, Joints, NULL, Place};
 use crate::math::Vec2;
 
 /// Steps between two looks for islands at rest: one look costs about as much as a solver pass.
