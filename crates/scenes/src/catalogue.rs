@@ -42,12 +42,15 @@ pub mod tags {
     pub const SEEDED: &str = "seeded";
     /// Scenes with very many bodies or shapes.
     pub const HUGE: &str = "huge";
+    /// One scene in several sizes: what a body costs as they become more.
+    pub const SCALE: &str = "scale";
 }
 
 const BOX2D: &[&str] = &[tags::BENCHMARK, tags::BOX2D];
 const BOX2D_HUGE: &[&str] = &[tags::BENCHMARK, tags::BOX2D, tags::HUGE];
 const BENCHMARK: &[&str] = &[tags::BENCHMARK];
-const BENCHMARK_HUGE: &[&str] = &[tags::BENCHMARK, tags::HUGE];
+const SCALE: &[&str] = &[tags::BENCHMARK, tags::SCALE];
+const SCALE_HUGE: &[&str] = &[tags::BENCHMARK, tags::SCALE, tags::HUGE];
 const SHOW: &[&str] = &[tags::SHOW];
 
 const fn entry(
@@ -77,9 +80,9 @@ static ENTRIES: &[Entry] = &[
     entry("seed_pile_5000", "A pile of 5000 circles and never-turning boxes", 600, BENCHMARK, seed::seed_pile_5000),
     entry("seed_pile_20000", "A pile of 20,000 circles and never-turning boxes", 600, BENCHMARK, seed::seed_pile_20000),
     entry("seed_pile_turning_5000", "A pile of 5000 circles and boxes that turn", 600, BENCHMARK, seed::seed_pile_turning_5000),
-    entry("circles_10k", "A pile of 10,000 circles", 120, BENCHMARK, seed::circles_10k),
-    entry("circles_100k", "A pile of 100,000 circles", 120, BENCHMARK_HUGE, seed::circles_100k),
-    entry("circles_1m", "A pile of 1,000,000 circles", 120, BENCHMARK_HUGE, seed::circles_1m),
+    entry("circles_10k", "A pile of 10,000 circles", 120, SCALE, seed::circles_10k),
+    entry("circles_100k", "A pile of 100,000 circles", 120, SCALE_HUGE, seed::circles_100k),
+    entry("circles_1m", "A pile of 1,000,000 circles", 120, SCALE_HUGE, seed::circles_1m),
     entry("tiles", "500 movers walk in a platformer level", 600, &[tags::BENCHMARK, tags::SEEDED], level::tiles),
     entry("tile_map", "Balls and crates on hills and platforms of tiles, and a chain", 600, &[tags::SEEDED], level::tile_map),
     entry("stack", "A tower of crates", 600, SHOW, show::stack),
@@ -108,6 +111,18 @@ pub fn all() -> &'static [Entry] {
 /// There is none of that name; the error has the nearest name.
 pub fn find(name: &str) -> Result<&'static Entry, UnknownScene> {
     ENTRIES.iter().find(|entry| entry.name == name).ok_or_else(|| UnknownScene::new(name))
+}
+
+/// The names of the scenes that a word stands for: a scene's own name, or a tag for all scenes that have it.
+/// Huge ones come only with the tags [`tags::HUGE`] and [`tags::SCALE`].
+///
+/// # Errors
+/// It is neither.
+pub fn resolve(word: &str) -> Result<Vec<&'static str>, UnknownScene> {
+    let huge_too = [tags::HUGE, tags::SCALE].contains(&word);
+    let tagged = all().iter().filter(|e| e.has_tag(word) && (huge_too || !e.has_tag(tags::HUGE)));
+    let names: Vec<_> = tagged.map(|entry| entry.name).collect();
+    if names.is_empty() { find(word).map(|entry| vec![entry.name]) } else { Ok(names) }
 }
 
 /// There is no scene of this name.
@@ -176,6 +191,16 @@ mod tests {
         assert_eq!(meant(""), None);
         let message = find("dominoes").unwrap_err().to_string();
         assert_eq!(message, "there is no scene `dominoes`; did you mean `domino`?");
+    }
+
+    #[test]
+    fn words_stand_for_scenes() {
+        assert_eq!(resolve("tumbler"), Ok(vec!["tumbler"]));
+        assert_eq!(resolve(tags::SCALE), Ok(vec!["circles_10k", "circles_100k", "circles_1m"]));
+        let benchmark = resolve(tags::BENCHMARK).unwrap();
+        assert!(benchmark.contains(&"rain") && benchmark.contains(&"sleep"));
+        assert!(benchmark.contains(&"circles_10k") && !benchmark.contains(&"circles_1m"));
+        assert_eq!(resolve("tumbler2").unwrap_err().nearest, Some("tumbler"));
     }
 
     #[test]

@@ -28,7 +28,7 @@ mod shapes;
 mod world_host;
 
 pub use build::Options;
-pub use catalogue::{Entry, UnknownScene, all, find, tags};
+pub use catalogue::{Entry, UnknownScene, all, find, resolve, tags};
 pub use error::{Problem, SceneError};
 pub use host::{Host, Player};
 pub use scene::{Counts, Scene, SceneJoint, VERSION};

@@ -287,20 +287,24 @@ impl Graph {
         }
     }
 
-    /// Forgets which blocks are fresh: the narrow phase is about to visit all.
+    /// Forgets which blocks are fresh: the narrow phase has visited them, or is about to visit all.
     pub(crate) fn clear_fresh(&mut self) {
         self.fresh.clear();
     }
 
-    /// The blocks whose constraints are not written yet: colour, class, block. Each once, in order.
-    pub(crate) fn take_fresh(&mut self) -> Vec<BlockAddress> {
-        let mut fresh = core::mem::take(&mut self.fresh);
+    /// Sorts the blocks whose constraints are not written yet, and drops those that are no longer there.
+    pub(crate) fn sort_fresh(&mut self) {
+        let Self { buckets, fresh, .. } = self;
         fresh.sort_unstable();
         fresh.dedup();
         fresh.retain(|&(colour, class, block)| {
-            (block as usize) < self.buckets[colour as usize][class as usize].manifolds.len()
+            (block as usize) < buckets[colour as usize][class as usize].manifolds.len()
         });
-        fresh
+    }
+
+    /// The blocks whose constraints are not written yet: colour, class, block.
+    pub(crate) fn fresh(&self) -> &[BlockAddress] {
+        &self.fresh
     }
 
     /// Takes a contact out of the graph, if it is there, and saves its impulses in the record.

@@ -166,39 +166,30 @@ impl JointColour {
             + self.gear.joints.len()
     }
 
-    /// Works on all blocks in runs, spread over the team.
+    /// Works on all blocks class by class, in runs that the team shares out. A team of one, such as the
+    /// overflow wants, goes through them in order.
     pub(crate) fn for_each_run(&mut self, team: &Team, work: impl Fn(JointBlocks<'_>) + Sync) {
         /// Blocks that one member of the team works on at a time.
         const RUN: usize = 4;
-        if team.member_count() == 1 || self.count() <= RUN * BLOCK {
-            self.runs(usize::MAX).for_each(work);
-        } else {
-            let mut runs: Vec<_> = self.runs(RUN).map(Some).collect();
-            team.for_each_chunk_mut(&mut runs, 1, |_, runs| {
-                runs.iter_mut().filter_map(Option::take).for_each(&work);
-            });
+        let alone = team.member_count() == 1 || self.count() <= RUN * BLOCK;
+        let length = if alone { usize::MAX } else { RUN };
+        macro_rules! share_out {
+            ($($bucket:ident: $class:ident),*) => {
+                $(team.for_each_chunk_mut(&mut self.$bucket.blocks, length, |_, blocks| {
+                    work(JointBlocks::$class(blocks));
+                });)*
+            };
         }
-    }
-
-    /// Its blocks in runs of at most `length` blocks, always in the same order. Runs may be worked on
-    /// at once, except in the overflow.
-    pub(crate) fn runs(&mut self, length: usize) -> impl Iterator<Item = JointBlocks<'_>> {
-        let distance = self.distance.blocks.chunks_mut(length).map(JointBlocks::Distance);
-        let revolute = self.revolute.blocks.chunks_mut(length).map(JointBlocks::Revolute);
-        let prismatic = self.prismatic.blocks.chunks_mut(length).map(JointBlocks::Prismatic);
-        let weld = self.weld.blocks.chunks_mut(length).map(JointBlocks::Weld);
-        let wheel = self.wheel.blocks.chunks_mut(length).map(JointBlocks::Wheel);
-        let drive = self.drive.blocks.chunks_mut(length).map(JointBlocks::Drive);
-        let pulley = self.pulley.blocks.chunks_mut(length).map(JointBlocks::Pulley);
-        let gear = self.gear.blocks.chunks_mut(length).map(JointBlocks::Gear);
-        distance
-            .chain(revolute)
-            .chain(prismatic)
-            .chain(weld)
-            .chain(wheel)
-            .chain(drive)
-            .chain(pulley)
-            .chain(gear)
+        share_out!(
+            distance: Distance,
+            revolute: Revolute,
+            prismatic: Prismatic,
+            weld: Weld,
+            wheel: Wheel,
+            drive: Drive,
+            pulley: Pulley,
+            gear: Gear
+        );
     }
 }
 

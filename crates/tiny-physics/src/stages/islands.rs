@@ -2,23 +2,33 @@
 //!
 //! They are not kept from step to step; what needs them finds them anew.
 
-use crate::dynamics::{Bodies, Graph, IDLE, Joints};
+use crate::dynamics::{Bodies, Contacts, Graph, IDLE, JointGraph, Joints};
 
-/// The islands of the awake bodies.
+/// The stores that change when islands fall asleep, wake, or are solved at another pace.
+pub(crate) struct Stores<'a> {
+    pub(crate) bodies: &'a mut Bodies,
+    pub(crate) contacts: &'a mut Contacts,
+    pub(crate) graph: &'a mut Graph,
+    pub(crate) joints: &'a mut Joints,
+    pub(crate) joint_graph: &'a mut JointGraph,
+}
+
+/// The islands of the awake bodies. Found anew each time; kept for its memory.
+#[derive(Debug, Default)]
 pub(crate) struct Islands {
     parent: Vec<u32>,
 }
 
 impl Islands {
     /// Joins all dynamic bodies that touch or are joined.
-    pub(crate) fn find_all(bodies: &Bodies, graph: &Graph, joints: &Joints) -> Self {
-        let mut islands = Self { parent: (0..bodies.infos.len() as u32).collect() };
+    pub(crate) fn find_all(&mut self, bodies: &Bodies, graph: &Graph, joints: &Joints) {
+        self.parent.clear();
+        self.parent.extend(0..bodies.infos.len() as u32);
         for (a, b) in touching(graph).chain(joints.pairs()) {
             if bodies.is_dynamic(a) && bodies.is_dynamic(b) {
-                islands.join(a, b);
+                self.join(a, b);
             }
         }
-        islands
     }
 
     /// The body with the smallest index of the island that a body is in.

@@ -8,10 +8,9 @@
 //! Only islands of bounded size are refined, and only up to a budget, so that a step never costs many times
 //! what it did before. An island keeps its pace until its strain has fallen to half of what called for it.
 
-use super::islands::Islands;
+use super::islands::{Islands, Stores};
 use crate::dynamics::{
-    Bodies, Bucket, Contacts, Graph, IDLE, JointGraph, JointPlace, Joints, NULL, PACES, PLAIN,
-    Place, REFINEMENT, pace_at,
+    Bodies, Bucket, Graph, IDLE, JointPlace, NULL, PACES, PLAIN, Place, REFINEMENT, pace_at,
 };
 use crate::math::Vec2;
 use crate::simd::BLOCK;
@@ -44,13 +43,20 @@ pub(crate) struct Rules {
     pub(crate) step: u64,
 }
 
-/// The stores that paces concern.
-pub(crate) struct Stores<'a> {
-    pub(crate) bodies: &'a mut Bodies,
-    pub(crate) contacts: &'a mut Contacts,
-    pub(crate) graph: &'a mut Graph,
-    pub(crate) joints: &'a mut Joints,
-    pub(crate) joint_graph: &'a mut JointGraph,
+/// Lists that [`assign`] fills anew; kept for their memory.
+#[derive(Debug, Default)]
+pub(crate) struct Memory {
+    islands: Islands,
+    found: Vec<Island>,
+    /// Height and body, from the highest down.
+    order: Vec<(f64, u32)>,
+    /// What lies on each body, newtons.
+    loads: Vec<f32>,
+    below: Vec<u32>,
+    changed: Vec<(u32, u8)>,
+    moved_contacts: Vec<(u32, usize)>,
+    moved_joints: Vec<(u32, usize)>,
+    of_body: Vec<u32>,
 }
 
 /// Is any body refined?
@@ -59,14 +65,15 @@ pub(crate) fn any_refined(bodies: &Bodies) -> bool {
 }
 
 /// Gives every island its pace, where that is due.
-pub(crate) fn assign(mut stores: Stores<'_>, rules: Rules) {
+pub(crate) fn assign(mut stores: Stores<'_>, rules: Rules, memory: &mut Memory) {
     if !is_due(&stores, rules) {
         return;
     }
-    let mut islands = Islands::find_all(stores.bodies, stores.graph, stores.joints);
-    let mut found = survey(&stores, &mut islands, rules);
+    memory.islands.find_all(stores.bodies, stores.graph, stores.joints);
+    survey(&stores, rules, memory);
+    let Memory { islands, found, changed, .. } = memory;
     let mut budget = BUDGET * rules.most_bodies;
-    let mut changed = Vec::new();
+    changed.clear();
     for &body in &stores.bodies.awake {
         let root = islands.root(body) as usize;
         if root == body as usize {
@@ -77,7 +84,7 @@ pub(crate) fn assign(mut stores: Stores<'_>, rules: Rules) {
             changed.push((body, found[root].pace));
         }
     }
-    change(&mut stores, &changed);
+    change(&mut stores, memory);
     stores.graph.mixed = false;
     stores.graph.news = 0;
     stores.joint_graph.mixed = false;
@@ -109,7 +116,7 @@ fn is_any_strained(graph: &Graph, rules: Rules) -> bool {
 }
 
 /// What is known of an island, at the index of its root.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Island {
     bodies: usize,
     /// Greatest pace of its bodies so far; after [`Island::grant`] the pace of all.
@@ -137,9 +144,11 @@ impl Island {
 }
 
 /// Counts and strains of all islands.
-fn survey(stores: &Stores<'_>, islands: &mut Islands, rules: Rules) -> Vec<Island> {
+fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
     let Stores { bodies, graph, .. } = stores;
-    let mut found = vec![Island::default(); bodies.infos.len()];
+    let Memory { islands, found, .. } = memory;
+    found.clear();
+    found.resize(bodies.infos.len(), Island::default());
     for &body in bodies.awake.iter().filter(|&&body| bodies.is_dynamic(body)) {
         let island = &mut found[islands.root(body) as usize];
         island.bodies += 1;
@@ -160,8 +169,7 @@ fn survey(stores: &Stores<'_>, islands: &mut Islands, rules: Rules) -> Vec<Islan
             }
         }
     }
-    foresee(stores, islands, &mut found, rules);
-    found
+    foresee(stores, rules, memory);
 }
 
 /// Is a body slow enough for its contacts to carry what they will go on carrying?
@@ -187,22 +195,23 @@ fn greatest_load(bucket: &Bucket, slot: usize) -> f32 {
 /// From the highest body to the lowest, each hands its weight and what lies on it in equal parts to what it
 /// touches below and to bodies that nothing moves. So a pile that has just been put in, whose contacts carry
 /// nothing yet, is judged by what they are going to carry.
-fn foresee(stores: &Stores<'_>, islands: &mut Islands, found: &mut [Island], rules: Rules) {
+fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
     let Stores { bodies, contacts, .. } = stores;
+    let Memory { islands, found, order, loads, below, .. } = memory;
     let height = |body: u32| {
         let p = bodies.poses[body as usize].p;
         -(p.x * f64::from(rules.gravity.x) + p.y * f64::from(rules.gravity.y))
     };
-    let mut order = Vec::new();
+    order.clear();
     for &body in bodies.awake.iter().filter(|&&body| bodies.is_dynamic(body)) {
         if (2..=rules.most_bodies).contains(&found[islands.root(body) as usize].bodies) {
             order.push((height(body), body));
         }
     }
     order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    let mut loads = vec![0.0_f32; bodies.infos.len()];
-    let mut below = Vec::new();
-    for (top, body) in order {
+    loads.clear();
+    loads.resize(bodies.infos.len(), 0.0);
+    for &(top, body) in order.iter() {
         let info = &bodies.infos[body as usize];
         below.clear();
         below.extend(contacts.of_body(info.first_contact).filter_map(|(index, side)| {
@@ -224,11 +233,12 @@ fn foresee(stores: &Stores<'_>, islands: &mut Islands, found: &mut [Island], rul
 }
 
 /// Moves bodies to other paces, and what hangs on them.
-fn change(stores: &mut Stores<'_>, changed: &[(u32, u8)]) {
+fn change(stores: &mut Stores<'_>, memory: &mut Memory) {
     let Stores { bodies, contacts, graph, joints, joint_graph } = stores;
-    let mut moved_contacts = Vec::new();
-    let mut moved_joints = Vec::new();
-    for &(body, _) in changed {
+    let Memory { changed, moved_contacts, moved_joints, of_body, .. } = memory;
+    moved_contacts.clear();
+    moved_joints.clear();
+    for &(body, _) in changed.iter() {
         let mut edge = bodies.infos[body as usize].first_contact;
         while edge != NULL {
             let contact = &contacts.records[edge as usize / 2];
@@ -239,9 +249,10 @@ fn change(stores: &mut Stores<'_>, changed: &[(u32, u8)]) {
             }
             edge = next;
         }
-        let of_body = joints.of_body(bodies.infos[body as usize].first_joint);
-        let of_body: Vec<u32> = of_body.map(|(index, _)| index).collect();
-        for index in of_body {
+        let joined = joints.of_body(bodies.infos[body as usize].first_joint);
+        of_body.clear();
+        of_body.extend(joined.map(|(index, _)| index));
+        for &index in of_body.iter() {
             if let JointPlace::Graph { .. } = joints.records[index as usize].place {
                 let pace = joint_graph.pace_of(&joints.records[index as usize]);
                 joint_graph.remove(bodies, joints, index);
@@ -249,11 +260,11 @@ fn change(stores: &mut Stores<'_>, changed: &[(u32, u8)]) {
             }
         }
     }
-    for &(body, pace) in changed {
+    for &(body, pace) in changed.iter() {
         bodies.infos[body as usize].pace = pace;
     }
     moved_contacts.sort_unstable();
-    for (index, old) in moved_contacts {
+    for &(index, old) in moved_contacts.iter() {
         let contact = &mut contacts.records[index as usize];
         let scale = rescale(old, bodies.common_pace(contact.body_a, contact.body_b));
         for point in &mut contact.saved {
@@ -263,7 +274,7 @@ fn change(stores: &mut Stores<'_>, changed: &[(u32, u8)]) {
         graph.insert(bodies, contacts, index);
     }
     moved_joints.sort_unstable();
-    for (index, old) in moved_joints {
+    for &(index, old) in moved_joints.iter() {
         let record = &mut joints.records[index as usize];
         let scale = rescale(old, bodies.common_pace(record.body_a, record.body_b));
         record.saved.iter_mut().for_each(|impulse| *impulse *= scale);

@@ -5,28 +5,42 @@
 //! in which every body has rested fall asleep together. A sleeping island is a ring of bodies; waking
 //! one wakes the ring.
 
-use super::islands::{self, Islands};
+use super::islands::{self, Islands, Stores};
 use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, Contacts, Graph, JointGraph, Joints, NULL, Place};
+use crate::dynamics::{Bodies, Contacts, Graph, Joints, NULL, Place};
 use crate::math::Vec2;
 
 /// Steps between two looks for islands at rest: one look costs about as much as a solver pass.
 pub(crate) const INTERVAL: u64 = 8;
 
-/// Finds islands at rest and appends their bodies to `islands`, each island ended by [`NULL`].
+/// What the look for islands at rest fills anew; kept for its memory.
+#[derive(Debug, Default)]
+pub(crate) struct Sets {
+    islands: Islands,
+    /// Must the island of this root stay awake?
+    restless: Vec<bool>,
+    /// Root and body of those that may sleep.
+    resting: Vec<(u32, u32)>,
+}
+
+/// Finds islands at rest and lists their bodies in `found`, each island ended by [`NULL`]: those in which every
+/// body has rested and none is moved by what it lies on.
 pub(crate) fn find_resting(
     bodies: &Bodies,
     graph: &Graph,
     joints: &Joints,
     time_to_sleep: f32,
-    islands: &mut Vec<u32>,
+    sets: &mut Sets,
+    found: &mut Vec<u32>,
 ) {
-    islands.clear();
+    found.clear();
     if !bodies.awake.iter().any(|&i| bodies.infos[i as usize].sleep_time >= time_to_sleep) {
         return;
     }
-    let mut sets = Islands::find_all(bodies, graph, joints);
-    let mut restless = vec![false; bodies.infos.len()];
+    let Sets { islands: sets, restless, resting } = sets;
+    sets.find_all(bodies, graph, joints);
+    restless.clear();
+    restless.resize(bodies.infos.len(), false);
     let touching = islands::touching(graph).chain(joints.pairs());
     for (a, b) in touching {
         match (bodies.is_dynamic(a), bodies.is_dynamic(b)) {
@@ -35,31 +49,20 @@ pub(crate) fn find_resting(
             _ => {}
         }
     }
-    collect_resting(bodies, time_to_sleep, &mut sets, &mut restless, islands);
-}
-
-/// Lists the islands in which every body has rested and none is `restless`: moved by what it lies on.
-fn collect_resting(
-    bodies: &Bodies,
-    time_to_sleep: f32,
-    sets: &mut Islands,
-    restless: &mut [bool],
-    islands: &mut Vec<u32>,
-) {
     for &body in &bodies.awake {
         let rested = bodies.infos[body as usize].sleep_time >= time_to_sleep;
         if !rested || restless[body as usize] {
             restless[sets.root(body) as usize] = true;
         }
     }
-    let mut resting: Vec<(u32, u32)> =
-        bodies.awake.iter().map(|&body| (sets.root(body), body)).collect();
+    resting.clear();
+    resting.extend(bodies.awake.iter().map(|&body| (sets.root(body), body)));
     resting.retain(|&(root, _)| !restless[root as usize]);
     resting.sort_unstable();
     for (i, &(root, body)) in resting.iter().enumerate() {
-        islands.push(body);
+        found.push(body);
         if resting.get(i + 1).is_none_or(|&(next, _)| next != root) {
-            islands.push(NULL);
+            found.push(NULL);
         }
     }
 }
@@ -112,30 +115,17 @@ pub(crate) fn island_of(
 }
 
 /// Puts islands (each ended by [`NULL`]) to sleep: takes their bodies and what hangs on them out of the
-/// simulation.
-pub(crate) fn put_to_sleep(
-    islands: &[u32],
-    bodies: &mut Bodies,
-    contacts: &mut Contacts,
-    graph: &mut Graph,
-    joints: &mut Joints,
-    joint_graph: &mut JointGraph,
-) {
+/// simulation. `hinges` is memory.
+pub(crate) fn put_to_sleep(islands: &[u32], mut stores: Stores<'_>, hinges: &mut Vec<u32>) {
     for island in islands.split(|&body| body == NULL).filter(|island| !island.is_empty()) {
-        put_island_to_sleep(island, bodies, contacts, graph, joints, joint_graph);
+        put_island_to_sleep(island, &mut stores, hinges);
     }
-    let Bodies { awake, infos, .. } = bodies;
+    let Bodies { awake, infos, .. } = stores.bodies;
     awake.retain(|&i| infos[i as usize].awake);
 }
 
-fn put_island_to_sleep(
-    island: &[u32],
-    bodies: &mut Bodies,
-    contacts: &mut Contacts,
-    graph: &mut Graph,
-    joints: &mut Joints,
-    joint_graph: &mut JointGraph,
-) {
+fn put_island_to_sleep(island: &[u32], stores: &mut Stores<'_>, hinges: &mut Vec<u32>) {
+    let Stores { bodies, contacts, graph, joints, joint_graph } = stores;
     for (i, &body) in island.iter().enumerate() {
         bodies.set_velocity(body, Vec2::ZERO);
         bodies.set_angular_velocity(body, 0.0);
@@ -155,7 +145,8 @@ fn put_island_to_sleep(
             }
             edge = next;
         }
-        for index in joints_of(bodies, joints, body) {
+        list_joints(bodies, joints, body, hinges);
+        for &index in hinges.iter() {
             let record = &joints.records[index as usize];
             if !bodies.infos[record.body_a as usize].awake
                 && !bodies.infos[record.body_b as usize].awake
@@ -166,21 +157,15 @@ fn put_island_to_sleep(
     }
 }
 
-/// Wakes a body and its island, and gives the bodies that woke, ascending. Nothing happens if it is awake
-/// or cannot move.
-pub(crate) fn wake(
-    index: u32,
-    bodies: &mut Bodies,
-    contacts: &mut Contacts,
-    graph: &mut Graph,
-    joints: &mut Joints,
-    joint_graph: &mut JointGraph,
-) -> Vec<u32> {
+/// Wakes a body and its island, and lists the bodies that woke, ascending. Nothing happens and the list is
+/// empty if it is awake or cannot move. `hinges` is memory.
+pub(crate) fn wake(index: u32, stores: Stores<'_>, island: &mut Vec<u32>, hinges: &mut Vec<u32>) {
+    let Stores { bodies, contacts, graph, joints, joint_graph } = stores;
+    island.clear();
     let info = &bodies.infos[index as usize];
     if info.awake || !info.alive || !info.enabled || info.kind == BodyKind::Static {
-        return Vec::new();
+        return;
     }
-    let mut island = Vec::new();
     let mut body = index;
     loop {
         island.push(body);
@@ -193,7 +178,7 @@ pub(crate) fn wake(
         }
     }
     island.sort_unstable();
-    for &body in &island {
+    for &body in island.iter() {
         bodies.push_awake(body);
         let mut edge = bodies.infos[body as usize].first_contact;
         while edge != NULL {
@@ -202,17 +187,17 @@ pub(crate) fn wake(
             }
             edge = contacts.records[edge as usize / 2].links[edge as usize % 2].1;
         }
-        for index in joints_of(bodies, joints, body) {
+        list_joints(bodies, joints, body, hinges);
+        for &index in hinges.iter() {
             joint_graph.insert(bodies, joints, index);
         }
     }
-    island
 }
 
-/// Joints of a body, ascending.
-fn joints_of(bodies: &Bodies, joints: &Joints, body: u32) -> Vec<u32> {
+/// Lists the joints of a body, ascending.
+fn list_joints(bodies: &Bodies, joints: &Joints, body: u32, list: &mut Vec<u32>) {
     let first = bodies.infos[body as usize].first_joint;
-    let mut indices: Vec<u32> = joints.of_body(first).map(|(index, _)| index).collect();
-    indices.sort_unstable();
-    indices
+    list.clear();
+    list.extend(joints.of_body(first).map(|(index, _)| index));
+    list.sort_unstable();
 }

@@ -51,6 +51,7 @@ use crate::math::Vec2;
 use crate::simd::SimdLevel;
 use crate::stages::contact_solver::{self, Parameters, Pass, Softness};
 use crate::stages::finalize::{FastBody, Findings};
+use crate::stages::islands::Stores;
 use crate::stages::touching::Changes;
 use crate::stages::{
     continuous, finalize, integrate, joint_solver, narrow_phase, paces, pairs, sleep, surfaces,
@@ -133,11 +134,17 @@ struct Scratch {
     findings: Vec<Findings>,
     fast: Vec<FastBody>,
     islands: Vec<u32>,
+    sets: sleep::Sets,
+    paces: paces::Memory,
+    woken: Vec<u32>,
+    hinges: Vec<u32>,
     listed: Vec<u32>,
     occupied: Vec<(usize, PairClass)>,
     overlaps: Vec<Overlap>,
     found_overlaps: Vec<Vec<Overlap>>,
     broken_joints: Vec<u32>,
+    touching: Vec<hooks::At>,
+    answers: Vec<Vec<ContactRules>>,
 }
 
 /// Numbers of one step.
@@ -318,12 +325,15 @@ impl World {
         self.stats.contacts_ended = changes.ended.len();
         self.scratch.changes = changes;
 
+        self.graph.sort_fresh();
         let (context, graph) = self.narrow_phase();
-        for (colour, class, block) in graph.take_fresh() {
+        for i in 0..graph.fresh().len() {
+            let (colour, class, block) = graph.fresh()[i];
             let bucket = &mut graph.buckets[usize::from(colour)][usize::from(class)];
             let class = PairClass::ALL[usize::from(class)];
             narrow_phase::update_block(context, class, bucket, block as usize);
         }
+        graph.clear_fresh();
     }
 
     /// Chooses which islands are solved more finely than others.
@@ -337,8 +347,9 @@ impl World {
             most_bodies: self.settings.refine_up_to as usize,
             step: self.step_count,
         };
-        let Self { bodies, contacts, graph, joints, joint_graph, .. } = self;
-        paces::assign(paces::Stores { bodies, contacts, graph, joints, joint_graph }, rules);
+        let Self { bodies, contacts, graph, joints, joint_graph, scratch, .. } = self;
+        let stores = Stores { bodies, contacts, graph, joints, joint_graph };
+        paces::assign(stores, rules, &mut scratch.paces);
     }
 
     /// Solves the islands pace by pace, the plain one last.
@@ -514,6 +525,7 @@ impl World {
             &self.graph,
             &self.joints,
             self.settings.time_to_sleep,
+            &mut self.scratch.sets,
             &mut islands,
         );
         self.put_to_sleep(&islands);

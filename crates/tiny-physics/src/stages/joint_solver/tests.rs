@@ -66,13 +66,13 @@ impl Rig {
         let inv_h = self.inv_h();
         let rows = SharedRows::new(&mut self.bodies.rows);
         for (i, colour) in self.graph.colours.iter_mut().enumerate() {
-            for blocks in colour.runs(2) {
+            colour.for_each_run(&Team::alone(), |blocks| {
                 if i % crate::dynamics::JOINT_PLACES == crate::dynamics::JOINT_PLACES - 1 {
                     run_in_order(pass, inv_h, rows, blocks);
                 } else {
                     run(self.level, pass, inv_h, rows, blocks);
                 }
-            }
+            });
         }
     }
 
@@ -83,9 +83,9 @@ impl Rig {
         integrate::prepare(&team, &listed, &mut self.bodies, self.gravity, h);
         describe(&mut self.graph, &self.joints, &self.bodies.infos, h);
         for colour in &mut self.graph.colours {
-            for blocks in colour.runs(2) {
+            colour.for_each_run(&team, |blocks| {
                 prepare(self.level, &self.bodies.poses, h, blocks);
-            }
+            });
         }
         for _ in 0..self.substeps {
             integrate::velocities(&team, &listed, &mut self.bodies, true);
