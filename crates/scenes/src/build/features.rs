@@ -128,7 +128,7 @@ pub(crate) fn changing(_: Options) -> Scene {
 /// Lifts and swings that are led, and planks that are solid from above only; the size is the number of balls
 /// thrown up.
 pub(crate) fn platforms(options: Options) -> Scene {
-    let balls = options.size_or(24, 500);
+    let balls = options.size_or(12, 500);
     let text = "Led platforms carry crates; balls fly up through one-way planks and stay on top.";
     let mut scene = scene("platforms", text);
     scene.body(ground(Vec2::new(0.0, -1.0), 16.0, 1.0));
@@ -250,7 +250,7 @@ pub(crate) fn orbits(options: Options) -> Scene {
     acts.push(act(When::Always, Deed::Zone { shape, position, force: air }));
     for i in 0..count {
         let (center, radius, acceleration) = planets[i as usize % 2];
-        let distance = radius + 1.5 + 0.11 * (i % 40) as f32;
+        let distance = radius + 1.5 + 0.055 * (i % 80) as f32;
         let angle = 2.4 * (i / 2) as f32;
         let out = Vec2::new(cos(angle), sin(angle));
         let stone = if i % 3 == 0 { shapes::circle(0.15) } else { shapes::rect(0.18, 0.12) };
@@ -269,7 +269,7 @@ fn show_zone(scene: &mut Scene, shape: Shape, position: Vec2) {
 /// Belts carry parcels of three categories over gates that each let two of them through; the size is the number
 /// of parcels.
 pub(crate) fn sorting(options: Options) -> Scene {
-    let count = options.size_or(45, 2000);
+    let count = options.size_or(36, 2000);
     let text = "Belts carry parcels; each gate holds one kind and lets the others fall.";
     let mut scene = scene("sorting", text);
     scene.steps = 1200;
@@ -281,8 +281,8 @@ pub(crate) fn sorting(options: Options) -> Scene {
     // A hopper, a belt under it, and below three belts over each other that hold one kind each.
     for side in [-1.0, 1.0] {
         let slant = ShapeDef::new(shapes::rect(0.1, 2.2)).angle(side * -0.5);
-        put(-8.0 + side * 2.4, 12.6, slant.friction(0.1));
-        put(-8.0 + side * 3.45, 17.0, ShapeDef::new(shapes::rect(0.1, 2.6)).friction(0.1));
+        put(-8.0 + side * 2.4, 13.4, slant.friction(0.1));
+        put(-8.0 + side * 3.45, 17.8, ShapeDef::new(shapes::rect(0.1, 2.6)).friction(0.1));
     }
     let belt = |half: f32, speed: f32| {
         ShapeDef::new(shapes::rounded_rect(half, 0.1, 0.15)).tangent_speed(speed).friction(0.9)
@@ -304,12 +304,12 @@ pub(crate) fn sorting(options: Options) -> Scene {
         let kind = i as usize % 3;
         let shape = match kind {
             0 => shapes::rect(0.3, 0.3),
-            1 => shapes::circle(0.32),
-            _ => Shape::Capsule { a: Vec2::new(-0.2, 0.0), b: Vec2::new(0.2, 0.0), radius: 0.2 },
+            1 => Shape::Capsule { a: Vec2::new(-0.2, 0.0), b: Vec2::new(0.2, 0.0), radius: 0.2 },
+            _ => shapes::circle(0.32),
         };
         let filter = Filter { category: kinds[kind], ..Filter::default() };
-        let place = Vec2::new(-10.0 + 0.8 * (i % 6) as f32, 15.0 + 0.8 * (i / 6) as f32);
-        let parcel = ShapeDef::new(shape).filter(filter).friction(0.5);
+        let place = Vec2::new(-10.0 + 0.8 * (i % 6) as f32, 15.8 + 0.8 * (i / 6) as f32);
+        let parcel = ShapeDef::new(shape).filter(filter).friction(0.3);
         scene.body(RigidBody::dynamic().position(place).shape(parcel));
     }
     scene

@@ -69,9 +69,9 @@ fn add_standing(scene: &mut Scene, base: usize) {
     scene.joint(base, board, weld);
     scene.body(body(-5.4, 4.2, shapes::circle(0.4)));
 
-    let cart = scene.body(body(-2.5, 1.9, shapes::rect(1.1, 0.25)));
+    let cart = scene.body(body(0.5, 1.9, shapes::rect(1.1, 0.25)));
     for x in [-0.8, 0.8] {
-        let wheel = scene.body(body(-2.5 + x, 1.2, shapes::circle(0.4)));
+        let wheel = scene.body(body(0.5 + x, 1.2, shapes::circle(0.4)));
         let axle = JointDef::wheel(Vec2::Y).spring(3.0, 0.5).limits(-0.2, 0.2).motor(-1.0, 4.0);
         scene.joint(cart, wheel, axle.anchors(Vec2::new(x, -0.7), Vec2::ZERO));
     }
@@ -117,7 +117,8 @@ pub(crate) fn clockwork(options: Options) -> Scene {
     let text = "A motor turns a train of wheels; the last one lifts a stack on a rack.";
     let mut scene = Scene::new("clockwork", text);
     scene.gravity = Vec2::new(0.0, -10.0);
-    let base = scene.body(ground(Vec2::new(0.0, -5.0), 12.0, 0.5));
+    let ceiling = ShapeDef::new(shapes::rect(12.0, 0.2)).offset(Vec2::new(0.0, 11.5));
+    let base = scene.body(ground(Vec2::new(0.0, -5.0), 12.0, 0.5).shape(ceiling));
     let anchor = |x: f32, y: f32| Vec2::new(x, y + 5.0);
     let mut x = -10.0;
     let mut last: Option<(usize, f32)> = None;
@@ -172,7 +173,7 @@ pub(crate) fn breaking_bridge(options: Options) -> Scene {
         } else {
             (banks, Vec2::new(half, 0.0))
         };
-        let joint = JointDef::revolute().anchors(last.1, anchor).break_at(600.0, f32::MAX);
+        let joint = JointDef::revolute().anchors(last.1, anchor).break_at(1000.0, f32::MAX);
         scene.joint(last.0, next, joint);
         last = (next, Vec2::new(0.5, 0.0));
     }
