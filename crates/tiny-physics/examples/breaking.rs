@@ -1,5 +1,5 @@
 //! A tray on two chains, loaded until one breaks: thresholds, the event, and the load before it.
-//! `cargo run --example breaking`
+//! `cargo run -p tiny-physics --example breaking`
 
 use tiny_physics::{Error, JointDef, RigidBody, Shape, Vec2, World};
 

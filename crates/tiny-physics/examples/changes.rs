@@ -1,5 +1,5 @@
 //! Changing bodies and shapes while they are in use: kind, mass, enabled, geometry, material, more shapes.
-//! `cargo run --example changes`
+//! `cargo run -p tiny-physics --example changes`
 
 use tiny_physics::{BodyKind, Error, Material, RigidBody, Shape, ShapeDef, Vec2, World};
 

@@ -1,5 +1,5 @@
 //! Debug drawing through a trait: a drawer of forty lines that writes an SVG picture.
-//! `cargo run --example debug_draw > picture.svg`
+//! `cargo run -p tiny-physics --example debug_draw > picture.svg`
 
 use std::fmt::Write;
 use tiny_physics::{

@@ -1,5 +1,5 @@
 //! The distance joint as a rod, a spring, a range and a rope: four weights hang from one beam.
-//! `cargo run --example distances`
+//! `cargo run -p tiny-physics --example distances`
 
 use tiny_physics::{Error, JointDef, RigidBody, Shape, Vec2, World};
 

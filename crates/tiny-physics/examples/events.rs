@@ -1,5 +1,5 @@
 //! What happened in a step: contacts, hits with their speed, sensors, bodies that moved and fell asleep. Removing
-//! things while going through the events is safe. `cargo run --example events`
+//! things while going through the events is safe. `cargo run -p tiny-physics --example events`
 
 use tiny_physics::{Error, RigidBody, Shape, ShapeDef, Vec2, World};
 

@@ -1,5 +1,5 @@
 //! Who collides with whom: categories, groups, a filter of your own, and a hook before the solver.
-//! `cargo run --example filters`
+//! `cargo run -p tiny-physics --example filters`
 
 use tiny_physics::{BodyId, Error, Filter, RigidBody, Shape, ShapeDef, Vec2, World};
 

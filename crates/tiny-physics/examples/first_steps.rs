@@ -1,5 +1,5 @@
 //! A world, a floor, a ball: steps of a fixed length under frames of uneven length, and poses between steps to
-//! draw. `cargo run --example first_steps`
+//! draw. `cargo run -p tiny-physics --example first_steps`
 
 use tiny_physics::{Error, FixedStep, RigidBody, Shape, Vec2, World};
 

@@ -1,5 +1,5 @@
 //! Forces of places: an explosion, wind, water, a zone of attraction, a conveyor belt.
-//! `cargo run --example forces`
+//! `cargo run -p tiny-physics --example forces`
 
 use tiny_physics::{
     BodyId, Error, Explosion, ForceZone, Pose, QueryFilter, RigidBody, Rot, Shape, ShapeDef, Vec2,

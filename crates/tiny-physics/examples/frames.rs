@@ -1,5 +1,5 @@
 //! Saving and restoring: a copy in memory to roll back to, bytes for a file, and a hash to compare by.
-//! `cargo run --example frames`
+//! `cargo run -p tiny-physics --example frames`
 
 use tiny_physics::{Error, RigidBody, Shape, Vec2, World};
 

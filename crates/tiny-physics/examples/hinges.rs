@@ -1,5 +1,5 @@
 //! Joints that leave one direction free: a hinge with motor and limit, a slider, a soft weld, and a wheel.
-//! `cargo run --example hinges`
+//! `cargo run -p tiny-physics --example hinges`
 
 use tiny_physics::{Error, JointDef, RigidBody, Shape, Vec2, World};
 

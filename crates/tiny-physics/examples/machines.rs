@@ -1,4 +1,4 @@
-//! Joints that couple and drive: gear, pulley, motor, mouse, filter. `cargo run --example machines`
+//! Joints that couple and drive: gear, pulley, motor, mouse, filter. `cargo run -p tiny-physics --example machines`
 
 use tiny_physics::{Error, JointDef, JointKind, RigidBody, Shape, Vec2, World};
 

@@ -1,5 +1,5 @@
 //! A lift that is led to targets, cargo that rides it, and a one-way platform to jump through.
-//! `cargo run --example platforms`
+//! `cargo run -p tiny-physics --example platforms`
 
 use tiny_physics::{
     BodyKind, Error, RigidBody, Rot, Shape, ShapeDef, Transform, Vec2, World, math,

@@ -1,5 +1,5 @@
 //! Asking what is where: rays, moved shapes, overlaps, the closest point, many rays at once.
-//! `cargo run --example queries`
+//! `cargo run -p tiny-physics --example queries`
 
 use tiny_physics::{
     Aabb, Error, Pose, QueryFilter, RayCast, RigidBody, Rot, Shape, Vec2, World, math,

@@ -1,5 +1,5 @@
 //! Recording what is done to a world, playing it again with a check of every step, going to any step, and
-//! finding where two runs part. `cargo run --example recording`
+//! finding where two runs part. `cargo run -p tiny-physics --example recording`
 
 use tiny_physics::record::{Command, Made, Player, Recorder, Recording};
 use tiny_physics::{Error, RigidBody, Shape, Vec2, World};

@@ -1,5 +1,5 @@
 //! Every kind of shape, several shapes on one body, a hull with an error that names the point, and a chain to
-//! land on. `cargo run --example shapes`
+//! land on. `cargo run -p tiny-physics --example shapes`
 
 use tiny_physics::{ChainDef, Error, Polygon, RigidBody, Shape, ShapeDef, Vec2, World};
 

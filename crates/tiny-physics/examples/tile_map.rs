@@ -1,5 +1,5 @@
 //! A tile map: drawn with letters, run over without a bump, dug up while things lie on it.
-//! `cargo run --example tile_map`
+//! `cargo run -p tiny-physics --example tile_map`
 
 use tiny_physics::{Error, QueryFilter, RigidBody, Shape, ShapeDef, TileGrid, Vec2, World};
 
