@@ -1,6 +1,6 @@
 //! The list of all scenes that this crate can build.
 
-use crate::build::{Options, benchmark, level, seed, show};
+use crate::build::{Options, benchmark, features, joints, level, seed, show};
 use crate::scene::Scene;
 use core::fmt;
 
@@ -98,6 +98,18 @@ static ENTRIES: &[Entry] = &[
     entry("galton_board", "Balls fall through pegs into bins", 1200, SHOW, show::galton_board),
     entry("car", "A car drives over hills", 600, SHOW, show::car),
     entry("friction_ramp", "Crates of rising friction on a slope", 600, SHOW, show::friction_ramp),
+    entry("joints", "Every kind of joint, side by side", 600, SHOW, joints::joints),
+    entry("clockwork", "A motor, a train of wheels, and a rack that lifts a stack", 600, SHOW, joints::clockwork),
+    entry("breaking_bridge", "A bridge whose joints break under too much load", 600, SHOW, joints::breaking_bridge),
+    entry("bowl", "Shapes of every kind in a bowl drawn as a chain", 600, SHOW, features::bowl),
+    entry("changing", "A ball grows, a slope freezes, shelves come loose", 600, SHOW, features::changing),
+    entry("platforms", "Led platforms with cargo, and one-way planks", 600, SHOW, features::platforms),
+    entry("harbour", "Things float or sink, and a boat sails", 900, SHOW, features::harbour),
+    entry("blast", "Three explosions in a town of crates", 600, SHOW, features::blast),
+    entry("orbits", "Stones circle two planets", 600, SHOW, features::orbits),
+    entry("sorting", "Belts and gates sort parcels by their filters", 1200, SHOW, features::sorting),
+    entry("sensor_door", "A ball opens a door by a sensor", 600, SHOW, features::sensor_door),
+    entry("hero", "A character walks, climbs, jumps and rides", 900, SHOW, features::hero),
 ];
 
 /// All scenes.
