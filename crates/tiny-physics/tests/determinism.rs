@@ -41,12 +41,12 @@ fn crowd() -> World {
     world
 }
 
-/// Chains that fall on a pile.
+/// Chains that fall on a pile, long enough to be solved as trees.
 fn chains() -> World {
     let mut world = mixed_pile(30, 9);
     for chain in 0..6 {
         let (mut last, x) = (None, chain as f32 - 3.0);
-        for i in 0..8 {
+        for i in 0..12 {
             let link = drop_at(&mut world, capsule(0.2, 0.1), x, 8.0 + 0.4 * i as f32);
             if let Some(last) = last {
                 let (end, start) = (Vec2::new(0.2, 0.0), Vec2::new(-0.2, 0.0));

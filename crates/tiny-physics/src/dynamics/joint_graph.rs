@@ -2,7 +2,8 @@
 //!
 //! A joint keeps its colour while its bodies are awake; colours are given first-fit in the order in
 //! which joints come in. Between two dynamic bodies the lowest free colour, else the highest: joints
-//! to the ground are solved last. What finds no colour goes to the overflow.
+//! to the ground are solved last. What finds no colour goes to the overflow. Joints of the
+//! [forest](super::joint_forest) have lanes of their own, which keep their numbers between steps.
 
 use super::bodies::Bodies;
 use super::clone::clone_by_field;
@@ -10,6 +11,7 @@ use super::joint_blocks::{
     DistanceBlock, DriveBlock, GearBlock, Impulses, JointClass, JointLanes, PrismaticBlock,
     PulleyBlock, RevoluteBlock, WeldBlock, WheelBlock,
 };
+use super::joint_forest::{JointForest, JointTree, is_rigid};
 use super::joints::{JointPlace, JointRecord, Joints};
 use super::pace::{PACES, PLAIN};
 use crate::codec::data;
@@ -18,8 +20,10 @@ use crate::threads::Team;
 
 /// Number of colours of joints.
 pub(crate) const JOINT_COLOURS: usize = 24;
-/// Places of one pace: its colours and, last, its overflow.
-pub(crate) const JOINT_PLACES: usize = JOINT_COLOURS + 1;
+/// Place of the joints that are solved directly, in trees: no colours of bodies keep them apart.
+pub(super) const JOINT_TREES: usize = JOINT_COLOURS + 1;
+/// Places of one pace: its colours, its overflow, its trees.
+pub(crate) const JOINT_PLACES: usize = JOINT_COLOURS + 2;
 
 /// Joints of one colour and class.
 #[derive(Debug, PartialEq)]
@@ -193,10 +197,10 @@ impl JointColour {
     }
 }
 
-/// All colours and the overflow.
+/// All colours, the overflow and the trees.
 #[derive(Debug, PartialEq)]
 pub(crate) struct JointGraph {
-    /// For each pace: colours, then the overflow.
+    /// For each pace: colours, then the overflow, then the trees.
     pub(crate) colours: Vec<JointColour>,
     /// Plain substep length that the lanes were described for, seconds.
     pub(crate) described_h: f32,
@@ -205,10 +209,11 @@ pub(crate) struct JointGraph {
     pub(crate) count: usize,
     /// A joint has come in that joins bodies of different paces.
     pub(crate) mixed: bool,
+    pub(crate) forest: JointForest,
 }
 
-clone_by_field!(JointGraph { colours, described_h, any_stale, count, mixed });
-data!(JointGraph { colours, described_h, any_stale, count, mixed });
+clone_by_field!(JointGraph { colours, described_h, any_stale, count, mixed, forest });
+data!(JointGraph { colours, described_h, any_stale, count, mixed, forest });
 
 impl JointGraph {
     pub(crate) fn new() -> Self {
@@ -218,6 +223,7 @@ impl JointGraph {
             any_stale: false,
             count: 0,
             mixed: false,
+            forest: JointForest::default(),
         }
     }
 
@@ -225,9 +231,19 @@ impl JointGraph {
     /// not.
     pub(crate) fn of_pace(&mut self, pace: usize) -> (&mut [JointColour], &mut JointColour) {
         let first = pace * JOINT_PLACES;
-        let places = &mut self.colours[first..first + JOINT_PLACES];
-        let (colours, overflow) = places.split_at_mut(JOINT_COLOURS);
+        let (colours, overflow) =
+            self.colours[first..first + JOINT_TREES].split_at_mut(JOINT_COLOURS);
         (colours, &mut overflow[0])
+    }
+
+    /// The lanes of a pace's trees, and the trees of all paces.
+    pub(crate) fn trees_of_pace(&mut self, pace: usize) -> (&mut JointColour, &mut [JointTree]) {
+        (&mut self.colours[pace * JOINT_PLACES + JOINT_TREES], &mut self.forest.trees)
+    }
+
+    /// Joints of all trees.
+    pub(crate) fn count_in_trees(&self) -> usize {
+        self.colours.iter().skip(JOINT_TREES).step_by(JOINT_PLACES).map(JointColour::count).sum()
     }
 
     /// The pace at which a joint is solved.
@@ -246,16 +262,30 @@ impl JointGraph {
     /// Puts a joint into the graph with the impulses of its record. Does nothing where it is there
     /// already, has nothing to solve, or one of its bodies is not enabled.
     pub(crate) fn insert(&mut self, bodies: &mut Bodies, joints: &mut Joints, index: u32) {
-        let record = &mut joints.records[index as usize];
-        let Some(class) = record.class() else { return };
+        let record = &joints.records[index as usize];
         let enabled = |body: u32| bodies.infos[body as usize].enabled;
-        if record.place != JointPlace::Asleep || !(enabled(record.body_a) && enabled(record.body_b))
+        if record.class().is_none()
+            || record.place != JointPlace::Asleep
+            || !(enabled(record.body_a) && enabled(record.body_b))
         {
             return;
         }
         let (a, b) = (record.body_a, record.body_b);
         self.mixed |= bodies.are_mixed(a, b);
+        self.forest.note(a, b);
+        self.put_in_lanes(bodies, joints, index);
+    }
+
+    fn put_in_lanes(&mut self, bodies: &mut Bodies, joints: &mut Joints, index: u32) {
+        let JointRecord { body_a: a, body_b: b, .. } = joints.records[index as usize];
         let colour = bodies.common_pace(a, b) * JOINT_PLACES + take_colour(bodies, a, b);
+        self.put(joints, index, colour);
+    }
+
+    /// Gives a joint lanes.
+    fn put(&mut self, joints: &mut Joints, index: u32, colour: usize) {
+        let record = &mut joints.records[index as usize];
+        let Some(class) = record.class() else { return };
         let ends = [record.body_a, record.body_b];
         let slot = with_bucket!([&mut] self.colours[colour], class, bucket => {
             bucket.push(index, ends, &record.saved)
@@ -268,6 +298,16 @@ impl JointGraph {
     /// Takes a joint out of the graph, if it is there, and saves its impulses in the record. Call it
     /// before the description of the joint changes its kind, or a body its type.
     pub(crate) fn remove(&mut self, bodies: &mut Bodies, joints: &mut Joints, index: u32) {
+        let record = &joints.records[index as usize];
+        if record.place != JointPlace::Asleep {
+            self.forest.note(record.body_a, record.body_b);
+            self.forest.dissolve(index);
+            self.take(bodies, joints, index);
+        }
+    }
+
+    /// Takes a joint's lanes away.
+    fn take(&mut self, bodies: &mut Bodies, joints: &mut Joints, index: u32) {
         let record = &mut joints.records[index as usize];
         let JointPlace::Graph { colour, slot } = record.place else { return };
         let Some(class) = record.class() else { return };
@@ -282,6 +322,22 @@ impl JointGraph {
         }
         give_colour_back(bodies, ends, usize::from(colour) % JOINT_PLACES);
         self.count -= 1;
+    }
+
+    /// Brings the forest up to date, and moves joints between lanes and trees.
+    pub(crate) fn grow_forest(&mut self, bodies: &mut Bodies, joints: &mut Joints) {
+        if !self.forest.is_stale() {
+            return;
+        }
+        let moves = self.forest.grow(bodies, joints);
+        for (index, place) in moves.into_trees {
+            self.take(bodies, joints, index);
+            self.put(joints, index, place);
+        }
+        for index in moves.into_lanes {
+            self.take(bodies, joints, index);
+            self.put_in_lanes(bodies, joints, index);
+        }
     }
 
     /// The impulses of a joint, wherever they are kept.
@@ -306,15 +362,17 @@ impl JointGraph {
     ) {
         let record = &joints.records[index as usize];
         let same = core::mem::discriminant(&record.def.kind) == core::mem::discriminant(&def.kind);
-        if same {
+        if same && is_rigid(&record.def) == is_rigid(def) {
             joints.records[index as usize].def = *def;
-            self.refresh(joints, index);
+            self.mark_stale(joints, index);
         } else {
             let placed = record.place != JointPlace::Asleep;
             self.remove(bodies, joints, index);
             let record = &mut joints.records[index as usize];
             record.def = *def;
-            record.saved = Impulses::default();
+            if !same {
+                record.saved = Impulses::default();
+            }
             if placed {
                 self.insert(bodies, joints, index);
             }
@@ -322,9 +380,16 @@ impl JointGraph {
         joints.note_breakable(index);
     }
 
+    /// Notes that mass or centre of mass of a joint's body has changed.
+    pub(crate) fn refresh(&mut self, joints: &Joints, index: u32) {
+        let record = &joints.records[index as usize];
+        self.forest.note(record.body_a, record.body_b);
+        self.mark_stale(joints, index);
+    }
+
     /// Notes that the lanes of a joint no longer follow from its description: that has changed, or the
     /// centre of mass of a body has.
-    pub(crate) fn refresh(&mut self, joints: &Joints, index: u32) {
+    fn mark_stale(&mut self, joints: &Joints, index: u32) {
         let record = &joints.records[index as usize];
         let (JointPlace::Graph { colour, slot }, Some(class)) = (record.place, record.class())
         else {
@@ -359,7 +424,7 @@ fn take_colour(bodies: &mut Bodies, a: u32, b: u32) -> usize {
 }
 
 fn give_colour_back(bodies: &mut Bodies, ends: [u32; 2], colour: usize) {
-    if colour == JOINT_COLOURS {
+    if colour >= JOINT_COLOURS {
         return;
     }
     for i in ends {
@@ -445,7 +510,7 @@ mod tests {
                 assert_eq!(frame.body_a[slot as usize % BLOCK], ends[0]);
                 assert_eq!(frame.body_b[slot as usize % BLOCK], ends[1]);
             });
-            if usize::from(colour) == JOINT_COLOURS {
+            if usize::from(colour) % JOINT_PLACES >= JOINT_COLOURS {
                 continue;
             }
             for end in ends.into_iter().filter(|&end| bodies.is_dynamic(end)) {

@@ -273,6 +273,8 @@ impl World {
             self.check_joint_bucket(colour, JointClass::Pulley, &buckets.pulley)?;
             self.check_joint_bucket(colour, JointClass::Gear, &buckets.gear)?;
         }
+        let in_trees = graph.count_in_trees();
+        ensure(graph.forest.is_stale() || graph.forest.count() == in_trees, "trees lack joints")?;
         let placed: usize = graph.colours.iter().map(|colour| colour.count()).sum();
         let records = self.joints.records.iter().filter(|record| record.alive);
         let waiting = records.filter(|record| record.place != JointPlace::Asleep).count();

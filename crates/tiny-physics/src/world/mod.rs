@@ -359,6 +359,7 @@ impl World {
             return;
         }
         let Self { joint_graph, joints, bodies, .. } = self;
+        joint_graph.grow_forest(bodies, joints);
         joint_solver::describe(joint_graph, joints, &bodies.infos, lengths.h);
         let mut listed = core::mem::take(&mut self.scratch.listed);
         let refined = paces::any_refined(&self.bodies);
@@ -467,15 +468,18 @@ impl World {
 
     /// Brings the joints' lanes in line with the poses.
     fn prepare_joints(&mut self, team: &Team, pace: usize, h: f32) {
-        let Self { joint_graph, bodies, level, .. } = self;
+        let Self { joint_graph, joints, bodies, level, .. } = self;
         let (poses, level) = (&bodies.poses, *level);
         let (colours, overflow) = joint_graph.of_pace(pace);
         for colour in colours.iter_mut().chain([overflow]) {
             colour.for_each_run(team, |blocks| joint_solver::prepare(level, poses, h, blocks));
         }
+        let (lanes, trees) = joint_graph.trees_of_pace(pace);
+        lanes.for_each_run(team, |blocks| joint_solver::prepare(level, poses, h, blocks));
+        joint_solver::trees::prepare(team, pace, lanes, trees, joints);
     }
 
-    /// Runs one pass over all joints: the overflow one by one, then colour by colour.
+    /// Runs one pass over all joints: the overflow one by one, then colour by colour, then tree by tree.
     fn solve_joints(&mut self, team: &Team, pace: usize, pass: joint_solver::Pass, h: f32) {
         if self.joint_graph.count() == 0 {
             return;
@@ -488,6 +492,11 @@ impl World {
         });
         for colour in colours {
             colour.for_each_run(team, |blocks| joint_solver::run(level, pass, inv_h, rows, blocks));
+        }
+        let (lanes, trees) = self.joint_graph.trees_of_pace(pace);
+        match pass {
+            joint_solver::Pass::Finish => joint_solver::trees::finish(pace, trees, lanes),
+            _ => joint_solver::trees::run(team, pace, pass, inv_h, rows, trees),
         }
     }
 

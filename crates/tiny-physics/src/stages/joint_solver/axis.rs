@@ -75,9 +75,32 @@ impl AxisLanes {
         &mut self,
         stride: &Stride<L>,
         soft: &Soft<L>,
-        coordinate: Coordinate<L>,
+        mut coordinate: Coordinate<L>,
     ) -> L {
+        let total = self.drive::<L, BIAS>(stride, &mut coordinate);
         let Coordinate { value, mut velocity, inv_mass } = coordinate;
+        let mass = stride.invert(inv_mass);
+
+        let room = value - stride.load(&self.lower);
+        let change =
+            solve_limit::<L, BIAS>(stride, soft, &mut self.lower_impulse, room, velocity, mass);
+        velocity = velocity + inv_mass * change;
+        let total = total + change;
+
+        let room = stride.load(&self.upper) - value;
+        let change =
+            solve_limit::<L, BIAS>(stride, soft, &mut self.upper_impulse, room, -velocity, mass);
+        total - change
+    }
+
+    /// The impulse that spring and motor add along the coordinate, whose velocity follows.
+    #[inline(always)]
+    pub(super) fn drive<L: Lanes, const BIAS: bool>(
+        &mut self,
+        stride: &Stride<L>,
+        coordinate: &mut Coordinate<L>,
+    ) -> L {
+        let Coordinate { value, mut velocity, inv_mass } = *coordinate;
         let mass = stride.invert(inv_mass);
         let mut total = stride.zero;
         if BIAS {
@@ -94,19 +117,8 @@ impl AxisLanes {
             total = total + change;
         }
         let change = self.solve_motor(stride, velocity, mass);
-        velocity = velocity + inv_mass * change;
-        total = total + change;
-
-        let room = value - stride.load(&self.lower);
-        let change =
-            solve_limit::<L, BIAS>(stride, soft, &mut self.lower_impulse, room, velocity, mass);
-        velocity = velocity + inv_mass * change;
-        total = total + change;
-
-        let room = stride.load(&self.upper) - value;
-        let change =
-            solve_limit::<L, BIAS>(stride, soft, &mut self.upper_impulse, room, -velocity, mass);
-        total - change
+        coordinate.velocity = velocity + inv_mass * change;
+        total + change
     }
 
     #[inline(always)]
@@ -120,6 +132,13 @@ impl AxisLanes {
     }
 }
 
+/// Overrun of a limit, radians or metres, that is pushed back softly; what is beyond goes within a substep. Soft
+/// limits alone let a ragdoll that is hit at 50 m/s bend its joints 9.5 degrees too far; with firm ones alone
+/// ragdolls that lay on each other never came to rest.
+pub(super) const SOFT_OVERRUN: f32 = 0.005;
+/// Factor on a firm push, of which neighbours take a part back: 1 leaves that ragdoll 2.3 degrees beyond, 1.5 1.8.
+const FIRMNESS: f32 = 1.5;
+
 /// One limit: it pushes only, and stops within the substep what would run over it.
 #[inline(always)]
 pub(super) fn solve_limit<L: Lanes, const BIAS: bool>(
@@ -132,13 +151,20 @@ pub(super) fn solve_limit<L: Lanes, const BIAS: bool>(
 ) -> L {
     let old = stride.load(accumulated);
     let apart = room.gt(stride.zero);
-    let bias =
-        L::select(apart, room * stride.inv_h, if BIAS { soft.push * room } else { stride.zero });
     let impulse = if BIAS {
-        let velocity = L::select(apart, velocity, soft.mass_scale * velocity);
-        let decay = L::select(apart, stride.zero, soft.impulse_scale * old);
-        old - mass * (velocity + bias) - decay
+        let (soft_push, firm_push) =
+            (soft.push * room, (room + stride.splat(SOFT_OVERRUN)) * stride.inv_h);
+        let is_firm = firm_push.lt(soft_push);
+        let push = L::select(is_firm, firm_push, soft_push);
+        // Only a soft push takes part of the velocity, and of what was pushed before.
+        let share = L::select(is_firm, stride.one, soft.mass_scale);
+        let decay = L::select(is_firm, stride.zero, soft.impulse_scale * old);
+        let mass = mass * L::select(is_firm, stride.splat(FIRMNESS), stride.one);
+        let bias = L::select(apart, room * stride.inv_h, push);
+        let velocity = L::select(apart, velocity, share * velocity);
+        old - mass * (velocity + bias) - L::select(apart, stride.zero, decay)
     } else {
+        let bias = L::select(apart, room * stride.inv_h, stride.zero);
         old - mass * (velocity + bias)
     };
     let impulse = impulse.max(stride.zero);

@@ -30,6 +30,7 @@ mod prismatic;
 mod pulley;
 mod revolute;
 mod spring;
+pub(crate) mod trees;
 mod weld;
 mod wheel;
 

@@ -67,7 +67,7 @@ impl Rig {
         let rows = SharedRows::new(&mut self.bodies.rows);
         for (i, colour) in self.graph.colours.iter_mut().enumerate() {
             colour.for_each_run(&Team::alone(), |blocks| {
-                if i % crate::dynamics::JOINT_PLACES == crate::dynamics::JOINT_PLACES - 1 {
+                if i % crate::dynamics::JOINT_PLACES == crate::dynamics::JOINT_PLACES - 2 {
                     run_in_order(pass, inv_h, rows, blocks);
                 } else {
                     run(self.level, pass, inv_h, rows, blocks);

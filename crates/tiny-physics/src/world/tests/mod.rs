@@ -7,6 +7,7 @@ mod forces;
 mod hooks;
 mod one_way;
 mod paces;
+mod trees;
 
 use super::*;
 use crate::describe::{BodyKind, RigidBody, ShapeDef};

@@ -1,0 +1,493 @@
+//! Which joints are solved directly: trees of joints, each with the order of its elimination.
+//!
+//! A *component* is what joints of rigid kinds tie together through dynamic bodies. Joints in the order of
+//! their indices span it with a tree; one that closes a loop is cut out and stays with the lanes. Joints to
+//! bodies that nothing moves are *anchors* and close no loop. A component is solved as a tree if it has few cuts
+//! and needs it: where it is long, or joins light bodies to heavy ones. Any other is left to the lanes whole, which
+//! take a tenth of the time: a thousand ragdolls would make a step of theirs last twice as long.
+//!
+//! The forest follows from the records alone, so a frame need not hold it. It is brought up to date at the
+//! start of a step ([`JointGraph::grow_forest`](super::JointGraph::grow_forest)), around bodies whose joints
+//! have changed since.
+
+use super::bodies::{Bodies, NULL};
+use super::clone::clone_by_field;
+use super::joint_blocks::{AxisLanes, JointClass};
+use super::joint_graph::{JOINT_PLACES, JOINT_TREES};
+use super::joints::{JointPlace, Joints};
+use crate::codec::{Data, Reader, Sink};
+use crate::describe::{JointDef, JointKind};
+use crate::error::Error;
+
+/// Fewer joints than these are solved in lanes.
+const LEAST_LINKS: usize = 2;
+/// Joints in a row from which on a component needs a direct solution.
+const LEAST_DEPTH: usize = 8;
+/// So it does where masses differ by this factor.
+const LEAST_MASS_RATIO: f32 = 10.0;
+/// A component is a tree if at most one joint in this many is cut.
+const LINKS_PER_CUT: usize = 8;
+
+/// A row of a joint's Jacobian: `dir . (vB - vA) + arm_b wB - arm_a wA`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct TreeRow {
+    pub(crate) dir: [f64; 2],
+    pub(crate) arm_a: f64,
+    pub(crate) arm_b: f64,
+    /// Lever arms along the direction: how the force turns a body further when that has turned.
+    pub(crate) reach_a: f64,
+    pub(crate) reach_b: f64,
+    /// Position error, metres or radians.
+    pub(crate) error: f64,
+    /// Velocity that gives way per impulse.
+    pub(crate) compliance: f64,
+}
+
+/// A body of a tree, and what the solver keeps of it. The first ones are dynamic, in the order of a walk from
+/// the root; those that nothing moves follow.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct TreeNode {
+    pub(crate) body: u32,
+    /// Velocity: x, y, angular.
+    pub(crate) v: [f64; 3],
+    /// Motion since the start of the step, and its turn as cosine and sine.
+    pub(crate) d: [f64; 3],
+    pub(crate) turn: [f64; 2],
+    /// Inverse mass and inverse moment of inertia; the latter with geometric stiffness once the rows are there.
+    pub(crate) inv_mass: f64,
+    pub(crate) inv_inertia: f64,
+    /// Mass matrix as felt from the root's side, or its inverse: xx, xy, xa, yy, ya, aa.
+    pub(crate) hat: [f64; 6],
+    /// Impulse as felt from the root's side.
+    pub(crate) g: [f64; 3],
+    /// Change of velocity.
+    pub(crate) dv: [f64; 3],
+}
+
+/// A joint of a tree, and what the solver keeps of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct TreeLink {
+    pub(crate) joint: u32,
+    pub(crate) class: JointClass,
+    /// Where in the bucket of its class.
+    pub(crate) slot: u32,
+    /// Nodes of body A and body B.
+    pub(crate) a: u32,
+    pub(crate) b: u32,
+    /// The node away from the root: A or B; NULL for an anchor below a node.
+    pub(crate) child: u32,
+    /// The node towards the root; NULL for the root's own anchor.
+    pub(crate) parent: u32,
+    /// Anchors from the centres of mass, and from that of A to that of B, at the start of the step.
+    pub(crate) anchor_a: [f64; 2],
+    pub(crate) anchor_b: [f64; 2],
+    pub(crate) between: [f64; 2],
+    /// Direction of sliders, angle, and length of rods, at the start of the step.
+    pub(crate) direction: [f64; 2],
+    pub(crate) angle: f64,
+    pub(crate) length: f64,
+    /// What acts along the free coordinate: index among the tree's axes, or NULL.
+    pub(crate) axis: u32,
+    /// Motor of a wheel: speed, greatest impulse, impulse.
+    pub(crate) motor: [f32; 3],
+    /// Rigid rows and their accumulated impulses.
+    pub(crate) rigid: usize,
+    pub(crate) rows: [TreeRow; 3],
+    pub(crate) impulses: [f64; 3],
+    /// The free coordinate and its value.
+    pub(crate) coordinate: TreeRow,
+    pub(crate) value: f64,
+    /// Limit that holds: 1 the lower, -1 the upper, 0 none. It is the row after the rigid ones.
+    pub(crate) limit: f64,
+    /// Inverse of the joint's block of the factorisation, right side, change of the impulses.
+    pub(crate) inverse: [f64; 6],
+    pub(crate) rhs: [f64; 3],
+    pub(crate) change: [f64; 3],
+}
+
+impl TreeLink {
+    /// A link between the nodes of bodies A and B that holds nothing yet.
+    pub(crate) fn new(
+        joint: u32,
+        class: JointClass,
+        [a, b]: [u32; 2],
+        child: u32,
+        parent: u32,
+    ) -> Self {
+        Self {
+            joint,
+            class,
+            slot: 0,
+            a,
+            b,
+            child,
+            parent,
+            anchor_a: [0.0; 2],
+            anchor_b: [0.0; 2],
+            between: [0.0; 2],
+            direction: [0.0; 2],
+            angle: 0.0,
+            length: 0.0,
+            axis: NULL,
+            motor: [0.0; 3],
+            rigid: 0,
+            rows: [TreeRow::default(); 3],
+            impulses: [0.0; 3],
+            coordinate: TreeRow::default(),
+            value: 0.0,
+            limit: 0.0,
+            inverse: [0.0; 6],
+            rhs: [0.0; 3],
+            change: [0.0; 3],
+        }
+    }
+}
+
+/// A component of joints that is solved directly.
+#[derive(Debug, Default, PartialEq)]
+pub(crate) struct JointTree {
+    pub(crate) nodes: Vec<TreeNode>,
+    /// How many nodes are dynamic.
+    pub(crate) dynamic: usize,
+    /// The root's anchor if it has one, joints from the root outwards, further anchors.
+    pub(crate) links: Vec<TreeLink>,
+    pub(crate) axes: Vec<AxisLanes>,
+    /// That of all its bodies.
+    pub(crate) pace: usize,
+    /// The rows are those of the bodies' places now.
+    pub(crate) fresh: bool,
+    /// The factorisation is of the rows now.
+    pub(crate) factored: bool,
+}
+
+clone_by_field!(JointTree { nodes, dynamic, links, axes, pace, fresh, factored });
+
+/// All trees of a world.
+#[derive(Debug, Default)]
+pub(crate) struct JointForest {
+    /// By index; empty ones are free.
+    pub(crate) trees: Vec<JointTree>,
+    free: Vec<u32>,
+    /// Tree of each joint, or NULL.
+    tree_of: Vec<u32>,
+    /// Bodies whose joints have changed.
+    dirty: Vec<u32>,
+    /// Nothing is known yet.
+    all_dirty: bool,
+}
+
+clone_by_field!(JointForest { trees, free, tree_of, dirty, all_dirty });
+
+/// It follows from the records.
+impl PartialEq for JointForest {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Data for JointForest {
+    fn save(&self, _: &mut impl Sink) {}
+    fn load(_: &mut Reader<'_>) -> Result<Self, Error> {
+        Ok(Self { all_dirty: true, ..Self::default() })
+    }
+}
+
+/// Can a tree hold the joint? What it keeps in place has to be rigid, at the engine's own stiffness.
+pub(super) fn is_rigid(def: &JointDef) -> bool {
+    def.softness.is_none()
+        && match def.kind {
+            JointKind::Revolute { .. } | JointKind::Prismatic { .. } | JointKind::Wheel { .. } => {
+                true
+            }
+            JointKind::Weld { linear, angular } => linear.is_none() && angular.is_none(),
+            JointKind::Distance { spring, limits, motor, .. } => {
+                spring.is_none() && limits.is_none() && motor.is_none()
+            }
+            _ => false,
+        }
+}
+
+/// Joints that have to change between the lanes and the trees, ascending; for trees with their places.
+#[derive(Debug, Default)]
+pub(super) struct Moves {
+    pub(super) into_trees: Vec<(u32, usize)>,
+    pub(super) into_lanes: Vec<u32>,
+}
+
+impl JointForest {
+    /// Notes that joints between two bodies have changed.
+    pub(crate) fn note(&mut self, a: u32, b: u32) {
+        self.dirty.extend([a, b]);
+    }
+
+    /// Is there anything to do?
+    pub(crate) fn is_stale(&self) -> bool {
+        self.all_dirty || !self.dirty.is_empty()
+    }
+
+    /// Joints of all trees.
+    pub(crate) fn count(&self) -> usize {
+        self.trees.iter().map(|tree| tree.links.len()).sum()
+    }
+
+    /// Fells the tree that a joint is in.
+    pub(crate) fn dissolve(&mut self, joint: u32) {
+        let Some(&tree) = self.tree_of.get(joint as usize) else { return };
+        let Some(felled) = self.trees.get_mut(tree as usize) else { return };
+        for link in felled.links.drain(..) {
+            self.tree_of[link.joint as usize] = NULL;
+        }
+        felled.nodes.clear();
+        felled.axes.clear();
+        self.free.push(tree);
+    }
+
+    /// Plants the trees around all bodies whose joints have changed. Gives the joints that are in the wrong
+    /// place.
+    pub(super) fn grow(&mut self, bodies: &Bodies, joints: &Joints) -> Moves {
+        let mut dirty = core::mem::take(&mut self.dirty);
+        if core::mem::take(&mut self.all_dirty) {
+            dirty.clear();
+            dirty.extend(bodies.indices());
+        }
+        dirty.sort_unstable();
+        dirty.dedup();
+        self.tree_of.resize(joints.records.len(), NULL);
+        let mut seen = vec![false; bodies.infos.len()];
+        let mut moves = Moves::default();
+        let mut found = Vec::new();
+        for &body in &dirty {
+            collect(bodies, joints, body, &mut seen, &mut found);
+            found.iter().for_each(|&joint| self.dissolve(joint));
+            let tree = plant(bodies, joints, &found).unwrap_or_default();
+            let in_trees = tree.pace * JOINT_PLACES + JOINT_TREES;
+            self.insert(tree);
+            for &joint in &found {
+                let JointPlace::Graph { colour, .. } = joints.records[joint as usize].place else {
+                    continue;
+                };
+                let place = usize::from(colour);
+                if self.tree_of[joint as usize] == NULL {
+                    if place % JOINT_PLACES == JOINT_TREES {
+                        moves.into_lanes.push(joint);
+                    }
+                } else if place != in_trees {
+                    moves.into_trees.push((joint, in_trees));
+                }
+            }
+        }
+        dirty.clear();
+        self.dirty = dirty;
+        moves.into_trees.sort_unstable();
+        moves.into_lanes.sort_unstable();
+        moves
+    }
+
+    /// Gives an index to a tree that has any links.
+    fn insert(&mut self, tree: JointTree) {
+        if tree.links.is_empty() {
+            return;
+        }
+        let index = self.free.pop().unwrap_or(self.trees.len() as u32);
+        for link in &tree.links {
+            self.tree_of[link.joint as usize] = index;
+        }
+        if index as usize == self.trees.len() {
+            self.trees.push(tree);
+        } else {
+            self.trees[index as usize] = tree;
+        }
+    }
+}
+
+/// The joints of rigid kinds in the graph that hang together with a body, ascending; none where that has been
+/// done before.
+fn collect(bodies: &Bodies, joints: &Joints, body: u32, seen: &mut [bool], found: &mut Vec<u32>) {
+    found.clear();
+    let mut waiting = vec![body];
+    while let Some(body) = waiting.pop() {
+        if !bodies.is_dynamic(body) || core::mem::replace(&mut seen[body as usize], true) {
+            continue;
+        }
+        for (joint, side) in joints.of_body(bodies.infos[body as usize].first_joint) {
+            let record = &joints.records[joint as usize];
+            if record.place != JointPlace::Asleep && is_rigid(&record.def) {
+                found.push(joint);
+                waiting.push(if side == 0 { record.body_b } else { record.body_a });
+            }
+        }
+    }
+    found.sort_unstable();
+    found.dedup();
+}
+
+/// The tree of a component, or none where it has too few joints or too many loops. `component` is ascending.
+fn plant(bodies: &Bodies, joints: &Joints, component: &[u32]) -> Option<JointTree> {
+    if component.len() < LEAST_LINKS {
+        return None;
+    }
+    let mut set = Sets::default();
+    let (mut spanning, mut anchors) = (Vec::new(), Vec::new());
+    for &joint in component {
+        let record = &joints.records[joint as usize];
+        if bodies.is_dynamic(record.body_a) && bodies.is_dynamic(record.body_b) {
+            if set.join(record.body_a, record.body_b) {
+                spanning.push(joint);
+            }
+        } else {
+            anchors.push(joint);
+        }
+    }
+    let kept = spanning.len() + anchors.len();
+    let few_cuts = (component.len() - kept) * LINKS_PER_CUT <= component.len();
+    if !few_cuts || kept < LEAST_LINKS {
+        return None;
+    }
+    let mut planter = Planter { bodies, joints, tree: JointTree::default(), depth: Vec::new() };
+    planter.plant(&spanning, &anchors);
+    (planter.is_deep() || planter.is_uneven()).then_some(planter.tree)
+}
+
+/// Sets of bodies that joints connect.
+#[derive(Default)]
+struct Sets {
+    /// Bodies and the places of their parents, by place.
+    members: Vec<(u32, usize)>,
+    /// Places by body.
+    places: std::collections::BTreeMap<u32, usize>,
+}
+
+impl Sets {
+    fn root(&mut self, body: u32) -> usize {
+        let Self { members, places } = self;
+        let mut place = *places.entry(body).or_insert_with(|| {
+            members.push((body, members.len()));
+            members.len() - 1
+        });
+        while members[place].1 != place {
+            let parent = members[place].1;
+            members[place].1 = members[parent].1;
+            place = parent;
+        }
+        place
+    }
+
+    /// Joins the sets of two bodies; false where they are one already.
+    fn join(&mut self, a: u32, b: u32) -> bool {
+        let (a, b) = (self.root(a), self.root(b));
+        self.members[a].1 = b;
+        a != b
+    }
+}
+
+/// A tree in the making.
+struct Planter<'a> {
+    bodies: &'a Bodies,
+    joints: &'a Joints,
+    tree: JointTree,
+    /// Joints between the root and each node.
+    depth: Vec<usize>,
+}
+
+impl Planter<'_> {
+    /// Walks outwards from the first anchor, or from the first body.
+    fn plant(&mut self, spanning: &[u32], anchors: &[u32]) {
+        let mut edges: Vec<(u32, u32)> = Vec::with_capacity(2 * spanning.len());
+        for &joint in spanning {
+            let record = &self.joints.records[joint as usize];
+            edges.extend([(record.body_a, joint), (record.body_b, joint)]);
+        }
+        edges.sort_unstable();
+        let root = anchors.first().map_or(edges.first().map(|edge| edge.0), |&joint| {
+            let record = &self.joints.records[joint as usize];
+            let a = self.bodies.is_dynamic(record.body_a);
+            Some(if a { record.body_a } else { record.body_b })
+        });
+        let Some(root) = root else { return };
+        let mut nodes = std::collections::BTreeMap::new();
+        nodes.insert(root, 0);
+        self.tree.pace = usize::from(self.bodies.infos[root as usize].pace);
+        self.add_node(root);
+        self.depth.push(0);
+        if let Some(&joint) = anchors.first() {
+            self.add_anchor(joint, 0, true);
+        }
+        let mut at = 0;
+        while let Some(&TreeNode { body, .. }) = self.tree.nodes.get(at) {
+            let first = edges.partition_point(|edge| edge.0 < body);
+            for &(_, joint) in edges[first..].iter().take_while(|edge| edge.0 == body) {
+                let record = &self.joints.records[joint as usize];
+                let is_a = record.body_a == body;
+                let other = if is_a { record.body_b } else { record.body_a };
+                if !nodes.contains_key(&other) {
+                    let child = self.add_node(other);
+                    nodes.insert(other, child);
+                    self.depth.push(self.depth[at] + 1);
+                    let (a, b) = if is_a { (at as u32, child) } else { (child, at as u32) };
+                    self.add_link(joint, [a, b], child, at as u32);
+                }
+            }
+            at += 1;
+        }
+        self.tree.dynamic = self.tree.nodes.len();
+        if !anchors.is_empty() {
+            self.finish_root_anchor();
+        }
+        for &joint in anchors.iter().skip(1) {
+            let record = &self.joints.records[joint as usize];
+            let a = self.bodies.is_dynamic(record.body_a);
+            let body = if a { record.body_a } else { record.body_b };
+            self.add_anchor(joint, nodes[&body], false);
+        }
+    }
+
+    fn is_deep(&self) -> bool {
+        self.depth.last().is_some_and(|&depth| depth >= LEAST_DEPTH)
+    }
+
+    /// Do light bodies bear heavy ones?
+    fn is_uneven(&self) -> bool {
+        let (mut least, mut greatest) = (f32::INFINITY, 0.0);
+        for node in &self.tree.nodes[..self.tree.dynamic] {
+            let mass = self.bodies.infos[node.body as usize].mass;
+            least = if mass < least { mass } else { least };
+            greatest = if mass > greatest { mass } else { greatest };
+        }
+        greatest >= LEAST_MASS_RATIO * least
+    }
+
+    fn add_node(&mut self, body: u32) -> u32 {
+        self.tree.nodes.push(TreeNode { body, ..TreeNode::default() });
+        self.tree.nodes.len() as u32 - 1
+    }
+
+    /// An anchor of a node. That of the root comes before other nodes, and has its fixed node added last.
+    fn add_anchor(&mut self, joint: u32, node: u32, of_root: bool) {
+        let record = &self.joints.records[joint as usize];
+        let is_a = self.bodies.is_dynamic(record.body_a);
+        let fixed = if of_root {
+            NULL
+        } else {
+            self.add_node(if is_a { record.body_b } else { record.body_a })
+        };
+        let ends = if is_a { [node, fixed] } else { [fixed, node] };
+        let (child, parent) = if of_root { (node, NULL) } else { (NULL, node) };
+        self.add_link(joint, ends, child, parent);
+    }
+
+    fn finish_root_anchor(&mut self) {
+        let link = self.tree.links[0];
+        let record = &self.joints.records[link.joint as usize];
+        if link.a == NULL {
+            self.tree.links[0].a = self.add_node(record.body_a);
+        } else {
+            self.tree.links[0].b = self.add_node(record.body_b);
+        }
+    }
+
+    fn add_link(&mut self, joint: u32, ends: [u32; 2], child: u32, parent: u32) {
+        if let Some(class) = self.joints.records[joint as usize].class() {
+            self.tree.links.push(TreeLink::new(joint, class, ends, child, parent));
+        }
+    }
+}

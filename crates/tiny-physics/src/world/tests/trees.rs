@@ -1,0 +1,332 @@
+//! Trees of joints: statics, momentum, loads, limits, and what happens to them while they run.
+
+use super::*;
+use crate::describe::{Filter, JointDef};
+
+/// Joints that are solved directly.
+fn in_trees(world: &World) -> usize {
+    world.joint_graph.count_in_trees()
+}
+
+/// A bar of 1 m and 1 kg that collides with nothing, around a point.
+fn add_bar(world: &mut World, x: f32, y: f32, angle: f32) -> BodyId {
+    let shape = rect(0.5, 0.1).filter(Filter { group: -1, ..Filter::default() });
+    let bar = RigidBody::dynamic().position(Vec2::new(x, y)).angle(angle).shape(shape).mass(1.0);
+    world.add_body(bar).unwrap()
+}
+
+/// A hinge between the end of one bar and the start of the next.
+fn hinge() -> JointDef {
+    JointDef::revolute().anchors(Vec2::new(0.5, 0.0), Vec2::new(-0.5, 0.0))
+}
+
+/// A chain of bars along x, from x = 0 on.
+fn add_chain(world: &mut World, y: f32, count: usize) -> (Vec<BodyId>, Vec<JointId>) {
+    let bars: Vec<BodyId> = (0..count).map(|i| add_bar(world, i as f32 + 0.5, y, 0.0)).collect();
+    let joints = bars.windows(2).map(|pair| world.add_joint(pair[0], pair[1], hinge()).unwrap());
+    let joints = joints.collect();
+    (bars, joints)
+}
+
+/// The same, hung up at its start.
+fn add_hung_chain(world: &mut World, y: f32, count: usize) -> (Vec<BodyId>, Vec<JointId>) {
+    let hook = world.add_body(RigidBody::fixed().position(Vec2::new(0.0, y))).unwrap();
+    let (bars, mut joints) = add_chain(world, y, count);
+    let top = JointDef::revolute().anchors(Vec2::ZERO, Vec2::new(-0.5, 0.0));
+    joints.insert(0, world.add_joint(hook, bars[0], top).unwrap());
+    (bars, joints)
+}
+
+fn gap(world: &World, joint: JointId) -> f64 {
+    let (a, b) = world.joint(joint).unwrap().anchors();
+    f64::from(a.relative_to(b).length())
+}
+
+#[test]
+fn every_joint_of_a_chain_bears_what_hangs_below() {
+    let mut world = world();
+    let hook = world.add_body(RigidBody::fixed()).unwrap();
+    let mut last = hook;
+    let mut joints = Vec::new();
+    for i in 0..12 {
+        let down = -core::f32::consts::FRAC_PI_2;
+        let bar = add_bar(&mut world, 0.0, -0.5 - i as f32, down);
+        let mut def = hinge();
+        if last == hook {
+            def.anchor_a = Vec2::ZERO;
+        }
+        joints.push(world.add_joint(last, bar, def).unwrap());
+        last = bar;
+    }
+    (0..60).for_each(|_| world.step(DT));
+    assert_eq!(in_trees(&world), 12);
+    for (i, &joint) in joints.iter().enumerate() {
+        let (force, weight) = (world.joint(joint).unwrap().force(), 10.0 * (12 - i) as f32);
+        assert!((force.y / weight - 1.0).abs() < 1e-3, "joint {i}: {force:?}, not {weight}");
+        assert!(force.x.abs() < 1e-3 * weight);
+    }
+}
+
+#[test]
+fn heavy_loads_hardly_stretch_chains() {
+    for ratio in [100.0, 1000.0] {
+        let mut world = world();
+        let (bars, joints) = add_hung_chain(&mut world, 0.0, 20);
+        let ball = RigidBody::dynamic().position(Vec2::new(20.0, 0.0)).mass(ratio);
+        let ball = world.add_body(ball.shape(circle(0.4))).unwrap();
+        let def = JointDef::revolute().anchors(Vec2::new(0.5, 0.0), Vec2::ZERO);
+        world.add_joint(bars[19], ball, def).unwrap();
+        for _ in 0..400 {
+            world.step(DT);
+            let stretch = joints.iter().map(|&joint| gap(&world, joint)).sum::<f64>() / 20.0;
+            assert!(stretch < 1e-3, "{ratio}:1, {stretch}");
+        }
+    }
+}
+
+/// Linear momentum, angular momentum about the origin, kinetic energy.
+fn sums(world: &World, bodies: &[BodyId]) -> [f64; 4] {
+    bodies.iter().fold([0.0; 4], |[px, py, l, e], &id| {
+        let body = world.body(id).unwrap();
+        let (m, i) = (f64::from(body.mass()), f64::from(body.inertia()));
+        let (x, v, w) = (body.position(), body.velocity(), f64::from(body.angular_velocity()));
+        let (x, y) = (f64::from(x.x), f64::from(x.y));
+        let (vx, vy) = (f64::from(v.x), f64::from(v.y));
+        let energy = 0.5 * (m * (vx * vx + vy * vy) + i * w * w);
+        [px + m * vx, py + m * vy, l + m * (x * vy - y * vx) + i * w, e + energy]
+    })
+}
+
+#[test]
+fn momentum_and_energy_are_kept_in_flight() {
+    let mut world = World::new(Vec2::ZERO);
+    let (bars, _) = add_chain(&mut world, 0.0, 12);
+    for (i, &bar) in bars.iter().enumerate() {
+        let mut bar = world.body_mut(bar).unwrap();
+        bar.set_velocity(Vec2::new(1.0, 2.0 + 6.0 * i as f32));
+        bar.set_angular_velocity(6.0);
+    }
+    world.step(DT);
+    let before = sums(&world, &bars);
+    (0..300).for_each(|_| world.step(DT));
+    assert_eq!(in_trees(&world), 11);
+    for (before, after) in before.into_iter().zip(sums(&world, &bars)) {
+        assert!((after / before - 1.0).abs() < 3e-4, "{after} instead of {before}");
+    }
+}
+
+#[test]
+fn limits_hold_in_trees() {
+    let mut world = world();
+    let (bars, joints) = add_hung_chain(&mut world, 0.0, 12);
+    let limit = 0.1;
+    for &joint in &joints {
+        let def = *world.joint(joint).unwrap().def();
+        world.set_joint(joint, def.limits(-limit, limit)).unwrap();
+    }
+    for _ in 0..300 {
+        world.step(DT);
+        for pair in bars.windows(2) {
+            let angle = |id| world.body(id).unwrap().rotation();
+            let bend = angle(pair[1]).angle_from(angle(pair[0])).abs();
+            assert!(bend < limit + 0.01, "{bend}");
+        }
+    }
+    assert_eq!(in_trees(&world), 12);
+    // A stiff arch at its limits: each joint bends as far as it may.
+    let tip = world.body(bars[11]).unwrap().rotation().angle();
+    assert!((tip + 1.2).abs() < 0.15 || tip < -1.2, "{tip}");
+}
+
+#[test]
+fn all_rigid_kinds_hold_a_heavy_load_together() {
+    let mut world = world();
+    let hook = world.add_body(RigidBody::fixed()).unwrap();
+    let arm = add_bar(&mut world, 0.5, 0.0, 0.0);
+    let slide = add_bar(&mut world, 1.5, 0.0, 0.0);
+    let bob = add_bar(&mut world, 2.0, -2.0, 0.0);
+    let load = RigidBody::dynamic().position(Vec2::new(2.0, -3.0)).mass(100.0).shape(circle(0.2));
+    let load = world.add_body(load).unwrap();
+    let weld = JointDef::weld().anchors(Vec2::ZERO, Vec2::new(-0.5, 0.0));
+    let weld = world.add_joint(hook, arm, weld).unwrap();
+    let slider = JointDef::prismatic(Vec2::new(1.0, 0.0)).limits(0.0, 0.1);
+    let slider = slider.anchors(Vec2::new(0.5, 0.0), Vec2::new(-0.5, 0.0));
+    let slider = world.add_joint(arm, slide, slider).unwrap();
+    let rod = JointDef::distance(2.0).anchors(Vec2::new(0.5, 0.0), Vec2::ZERO);
+    let rod = world.add_joint(slide, bob, rod).unwrap();
+    let wheel = JointDef::wheel(Vec2::new(0.0, 1.0)).anchors(Vec2::new(0.0, -1.0), Vec2::ZERO);
+    world.add_joint(bob, load, wheel.spring(3.0, 1.0)).unwrap();
+    (0..900).for_each(|_| world.step(DT));
+    assert_eq!(in_trees(&world), 4);
+    let at = |body| world.body(body).unwrap().position();
+    let [end, bob_at] = [at(slide), at(bob)];
+    let length = (end + Vec2::new(0.5, 0.0) - bob_at).length();
+    assert!((length - 2.0).abs() < 2e-3, "{length}");
+    assert!(gap(&world, weld) < 2e-3 && end.y.abs() < 5e-3, "{end:?}");
+    // Bob and load hang on the rod, all of it on the wall.
+    let force = |joint| world.joint(joint).unwrap().force();
+    assert!((force(rod).length() / 1010.0 - 1.0).abs() < 0.02, "{:?}", force(rod));
+    assert!((force(weld).y / 1030.0 - 1.0).abs() < 0.02, "{:?}", force(weld));
+    assert!((force(slider).y / 1020.0 - 1.0).abs() < 0.02, "{:?}", force(slider));
+}
+
+#[test]
+fn loops_are_cut_or_left_to_the_lanes() {
+    let mut world = world();
+    let ring: Vec<BodyId> = (0..24)
+        .map(|i| {
+            let angle = core::f32::consts::TAU * i as f32 / 24.0;
+            let at = crate::math::Rot::from_angle(angle).x_axis() * 3.82;
+            add_bar(&mut world, at.x, at.y, angle + core::f32::consts::FRAC_PI_2)
+        })
+        .collect();
+    for i in 0..24 {
+        world.add_joint(ring[i], ring[(i + 1) % 24], hinge()).unwrap();
+    }
+    world.step(DT);
+    assert_eq!(in_trees(&world), 23);
+    (0..60).for_each(|_| world.step(DT));
+    world.validate().unwrap();
+
+    let mut world = self::world();
+    let net: Vec<BodyId> =
+        (0..100).map(|i| add_bar(&mut world, (i % 10) as f32, (i / 10) as f32, 0.0)).collect();
+    for i in 0..100 {
+        if i % 10 < 9 {
+            world.add_joint(net[i], net[i + 1], hinge()).unwrap();
+        }
+        if i < 90 {
+            let def = JointDef::revolute().anchors(Vec2::new(0.0, 1.0), Vec2::ZERO);
+            world.add_joint(net[i], net[i + 10], def).unwrap();
+        }
+    }
+    world.step(DT);
+    assert_eq!(in_trees(&world), 0);
+    world.validate().unwrap();
+}
+
+#[test]
+fn short_chains_stay_in_lanes_until_they_bear_something_heavy() {
+    let mut world = world();
+    let (bars, _) = add_hung_chain(&mut world, 0.0, 4);
+    world.step(DT);
+    assert_eq!(in_trees(&world), 0);
+    world.body_mut(bars[3]).unwrap().set_mass(Some(50.0)).unwrap();
+    world.step(DT);
+    assert_eq!(in_trees(&world), 4);
+    world.body_mut(bars[3]).unwrap().set_mass(Some(1.0)).unwrap();
+    world.step(DT);
+    assert_eq!(in_trees(&world), 0);
+    world.validate().unwrap();
+}
+
+#[test]
+fn joints_come_and_go_while_trees_run() {
+    let mut world = world();
+    let (bars, joints) = add_hung_chain(&mut world, 0.0, 30);
+    (0..30).for_each(|_| world.step(DT));
+    assert_eq!(in_trees(&world), 30);
+    // Cut: 15 joints stay hung, 14 fly.
+    world.remove_joint(joints[15]).unwrap();
+    (0..10).for_each(|_| world.step(DT));
+    world.validate().unwrap();
+    assert_eq!(in_trees(&world), 29);
+    assert!(joints.iter().filter(|&&j| j != joints[15]).all(|&j| gap(&world, j) < 1e-3));
+    // Torn: what hangs on the fourth joint weighs more than it bears.
+    let def = *world.joint(joints[3]).unwrap().def();
+    world.set_joint(joints[3], def.break_at(20.0, f32::INFINITY)).unwrap();
+    world.step(DT);
+    assert!(world.joint(joints[3]).is_none());
+    (0..10).for_each(|_| world.step(DT));
+    // Three joints are too few for a tree.
+    assert_eq!(in_trees(&world), 14 + 11);
+    // A kind that no tree holds, a body that goes, one that stops.
+    let def = *world.joint(joints[20]).unwrap().def();
+    world.set_joint(joints[20], def.softness(2.0, 0.5)).unwrap();
+    world.remove_body(bars[10]).unwrap();
+    world.body_mut(bars[25]).unwrap().set_kind(BodyKind::Static);
+    (0..10).for_each(|_| world.step(DT));
+    world.validate().unwrap();
+    for &bar in bars.iter().filter(|&&bar| bar != bars[10]) {
+        assert!(world.body(bar).unwrap().position().is_finite());
+    }
+}
+
+#[test]
+fn ropes_fall_asleep_and_wake() {
+    let mut world = world();
+    add_ground(&mut world);
+    let (bars, _) = add_chain(&mut world, 0.3, 12);
+    for _ in 0..600 {
+        world.step(DT);
+        if world.awake_body_count() == 0 {
+            break;
+        }
+    }
+    assert_eq!((world.awake_body_count(), in_trees(&world)), (0, 0));
+    world.validate().unwrap();
+    world.body_mut(bars[4]).unwrap().set_velocity(Vec2::new(0.0, 2.0));
+    world.step(DT);
+    assert_eq!((world.awake_body_count(), in_trees(&world)), (12, 11));
+    world.validate().unwrap();
+}
+
+/// Chains of several lengths on a heap, with a cut to come.
+fn heap() -> World {
+    let mut world = world();
+    add_ground(&mut world);
+    for i in 0..10 {
+        add(&mut world, i as f32, 0.5, rect(0.4, 0.4));
+    }
+    for i in 0..12 {
+        add_chain(&mut world, 2.0 + 0.5 * i as f32, 6 + i);
+    }
+    world
+}
+
+#[test]
+fn threads_make_no_difference() {
+    let run = |threads: usize| {
+        let mut world = heap();
+        world.set_threads(threads);
+        (0..90).for_each(|_| world.step(DT));
+        world.state_hash()
+    };
+    let one = run(1);
+    assert_eq!(one, run(2));
+    assert_eq!(one, run(4));
+}
+
+#[test]
+fn frames_go_on_as_the_world_does() {
+    let mut world = heap();
+    (0..40).for_each(|_| world.step(DT));
+    let cut = world.joint_id(40);
+    world.remove_joint(cut).unwrap();
+    let mut loaded = World::from_bytes(&world.to_bytes()).unwrap();
+    let mut cloned = world.clone();
+    for world in [&mut world, &mut loaded, &mut cloned] {
+        (0..60).for_each(|_| world.step(DT));
+    }
+    assert_eq!(world.state_hash(), loaded.state_hash());
+    assert_eq!(world.state_hash(), cloned.state_hash());
+}
+
+#[test]
+fn a_plank_pinned_at_points_too_far_apart_stays_calm() {
+    let mut world = world();
+    let wall = world.add_body(RigidBody::fixed()).unwrap();
+    let plank = add_bar(&mut world, 0.0, 0.0, 0.0);
+    for side in [-1.0, 1.0] {
+        let anchors = (Vec2::new(0.502 * side, 0.0), Vec2::new(0.5 * side, 0.0));
+        world.add_joint(wall, plank, JointDef::revolute().anchors(anchors.0, anchors.1)).unwrap();
+    }
+    let load = RigidBody::dynamic().position(Vec2::new(0.0, -1.0)).mass(20.0).shape(circle(0.2));
+    let load = world.add_body(load).unwrap();
+    let def = JointDef::revolute().anchors(Vec2::ZERO, Vec2::new(0.0, 1.0));
+    world.add_joint(plank, load, def).unwrap();
+    (0..300).for_each(|_| world.step(DT));
+    assert_eq!(in_trees(&world), 3);
+    let body = world.body(plank).unwrap();
+    assert!(body.position().length() < 1e-3 && body.velocity().length() < 1e-3);
+}
