@@ -174,9 +174,10 @@ pub(crate) struct JointForest {
     dirty: Vec<u32>,
     /// Nothing is known yet.
     all_dirty: bool,
+    walk: Walk,
 }
 
-clone_by_field!(JointForest { trees, free, tree_of, dirty, all_dirty });
+clone_by_field!(JointForest { trees, free, tree_of, dirty, all_dirty, walk });
 
 /// It follows from the records.
 impl PartialEq for JointForest {
@@ -253,16 +254,16 @@ impl JointForest {
         dirty.sort_unstable();
         dirty.dedup();
         self.tree_of.resize(joints.records.len(), NULL);
-        let mut seen = vec![false; bodies.infos.len()];
+        let mut walk = core::mem::take(&mut self.walk);
+        walk.places.resize(bodies.infos.len(), NULL);
         let mut moves = Moves::default();
-        let mut found = Vec::new();
         for &body in &dirty {
-            collect(bodies, joints, body, &mut seen, &mut found);
-            found.iter().for_each(|&joint| self.dissolve(joint));
-            let tree = plant(bodies, joints, &found).unwrap_or_default();
+            let found = walk.collect(bodies, joints, body);
+            found.joints.iter().for_each(|&joint| self.dissolve(joint));
+            let tree = plant(bodies, joints, &found, &walk.places).unwrap_or_default();
             let in_trees = tree.pace * JOINT_PLACES + JOINT_TREES;
             self.insert(tree);
-            for &joint in &found {
+            for &joint in &found.joints {
                 let JointPlace::Graph { colour, .. } = joints.records[joint as usize].place else {
                     continue;
                 };
@@ -276,6 +277,8 @@ impl JointForest {
                 }
             }
         }
+        walk.forget();
+        self.walk = walk;
         dirty.clear();
         self.dirty = dirty;
         moves.into_trees.sort_unstable();
@@ -300,73 +303,121 @@ impl JointForest {
     }
 }
 
-/// The joints of rigid kinds in the graph that hang together with a body, ascending; none where that has been
-/// done before.
-fn collect(bodies: &Bodies, joints: &Joints, body: u32, seen: &mut [bool], found: &mut Vec<u32>) {
-    found.clear();
-    let mut waiting = vec![body];
-    while let Some(body) = waiting.pop() {
-        if !bodies.is_dynamic(body) || core::mem::replace(&mut seen[body as usize], true) {
-            continue;
-        }
-        for (joint, side) in joints.of_body(bodies.infos[body as usize].first_joint) {
-            let record = &joints.records[joint as usize];
-            if record.place != JointPlace::Asleep && is_rigid(&record.def) {
-                found.push(joint);
-                waiting.push(if side == 0 { record.body_b } else { record.body_a });
-            }
-        }
-    }
-    found.sort_unstable();
-    found.dedup();
+/// A walk over components; kept only for its memory.
+#[derive(Debug, Default)]
+struct Walk {
+    /// Place of each body that has been met among those of its component, else NULL.
+    places: Vec<u32>,
+    met: Vec<u32>,
 }
 
-/// The tree of a component, or none where it has too few joints or too many loops. `component` is ascending.
-fn plant(bodies: &Bodies, joints: &Joints, component: &[u32]) -> Option<JointTree> {
-    if component.len() < LEAST_LINKS {
+impl Clone for Walk {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+
+    fn clone_from(&mut self, _: &Self) {}
+}
+
+/// What hangs together through joints of rigid kinds: they are ascending.
+#[derive(Default)]
+struct Component {
+    bodies: Vec<u32>,
+    joints: Vec<u32>,
+}
+
+impl Walk {
+    /// The component of a body; empty where that has been done before.
+    fn collect(&mut self, bodies: &Bodies, joints: &Joints, body: u32) -> Component {
+        let mut found = Component::default();
+        let mut waiting = vec![body];
+        while let Some(body) = waiting.pop() {
+            if !bodies.is_dynamic(body) || self.places[body as usize] != NULL {
+                continue;
+            }
+            self.places[body as usize] = found.bodies.len() as u32;
+            self.met.push(body);
+            found.bodies.push(body);
+            for (joint, side) in joints.of_body(bodies.infos[body as usize].first_joint) {
+                let record = &joints.records[joint as usize];
+                if record.place != JointPlace::Asleep && is_rigid(&record.def) {
+                    found.joints.push(joint);
+                    waiting.push(if side == 0 { record.body_b } else { record.body_a });
+                }
+            }
+        }
+        found.joints.sort_unstable();
+        found.joints.dedup();
+        found
+    }
+
+    fn forget(&mut self) {
+        for body in self.met.drain(..) {
+            self.places[body as usize] = NULL;
+        }
+    }
+}
+
+/// Do light bodies bear heavy ones?
+fn is_uneven(bodies: &Bodies, component: &Component) -> bool {
+    let (mut least, mut greatest) = (f32::INFINITY, 0.0);
+    for &body in &component.bodies {
+        let mass = bodies.infos[body as usize].mass;
+        least = if mass < least { mass } else { least };
+        greatest = if mass > greatest { mass } else { greatest };
+    }
+    greatest >= LEAST_MASS_RATIO * least
+}
+
+/// The tree of a component, or none where it has too few joints or too many loops, or no need of one.
+fn plant(
+    bodies: &Bodies,
+    joints: &Joints,
+    component: &Component,
+    places: &[u32],
+) -> Option<JointTree> {
+    let count = component.joints.len();
+    let uneven = is_uneven(bodies, component);
+    if count < LEAST_LINKS || !uneven && count < LEAST_DEPTH {
         return None;
     }
-    let mut set = Sets::default();
-    let (mut spanning, mut anchors) = (Vec::new(), Vec::new());
-    for &joint in component {
+    let inner = |&&joint: &&u32| {
         let record = &joints.records[joint as usize];
-        if bodies.is_dynamic(record.body_a) && bodies.is_dynamic(record.body_b) {
-            if set.join(record.body_a, record.body_b) {
-                spanning.push(joint);
+        bodies.is_dynamic(record.body_a) && bodies.is_dynamic(record.body_b)
+    };
+    let cuts = component.joints.iter().filter(inner).count() + 1 - component.bodies.len();
+    if cuts * LINKS_PER_CUT > count || count - cuts < LEAST_LINKS {
+        return None;
+    }
+    let mut sets = Sets { parents: (0..component.bodies.len() as u32).collect() };
+    let (mut spanning, mut anchors) = (Vec::new(), Vec::new());
+    for joint in &component.joints {
+        if inner(&joint) {
+            let record = &joints.records[*joint as usize];
+            if sets.join(places[record.body_a as usize], places[record.body_b as usize]) {
+                spanning.push(*joint);
             }
         } else {
-            anchors.push(joint);
+            anchors.push(*joint);
         }
     }
-    let kept = spanning.len() + anchors.len();
-    let few_cuts = (component.len() - kept) * LINKS_PER_CUT <= component.len();
-    if !few_cuts || kept < LEAST_LINKS {
-        return None;
-    }
-    let mut planter = Planter { bodies, joints, tree: JointTree::default(), depth: Vec::new() };
+    let nodes = vec![NULL; component.bodies.len()];
+    let tree = JointTree::default();
+    let mut planter = Planter { bodies, joints, places, nodes, tree, depth: Vec::new() };
     planter.plant(&spanning, &anchors);
-    (planter.is_deep() || planter.is_uneven()).then_some(planter.tree)
+    (uneven || planter.is_deep()).then_some(planter.tree)
 }
 
-/// Sets of bodies that joints connect.
-#[derive(Default)]
+/// Sets of bodies that joints connect: of each the place of another in its set, or its own.
 struct Sets {
-    /// Bodies and the places of their parents, by place.
-    members: Vec<(u32, usize)>,
-    /// Places by body.
-    places: std::collections::BTreeMap<u32, usize>,
+    parents: Vec<u32>,
 }
 
 impl Sets {
-    fn root(&mut self, body: u32) -> usize {
-        let Self { members, places } = self;
-        let mut place = *places.entry(body).or_insert_with(|| {
-            members.push((body, members.len()));
-            members.len() - 1
-        });
-        while members[place].1 != place {
-            let parent = members[place].1;
-            members[place].1 = members[parent].1;
+    fn root(&mut self, mut place: u32) -> u32 {
+        while self.parents[place as usize] != place {
+            let parent = self.parents[place as usize];
+            self.parents[place as usize] = self.parents[parent as usize];
             place = parent;
         }
         place
@@ -375,7 +426,7 @@ impl Sets {
     /// Joins the sets of two bodies; false where they are one already.
     fn join(&mut self, a: u32, b: u32) -> bool {
         let (a, b) = (self.root(a), self.root(b));
-        self.members[a].1 = b;
+        self.parents[a as usize] = b;
         a != b
     }
 }
@@ -384,6 +435,9 @@ impl Sets {
 struct Planter<'a> {
     bodies: &'a Bodies,
     joints: &'a Joints,
+    places: &'a [u32],
+    /// Node of each body of the component, by its place, or NULL.
+    nodes: Vec<u32>,
     tree: JointTree,
     /// Joints between the root and each node.
     depth: Vec<usize>,
@@ -404,10 +458,9 @@ impl Planter<'_> {
             Some(if a { record.body_a } else { record.body_b })
         });
         let Some(root) = root else { return };
-        let mut nodes = std::collections::BTreeMap::new();
-        nodes.insert(root, 0);
         self.tree.pace = usize::from(self.bodies.infos[root as usize].pace);
-        self.add_node(root);
+        let node = self.add_node(root);
+        self.nodes[self.places[root as usize] as usize] = node;
         self.depth.push(0);
         if let Some(&joint) = anchors.first() {
             self.add_anchor(joint, 0, true);
@@ -419,9 +472,9 @@ impl Planter<'_> {
                 let record = &self.joints.records[joint as usize];
                 let is_a = record.body_a == body;
                 let other = if is_a { record.body_b } else { record.body_a };
-                if !nodes.contains_key(&other) {
+                if self.node_of(other) == NULL {
                     let child = self.add_node(other);
-                    nodes.insert(other, child);
+                    self.nodes[self.places[other as usize] as usize] = child;
                     self.depth.push(self.depth[at] + 1);
                     let (a, b) = if is_a { (at as u32, child) } else { (child, at as u32) };
                     self.add_link(joint, [a, b], child, at as u32);
@@ -437,7 +490,7 @@ impl Planter<'_> {
             let record = &self.joints.records[joint as usize];
             let a = self.bodies.is_dynamic(record.body_a);
             let body = if a { record.body_a } else { record.body_b };
-            self.add_anchor(joint, nodes[&body], false);
+            self.add_anchor(joint, self.node_of(body), false);
         }
     }
 
@@ -445,15 +498,9 @@ impl Planter<'_> {
         self.depth.last().is_some_and(|&depth| depth >= LEAST_DEPTH)
     }
 
-    /// Do light bodies bear heavy ones?
-    fn is_uneven(&self) -> bool {
-        let (mut least, mut greatest) = (f32::INFINITY, 0.0);
-        for node in &self.tree.nodes[..self.tree.dynamic] {
-            let mass = self.bodies.infos[node.body as usize].mass;
-            least = if mass < least { mass } else { least };
-            greatest = if mass > greatest { mass } else { greatest };
-        }
-        greatest >= LEAST_MASS_RATIO * least
+    /// The node of a dynamic body of the component, or NULL.
+    fn node_of(&self, body: u32) -> u32 {
+        self.nodes[self.places[body as usize] as usize]
     }
 
     fn add_node(&mut self, body: u32) -> u32 {
