@@ -494,9 +494,11 @@ impl World {
             colour.for_each_run(team, |blocks| joint_solver::run(level, pass, inv_h, rows, blocks));
         }
         let (lanes, trees) = self.joint_graph.trees_of_pace(pace);
-        match pass {
-            joint_solver::Pass::Finish => joint_solver::trees::finish(pace, trees, lanes),
-            _ => joint_solver::trees::run(team, pace, pass, inv_h, rows, trees),
+        joint_solver::trees::run(team, pace, pass, inv_h, rows, trees);
+        // Loads are read from the lanes: after the step, and in each substep where joints can break.
+        let breakable = !self.joints.breakable.is_empty();
+        if pass == joint_solver::Pass::Finish || breakable && pass == joint_solver::Pass::Relax {
+            joint_solver::trees::finish(pace, trees, lanes);
         }
     }
 

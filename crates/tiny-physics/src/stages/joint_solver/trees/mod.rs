@@ -48,12 +48,12 @@ pub(crate) fn prepare(
     });
 }
 
-/// Gives the impulses back to the lanes after the last substep.
+/// Gives the impulses to the lanes, where loads are read and frames keep them.
 pub(crate) fn finish(pace: usize, trees: &mut [JointTree], lanes: &mut JointColour) {
     of_pace(trees, pace).for_each(|tree| rows::finish(tree, lanes));
 }
 
-/// Runs a pass over the trees of a pace. `inv_h` is 1 / substep length.
+/// Runs a pass over the trees of a pace; the last of a step has nothing to do here. `inv_h` is 1 / substep length.
 pub(crate) fn run(
     team: &Team,
     pace: usize,
@@ -62,6 +62,9 @@ pub(crate) fn run(
     bodies: SharedRows<'_>,
     trees: &mut [JointTree],
 ) {
+    if pass == Pass::Finish {
+        return;
+    }
     team.for_each_chunk_mut(trees, CHUNK, |_, trees| {
         of_pace(trees, pace).for_each(|tree| run_tree(pass, inv_h, bodies, tree));
     });
