@@ -18,6 +18,9 @@
 //! complement: the coordinate's effective mass is that of the bodies as the rigid part ties them, so
 //! that a single joint is solved exactly in one iteration and a spring swings at its frequency.
 //!
+//! Joints of long or uneven trees are not solved so but all at once, see [`trees`]; their lanes keep what
+//! lasts from step to step.
+//!
 //! Unlike those of contacts, the anchors and axes of joints turn with the bodies in every substep:
 //! pendulums keep their period.
 
