@@ -211,10 +211,10 @@ fn gather<const N: usize>(nodes: &mut [TreeNode], link: &mut TreeLink) {
     if link.parent != NULL {
         let push = times(&link.inverse, link.rhs);
         let g = &mut nodes[link.parent as usize].g;
-        for i in 0..N {
+        for (i, push) in push.iter().enumerate().take(N) {
             let jacobian = row(link, i, link.parent == link.b);
             for k in 0..3 {
-                g[k] += jacobian[k] * push[i];
+                g[k] += jacobian[k] * push;
             }
         }
     }

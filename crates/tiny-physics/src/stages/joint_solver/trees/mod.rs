@@ -174,9 +174,9 @@ fn drive_axis<const BIAS: bool>(
     let change = f64::from(axis.drive::<f32, BIAS>(stride, &mut coordinate));
     let ends = [link.a, link.b];
     rows::push(nodes, ends, own, change);
-    for i in 0..link.rigid {
-        link.impulses[i] -= per[i] * change;
-        rows::push(nodes, ends, &link.rows[i], -per[i] * change);
+    for (i, per) in per.iter().enumerate().take(link.rigid) {
+        link.impulses[i] -= per * change;
+        rows::push(nodes, ends, &link.rows[i], -per * change);
     }
 }
 
@@ -295,12 +295,12 @@ fn demand<const BIAS: bool>(tree: &mut JointTree, h: f64) {
     for link in links {
         let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
         let curve = if BIAS { curve(link, a, b, h) } else { [0.0; 3] };
-        for i in 0..link.rigid {
+        for (i, curve) in curve.iter().enumerate().take(link.rigid) {
             let row = &link.rows[i];
             link.rhs[i] = -rows::velocity(row, a, b);
             if BIAS {
                 let give = row.compliance * link.impulses[i];
-                link.rhs[i] -= curve[i] + PUSH / h * row.error + give;
+                link.rhs[i] -= curve + PUSH / h * row.error + give;
             }
         }
         if let Some(axis) = axes.get_mut(link.axis as usize)

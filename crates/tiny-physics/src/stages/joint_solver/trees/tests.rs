@@ -127,8 +127,9 @@ fn eliminate(mut matrix: Vec<Vec<f64>>) -> Vec<f64> {
         matrix.swap(column, best);
         for row in column + 1..size {
             let factor = matrix[row][column] / matrix[column][column];
-            for k in column..=size {
-                matrix[row][k] -= factor * matrix[column][k];
+            let taken = matrix[column].clone();
+            for (value, taken) in matrix[row].iter_mut().zip(taken).skip(column) {
+                *value -= factor * taken;
             }
         }
     }
