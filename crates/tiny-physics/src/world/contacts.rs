@@ -267,6 +267,7 @@ impl World {
             let body = self.body_id(body);
             self.events.pending_asleep.push(body);
         }
+        self.waiting.stale = true;
         sleep::put_to_sleep(
             islands,
             &mut self.bodies,
