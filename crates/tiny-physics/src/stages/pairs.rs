@@ -4,7 +4,7 @@
 //! a contact. Where everything moves fast, most pairs never do: in spinner, 15,300 pairs a step came to
 //! overlap with their fat boxes while 1,200 contacts began.
 
-use crate::broad_phase::{BroadPhase, sort_pairs};
+use crate::broad_phase::{BroadPhase, ProxyId, sort_pairs};
 use crate::describe::Settings;
 use crate::dynamics::{
     Bodies, Contact, Contacts, Graph, Joints, NULL, Place, SavedPoint, Shapes, Waiting,
@@ -25,11 +25,20 @@ pub(crate) struct Search {
     pub(crate) parted: Vec<u32>,
     /// Pairs that need a contact now, sorted.
     pub(crate) pairs: Vec<(u32, u32)>,
-    /// By shape: has it left its fat box?
-    moved: Vec<bool>,
+    /// By shape: has it left its fat box, see [`motion`]?
+    moved: Vec<u8>,
     /// Did one of those that sleeps?
     sleeper_moved: bool,
     found: Vec<Found>,
+}
+
+/// What a shape has done since pairs were last looked for, as bits.
+mod motion {
+    pub(super) const NONE: u8 = 0;
+    /// It left its fat box: some of its pairs may have parted, others are new.
+    pub(super) const MOVED: u8 = 1;
+    /// All its pairs are found anew.
+    pub(super) const ANEW: u8 = 3;
 }
 
 /// Pairs that a member of the team looked at.
@@ -68,10 +77,11 @@ impl Search {
 
     fn note_moved(&mut self, broad_phase: &BroadPhase, partners: &Partners<'_>) {
         let Partners { shapes, bodies, .. } = partners;
-        self.moved.resize(shapes.records.len(), false);
+        self.moved.resize(shapes.records.len(), motion::NONE);
         self.sleeper_moved = false;
-        for shape in moved_shapes(broad_phase) {
-            self.moved[shape as usize] = true;
+        for (shape, proxy) in moved_shapes(broad_phase) {
+            let anew = broad_phase.asks_anew(proxy);
+            self.moved[shape as usize] = if anew { motion::ANEW } else { motion::MOVED };
             let body = shapes.records[shape as usize].body;
             self.sleeper_moved |= !bodies.infos[body as usize].awake;
         }
@@ -79,7 +89,7 @@ impl Search {
 
     fn forget_moved(&mut self, broad_phase: &mut BroadPhase, shapes: &Shapes) {
         debug_assert_eq!(self.moved.len(), shapes.records.len());
-        moved_shapes(broad_phase).for_each(|shape| self.moved[shape as usize] = false);
+        moved_shapes(broad_phase).for_each(|(shape, _)| self.moved[shape as usize] = motion::NONE);
         broad_phase.clear_moved();
     }
 
@@ -96,10 +106,10 @@ impl Search {
         let chunks = team.map_chunks(old.len(), WAITING_CHUNK, &mut self.found, |range, found| {
             found.clear();
             for &(a, b) in &old[range] {
-                // Partners of moved shapes are found anew.
-                if !(moved[a as usize] | moved[b as usize])
-                    && partners.sort(a, b, careful, &mut found.waiting)
-                {
+                let motion = moved[a as usize] | moved[b as usize];
+                let over = motion != motion::NONE
+                    && (motion == motion::ANEW || !partners.shapes.may_touch(a, b));
+                if !over && partners.sort(a, b, careful, &mut found.waiting) {
                     found.near.push((a, b));
                 }
             }
@@ -128,7 +138,7 @@ impl Search {
         let Partners { shapes, bodies, contacts, .. } = partners;
         self.parted.clear();
         let much = broad_phase.moved().len() * 64 > graph.len();
-        for shape in moved_shapes(broad_phase) {
+        for (shape, _) in moved_shapes(broad_phase) {
             let body = &bodies.infos[shapes.records[shape as usize].body as usize];
             if much && body.awake {
                 continue;
@@ -145,7 +155,9 @@ impl Search {
             for bucket in graph.buckets.iter().flatten() {
                 for (contacts, block) in bucket.contacts.chunks(BLOCK).zip(&bucket.manifolds) {
                     for (lane, &index) in contacts.iter().enumerate() {
-                        if !shapes.may_touch(block.shape_a[lane], block.shape_b[lane]) {
+                        let (a, b) = (block.shape_a[lane], block.shape_b[lane]);
+                        let motion = self.moved[a as usize] | self.moved[b as usize];
+                        if motion != motion::NONE && !shapes.may_touch(a, b) {
                             self.parted.push(index);
                         }
                     }
@@ -157,9 +169,9 @@ impl Search {
     }
 }
 
-/// Shapes that left their fat boxes.
-fn moved_shapes(broad_phase: &BroadPhase) -> impl Iterator<Item = u32> + '_ {
-    broad_phase.moved().iter().filter_map(|&proxy| broad_phase.user(proxy))
+/// Shapes that left their fat boxes, and their leaves.
+fn moved_shapes(broad_phase: &BroadPhase) -> impl Iterator<Item = (u32, ProxyId)> + '_ {
+    broad_phase.moved().iter().filter_map(|&proxy| Some((broad_phase.user(proxy)?, proxy)))
 }
 
 impl Found {
