@@ -61,23 +61,26 @@ pub struct ProxyDef {
     pub margin: f32,
 }
 
-/// What a query looks at for each hit; 32 bytes.
+/// What a query looks at for each hit: a cache line.
 #[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
 struct Proxy {
     category: u64,
     mask: u64,
     user: u32,
     margin: f32,
+    /// The fat box with which partners were last asked for; [`Aabb::EMPTY`] to ask for all anew.
+    asked: Aabb,
     /// `None` for a free entry.
     kind: Option<ProxyKind>,
     /// Is it in the buffer?
     moved: bool,
 }
 
-const _: () = assert!(size_of::<Proxy>() == 32);
+const _: () = assert!(size_of::<Proxy>() == 64);
 
 data_enum!(ProxyKind { 0 => Static, 1 => Kinematic, 2 => Dynamic });
-data!(Proxy { category, mask, user, margin, kind, moved });
+data!(Proxy { category, mask, user, margin, asked, kind, moved });
 
 impl Data for BroadPhase {
     fn save(&self, sink: &mut impl Sink) {
@@ -103,6 +106,7 @@ impl Data for BroadPhase {
 #[derive(Clone, Copy)]
 struct Member {
     aabb: Aabb,
+    asked: Aabb,
     category: u64,
     mask: u64,
     id: u32,
@@ -110,7 +114,8 @@ struct Member {
 }
 
 impl Member {
-    const NONE: Self = Self { aabb: Aabb::EMPTY, category: 0, mask: 0, id: 0, user: 0 };
+    const NONE: Self =
+        Self { aabb: Aabb::EMPTY, asked: Aabb::EMPTY, category: 0, mask: 0, id: 0, user: 0 };
 }
 
 /// The moved proxies of one node: they are near each other and go down the trees together.
@@ -175,7 +180,7 @@ const COMPACT: f32 = 5.0;
 /// A proxy's *fat box* is its tight box and a margin. While the tight box stays inside, nothing
 /// happens; when it leaves, the fat box is made anew and the proxy goes into the buffer of moved
 /// ones. [`BroadPhase::update_pairs`] asks for the partners of the moved ones alone, so what rests
-/// costs nothing.
+/// costs nothing; and a pair whose boxes overlapped when they were last asked for is not given again.
 ///
 /// Pairs are of the callers' `user` numbers, smaller first, sorted, each once: the same whatever
 /// the shape of the trees and however many threads asked.
@@ -233,7 +238,9 @@ impl BroadPhase {
     /// Adds a proxy around the tight box; it is buffered.
     pub fn create_proxy(&mut self, def: ProxyDef, tight: Aabb) -> ProxyId {
         let ProxyDef { kind, category, mask, user, margin } = def;
-        let mut proxy = Proxy { category, mask, user, margin, kind: Some(kind), moved: false };
+        let asked = Aabb::EMPTY;
+        let mut proxy =
+            Proxy { category, mask, user, margin, asked, kind: Some(kind), moved: false };
         let index = self.free.pop().unwrap_or(self.proxies.len() as u32);
         match self.proxies.get_mut(index as usize) {
             Some(entry) => {
@@ -295,7 +302,7 @@ impl BroadPhase {
     pub fn set_fat_aabb(&mut self, id: ProxyId, fat: Aabb) -> bool {
         let Some(kind) = self.kind(id) else { return false };
         self.trees[kind as usize].update(id.0, fat);
-        self.buffer(id);
+        self.note_moved(id);
         true
     }
 
@@ -317,12 +324,26 @@ impl BroadPhase {
         true
     }
 
-    /// Makes the next update look for all partners of a proxy, though it has not moved.
+    /// Makes the next update look for all partners of a proxy, those that it had included.
     pub fn buffer(&mut self, id: ProxyId) {
-        if self.kind(id).is_some() && !self.proxies[id.0 as usize].moved {
-            self.proxies[id.0 as usize].moved = true;
+        if self.kind(id).is_some() {
+            self.proxies[id.0 as usize].asked = Aabb::EMPTY;
+            self.note_moved(id);
+        }
+    }
+
+    /// Puts a proxy into the buffer.
+    #[inline]
+    fn note_moved(&mut self, id: ProxyId) {
+        if !core::mem::replace(&mut self.proxies[id.0 as usize].moved, true) {
             self.moved.push(id);
         }
+    }
+
+    /// Does the next update give all partners of a proxy, not only those that came since the last one?
+    #[inline]
+    pub fn asks_anew(&self, id: ProxyId) -> bool {
+        self.proxies.get(id.0 as usize).is_some_and(|proxy| proxy.asked == Aabb::EMPTY)
     }
 
     /// The buffered proxies; some may be gone since.
@@ -357,7 +378,7 @@ impl BroadPhase {
         self.groups.len()
     }
 
-    /// Adds the pairs of a range of groups to `out`, unsorted. A pair of two moved proxies is found
+    /// Adds the new pairs of a range of groups to `out`, unsorted. A pair of two moved proxies is found
     /// by one of the two alone, so disjoint ranges give disjoint pairs. `accept` can turn a pair
     /// down early (it gets the `user` numbers, smaller first): what it turns down need not be
     /// sorted.
@@ -456,13 +477,14 @@ impl BroadPhase {
         }
     }
 
-    /// Is it for the moved `member` to report its pair with `other`, if the filters agree to one?
+    /// Is it for the moved `member` to report its pair with `other`, if the filters agree to one and it is new?
     #[inline]
     fn is_mine(&self, member: &Member, other_id: u32) -> bool {
         let other = &self.proxies[other_id as usize];
         ((other_id > member.id) | ((other_id != member.id) & !other.moved))
             & (other.mask & member.category != 0)
             & (other.category & member.mask != 0)
+            & !member.asked.overlaps(&other.asked)
     }
 
     #[inline]
@@ -473,8 +495,8 @@ impl BroadPhase {
         while lanes != 0 {
             let (id, aabb) = self.trees[kind as usize].leaf(node, lanes.trailing_zeros() as usize);
             lanes &= lanes - 1;
-            let Proxy { category, mask, user, .. } = self.proxies[id as usize];
-            group.members[group.count] = Member { aabb, category, mask, id, user };
+            let Proxy { category, mask, user, asked, .. } = self.proxies[id as usize];
+            group.members[group.count] = Member { aabb, asked, category, mask, id, user };
             group.count += 1;
             group.aabb = group.aabb.union(&aabb);
             group.mask |= mask;
@@ -484,13 +506,17 @@ impl BroadPhase {
 
     /// Forgets which proxies moved. Call it after all groups have been queried.
     pub fn clear_moved(&mut self) {
-        for id in self.moved.drain(..) {
-            self.proxies[id.0 as usize].moved = false;
+        let Self { proxies, moved, trees, .. } = self;
+        for id in moved.drain(..) {
+            let proxy = &mut proxies[id.0 as usize];
+            let tree = proxy.kind.map(|kind| &trees[kind as usize]);
+            proxy.asked = tree.and_then(|tree| tree.get(id.0)).unwrap_or(Aabb::EMPTY);
+            proxy.moved = false;
         }
         self.groups.clear();
     }
 
-    /// All pairs of the moved proxies into `out` (its old contents are dropped), sorted; then
+    /// All new pairs of the moved proxies into `out` (its old contents are dropped), sorted; then
     /// forgets which moved.
     pub fn update_pairs(&mut self, out: &mut Vec<(u32, u32)>) {
         out.clear();

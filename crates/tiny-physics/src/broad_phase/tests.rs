@@ -141,7 +141,7 @@ proptest! {
         chunk in 1usize..7,
     ) {
         let mut broad_phase = BroadPhase::new();
-        let mut model: [Option<(ProxyId, ProxyDef)>; 60] = [None; 60];
+        let mut model: Model = [None; 60];
         let mut out = Vec::new();
         for (command, kind, update) in commands {
             apply(&mut broad_phase, &mut model, command, kind);
@@ -156,6 +156,9 @@ proptest! {
                 copy.update_pairs(&mut out);
                 prop_assert_eq!(&out, &expected);
                 prop_assert!(broad_phase.moved().is_empty());
+                for (id, _, asked) in model.iter_mut().flatten() {
+                    *asked = broad_phase.fat_aabb(*id).expect("a proxy");
+                }
             }
         }
     }
@@ -213,34 +216,37 @@ fn a_tree_filled_in_any_order_stays_low() {
     assert!(tree.area_ratio() <= grown);
 }
 
-type Model = [Option<(ProxyId, ProxyDef)>; 60];
+/// Proxies with the boxes with which they last asked for partners.
+type Model = [Option<(ProxyId, ProxyDef, Aabb)>; 60];
 
 fn apply(broad_phase: &mut BroadPhase, model: &mut Model, command: Command, kind: u8) {
     let kind = [ProxyKind::Static, ProxyKind::Kinematic, ProxyKind::Dynamic][kind as usize];
     match command {
         Command::Insert(user, aabb, category) => {
-            if let Some((id, _)) = model[user as usize].take() {
+            if let Some((id, ..)) = model[user as usize].take() {
                 broad_phase.destroy_proxy(id);
             }
             let mask = if user % 5 == 0 { 2 } else { u64::MAX };
             let def = ProxyDef { kind, category, mask, user, margin: 0.1 };
-            model[user as usize] = Some((broad_phase.create_proxy(def, aabb), def));
+            let id = broad_phase.create_proxy(def, aabb);
+            model[user as usize] = Some((id, def, Aabb::EMPTY));
         }
         Command::Remove(user) => {
-            if let Some((id, _)) = model[user as usize].take() {
+            if let Some((id, ..)) = model[user as usize].take() {
                 assert!(broad_phase.destroy_proxy(id));
                 assert!(!broad_phase.destroy_proxy(id));
             }
         }
         Command::Move(user, aabb) => {
-            if let Some((id, _)) = model[user as usize] {
+            if let Some((id, ..)) = model[user as usize] {
                 let inside = broad_phase.fat_aabb(id).is_some_and(|fat| fat.contains(&aabb));
                 assert_ne!(broad_phase.move_proxy(id, aabb, Vec2::new(0.5, -0.5)), inside);
             }
         }
         Command::Category(user, category) => {
-            if let Some((id, def)) = &mut model[user as usize] {
+            if let Some((id, def, asked)) = &mut model[user as usize] {
                 (def.category, def.mask) = (category, u64::MAX);
+                *asked = Aabb::EMPTY;
                 broad_phase.set_filter(*id, category, u64::MAX);
             }
         }
@@ -253,12 +259,16 @@ fn brute_force(broad_phase: &BroadPhase, model: &Model) -> Vec<(u32, u32)> {
     let mut pairs = Vec::new();
     for a in 0..60 {
         for b in a + 1..60 {
-            let (Some((id_a, def_a)), Some((id_b, def_b))) = (model[a], model[b]) else { continue };
+            let (Some((id_a, def_a, asked_a)), Some((id_b, def_b, asked_b))) = (model[a], model[b])
+            else {
+                continue;
+            };
             let kinds = def_a.kind == ProxyKind::Dynamic || def_b.kind == ProxyKind::Dynamic;
             let filter = def_a.category & def_b.mask != 0 && def_b.category & def_a.mask != 0;
             let boxes = broad_phase.fat_aabb(id_a).zip(broad_phase.fat_aabb(id_b));
             let near = boxes.is_some_and(|(a, b)| a.overlaps(&b));
-            if kinds && filter && near && (moved(id_a) || moved(id_b)) {
+            let new = !asked_a.overlaps(&asked_b);
+            if kinds && filter && near && new && (moved(id_a) || moved(id_b)) {
                 pairs.push((a as u32, b as u32));
             }
         }

@@ -228,9 +228,12 @@ impl DynamicTree {
     /// bit of `mask`, until it breaks. The order depends on the shape of the tree.
     #[inline]
     pub fn query(&self, aabb: &Aabb, mask: u64, mut visit: impl FnMut(u32) -> ControlFlow<()>) {
+        if self.root == NONE {
+            return;
+        }
         let aabb = clamped(*aabb);
         let mut stack = Stack::new();
-        let mut next = (self.root != NONE).then_some(self.root);
+        let mut next = Some(self.root);
         while let Some(index) = next {
             let node = &self.nodes[index as usize];
             let mut bits = self.boxes[index as usize].overlaps(&aabb);
@@ -254,8 +257,11 @@ impl DynamicTree {
     /// `aabb` and have a bit of `mask`.
     #[inline]
     pub(super) fn query_bottom(&self, aabb: &Aabb, mask: u64, mut visit: impl FnMut(u32)) {
+        if self.root == NONE {
+            return;
+        }
         let mut stack = Stack::new();
-        let mut next = (self.root != NONE).then_some(self.root);
+        let mut next = Some(self.root);
         while let Some(index) = next {
             let node = &self.nodes[index as usize];
             if node.level == 0 {

@@ -1,4 +1,4 @@
-//! Contact records: pairs of shapes whose fat boxes overlap.
+//! Contact records: pairs of shapes that came near, until their fat boxes part.
 
 use super::bodies::{Bodies, NULL};
 use super::clone::clone_by_field;

@@ -177,8 +177,14 @@ fn move_lane<B: Copy>(
     null: &B,
     copy: fn(&mut B, usize, &B, usize),
 ) {
-    let source = blocks[last.0];
-    copy(&mut blocks[hole.0], hole.1, &source, last.1);
+    match blocks.get_disjoint_mut([hole.0, last.0]) {
+        Ok([to, from]) => copy(to, hole.1, from, last.1),
+        // One and the same block.
+        Err(_) => {
+            let source = blocks[last.0];
+            copy(&mut blocks[hole.0], hole.1, &source, last.1);
+        }
+    }
     copy(&mut blocks[last.0], last.1, null, 0);
 }
 

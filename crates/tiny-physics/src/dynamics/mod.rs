@@ -17,6 +17,7 @@ mod pace;
 mod pair_table;
 mod sensors;
 mod shapes;
+mod waiting;
 
 pub(crate) use blocks::{
     BlockHead, ConstraintBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags,
@@ -32,3 +33,4 @@ pub(crate) use joints::{JointLoad, JointPlace, JointRecord, Joints};
 pub(crate) use pace::{PACES, PLAIN, REFINEMENT};
 pub(crate) use sensors::{Overlap, Sensors};
 pub(crate) use shapes::{ShapeRecord, Shapes, guard};
+pub(crate) use waiting::Waiting;

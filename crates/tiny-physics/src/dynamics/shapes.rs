@@ -98,6 +98,8 @@ pub(crate) struct Shapes {
     /// shape (0 for general polygons, whose row is their own frame and a bounding circle), plus 2
     /// where it has guards.
     pub(crate) rows: Vec<Row>,
+    /// The boxes of the shapes as they are.
+    pub(crate) tight: Vec<Aabb>,
     /// The fat boxes that the broad phase has, for a quick look.
     pub(crate) fat: Vec<Aabb>,
     /// Which contacts are looked at again: see [`guard`].
@@ -109,8 +111,8 @@ pub(crate) struct Shapes {
     serial: Serial,
 }
 
-clone_by_field!(Shapes { records, rows, fat, guards, changed_ground, free, count, serial });
-data!(Shapes { records, rows, fat, guards, changed_ground, free, count, serial });
+clone_by_field!(Shapes { records, rows, tight, fat, guards, changed_ground, free, count, serial });
+data!(Shapes { records, rows, tight, fat, guards, changed_ground, free, count, serial });
 
 impl Shapes {
     /// Shapes alive.
@@ -150,11 +152,13 @@ impl Shapes {
         if let Some(index) = self.free.pop() {
             self.records[index as usize] = record;
             self.rows[index as usize] = [0.0; 8];
+            self.tight[index as usize] = Aabb::EMPTY;
             self.fat[index as usize] = Aabb::EMPTY;
             index
         } else {
             self.records.push(record);
             self.rows.push([0.0; 8]);
+            self.tight.push(Aabb::EMPTY);
             self.fat.push(Aabb::EMPTY);
             self.records.len() as u32 - 1
         }
@@ -174,6 +178,17 @@ impl Shapes {
     #[inline]
     pub(crate) fn may_touch(&self, a: u32, b: u32) -> bool {
         self.fat[a as usize].overlaps(&self.fat[b as usize])
+    }
+
+    /// Are the boxes of two shapes less than `reach` metres apart?
+    #[inline]
+    pub(crate) fn are_near(&self, a: u32, b: u32, reach: f32) -> bool {
+        let (a, b) = (&self.tight[a as usize], &self.tight[b as usize]);
+        // Differences of what is close are exact, however far out.
+        (a.min.x - b.max.x <= reach)
+            & (b.min.x - a.max.x <= reach)
+            & (a.min.y - b.max.y <= reach)
+            & (b.min.y - a.max.y <= reach)
     }
 
     /// The leaf of a shape in the broad phase.

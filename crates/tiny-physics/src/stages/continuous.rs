@@ -121,14 +121,13 @@ impl Impact<'_> {
                 continue;
             }
             let moving = sweep.child(record.central);
-            let inner = Inner::new(record, &sweep);
             for kind in [ProxyKind::Static, ProxyKind::Kinematic, ProxyKind::Dynamic] {
                 if kind == ProxyKind::Dynamic && !info.bullet {
                     continue;
                 }
                 self.broad_phase.tree(kind).query(&path, record.filter.reach().1, |proxy| {
                     if let Some(other) = self.broad_phase.user(crate::broad_phase::ProxyId(proxy)) {
-                        first = self.impact((shape, record), &moving, &inner, other, first);
+                        first = self.impact((shape, record), (&sweep, &moving), other, first);
                     }
                     ControlFlow::Continue(())
                 });
@@ -144,12 +143,12 @@ impl Impact<'_> {
         at(start).union(&at(end))
     }
 
-    /// The first impact so far, taking one more shape into account.
+    /// The first impact so far, taking one more shape into account. The motions are those of the body and of
+    /// its shape.
     fn impact(
         &self,
         (shape, record): (u32, &ShapeRecord),
-        moving: &Sweep,
-        inner: &Inner,
+        (body, moving): (&Sweep, &Sweep),
         index: u32,
         first: f32,
     ) -> f32 {
@@ -187,7 +186,7 @@ impl Impact<'_> {
                 ToiState::Hit | ToiState::Limit | ToiState::Touching
                     if solid_along(self.fast.motion.normalized()) =>
                 {
-                    inner.first_fraction(&other.shape, motion, first)
+                    Inner::new(record, body).first_fraction(&other.shape, motion, first)
                 }
                 ToiState::Hit | ToiState::Limit | ToiState::Separated | ToiState::Touching => first,
             }

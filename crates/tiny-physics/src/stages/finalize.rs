@@ -59,6 +59,8 @@ pub(crate) fn run(
     let previous = SharedSlice::new(previous);
     let (rows, poses, infos) =
         (SharedSlice::new(rows), SharedSlice::new(poses), SharedSlice::new(infos));
+    let mut tight = core::mem::take(&mut shapes.tight);
+    let tight_boxes = SharedSlice::new(&mut tight);
     let (old_shapes, boxes) = (&*shapes, &*broad_phase);
     let chunks = team.map_chunks(awake.len(), CHUNK, found, |range, found| {
         found.moved.clear();
@@ -70,12 +72,14 @@ pub(crate) fn run(
                     previous.write(index, *pose);
                     infos.update(index, |info| {
                         let body = FinalBody { index, row, pose, info };
-                        finalize_body(body, old_shapes, boxes, options, found);
+                        let scene = Scene { shapes: old_shapes, tight_boxes, boxes };
+                        finalize_body(body, scene, options, found);
                     });
                 });
             });
         }
     });
+    shapes.tight = tight;
     for chunk in &*chunks {
         for &(shape, fat) in &chunk.moved {
             broad_phase.set_fat_aabb(shapes.proxy(shape), fat);
@@ -93,14 +97,17 @@ struct FinalBody<'a> {
     info: &'a mut BodyInfo,
 }
 
+/// Where its shapes are.
+#[derive(Clone, Copy)]
+struct Scene<'a> {
+    shapes: &'a Shapes,
+    /// [`Shapes::tight`], to be written.
+    tight_boxes: SharedSlice<'a, Aabb>,
+    boxes: &'a BroadPhase,
+}
+
 #[inline]
-fn finalize_body(
-    body: FinalBody<'_>,
-    shapes: &Shapes,
-    boxes: &BroadPhase,
-    options: Options,
-    found: &mut Findings,
-) {
+fn finalize_body(body: FinalBody<'_>, scene: Scene<'_>, options: Options, found: &mut Findings) {
     let FinalBody { index, row, pose, info } = body;
     let motion = Vec2::new(row[Slot::DX], row[Slot::DY]);
     let turn = row[Slot::DA];
@@ -122,8 +129,10 @@ fn finalize_body(
         found.fast.push(FastBody { body: index, start, motion, turn, fraction: 1.0 });
         return;
     }
+    let Scene { shapes, tight_boxes, boxes } = scene;
     for shape in shapes.of_body(info.first_shape) {
         let tight = shape_box(shapes, shape, *pose);
+        tight_boxes.write(shape, tight);
         if !shapes.fat[shape as usize].contains(&tight)
             && let Some(fat) = boxes.needed_fat_aabb(shapes.proxy(shape), tight, motion)
         {
@@ -161,6 +170,7 @@ pub(crate) fn update_boxes(
     while shape != NULL {
         let proxy = shapes.proxy(shape);
         let tight = shape_box(shapes, shape, pose);
+        shapes.tight[shape as usize] = tight;
         if let Some(fat) = broad_phase.needed_fat_aabb(proxy, tight, motion) {
             broad_phase.set_fat_aabb(proxy, fat);
             shapes.fat[shape as usize] = fat;

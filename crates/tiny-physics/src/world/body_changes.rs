@@ -176,6 +176,7 @@ impl World {
             self.broad_phase.destroy_proxy(self.shapes.proxy(shape));
             self.shapes.records[shape as usize].proxy = NULL;
         }
+        self.waiting.stale = true;
         self.bodies.infos[index as usize].awake = false;
         self.bodies.awake.retain(|&i| i != index);
     }

@@ -197,6 +197,7 @@ impl World {
         }
         self.note_ground(shape);
         self.broad_phase.destroy_proxy(self.shapes.proxy(shape));
+        self.waiting.stale = true;
         self.sensors.remove(shape);
         self.shapes.remove(shape);
     }
@@ -291,6 +292,7 @@ impl World {
             let def = ProxyDef { kind, category, mask, user: shape, margin };
             let tight = finalize::shape_box(&self.shapes, shape, pose);
             let proxy = self.broad_phase.create_proxy(def, tight);
+            self.shapes.tight[shape as usize] = tight;
             self.shapes.records[shape as usize].proxy = proxy.0;
             self.shapes.fat[shape as usize] = self.broad_phase.fat_aabb(proxy).unwrap_or(tight);
             if kind == ProxyKind::Static {

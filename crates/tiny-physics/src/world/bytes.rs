@@ -106,6 +106,7 @@ impl Data for World {
             bodies,
             shapes,
             contacts,
+            waiting,
             graph,
             joints,
             joint_graph,
@@ -126,6 +127,7 @@ impl Data for World {
         bodies.save(sink);
         shapes.save(sink);
         contacts.save(sink);
+        waiting.save(sink);
         graph.save(sink);
         joints.save(sink);
         joint_graph.save(sink);
@@ -144,6 +146,7 @@ impl Data for World {
             bodies: Data::load(reader)?,
             shapes: Data::load(reader)?,
             contacts: Data::load(reader)?,
+            waiting: Data::load(reader)?,
             graph: Data::load(reader)?,
             joints: Data::load(reader)?,
             joint_graph: Data::load(reader)?,

@@ -107,6 +107,7 @@ impl World {
             shapes.rows.len() == count && shapes.fat.len() == count && shapes.guards.len() == count,
             "shapes are missing",
         )?;
+        ensure(shapes.tight.len() == count, "shapes are missing")?;
         ensure(
             shapes.records.iter().filter(|r| r.alive).count() == shapes.count,
             "shapes are miscounted",
@@ -166,6 +167,9 @@ impl World {
             let class = a.class >= b.class && contact.class == PairClass::of(a.class, b.class);
             ensure(bodies && class, "a contact is of other shapes")?;
         }
+        let known = |index: u32| (index as usize) < self.shapes.records.len();
+        let in_shapes = |&(a, b): &(u32, u32)| known(a) && known(b);
+        ensure(self.waiting.pairs.iter().all(in_shapes), "no shapes wait for a contact")?;
         let ends = |contact: &Contact| [contact.body_a, contact.body_b];
         let links = records.iter().map(|c| c.alive.then(|| (ends(c), c.links)));
         self.check_edges(&links.collect::<Vec<_>>(), |body| self.bodies.infos[body].first_contact)

@@ -264,6 +264,7 @@ impl World {
             let body = self.body_id(body);
             self.events.pending_asleep.push(body);
         }
+        self.waiting.stale = true;
         let (stores, hinges) = self.sleep_stores();
         sleep::put_to_sleep(islands, stores, hinges);
     }

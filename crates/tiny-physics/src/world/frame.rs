@@ -34,6 +34,7 @@ impl Clone for World {
             bodies: self.bodies.clone(),
             shapes: self.shapes.clone(),
             contacts: self.contacts.clone(),
+            waiting: self.waiting.clone(),
             graph: self.graph.clone(),
             joints: self.joints.clone(),
             joint_graph: self.joint_graph.clone(),
@@ -58,6 +59,7 @@ impl Clone for World {
             bodies,
             shapes,
             contacts,
+            waiting,
             graph,
             joints,
             joint_graph,
@@ -82,6 +84,7 @@ impl Clone for World {
         bodies.clone_from(&source.bodies);
         shapes.clone_from(&source.shapes);
         contacts.clone_from(&source.contacts);
+        waiting.clone_from(&source.waiting);
         graph.clone_from(&source.graph);
         joints.clone_from(&source.joints);
         joint_graph.clone_from(&source.joint_graph);

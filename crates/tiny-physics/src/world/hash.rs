@@ -83,6 +83,7 @@ impl World {
             contact.save(hasher);
         }
         self.contacts.free.save(hasher);
+        self.waiting.save(hasher);
     }
 
     fn hash_joints(&self, hasher: &mut Hasher) {

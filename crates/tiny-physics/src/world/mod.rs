@@ -43,7 +43,7 @@ use crate::broad_phase::BroadPhase;
 use crate::describe::{BodyKind, Settings};
 use crate::dynamics::{
     Bodies, COLOURS, Contacts, Graph, JointGraph, Joints, Overlap, PACES, PLAIN, REFINEMENT,
-    Sensors, Shapes, colour_at,
+    Sensors, Shapes, Waiting, colour_at,
 };
 use crate::error::Error;
 use crate::geometry::manifold::PairClass;
@@ -107,6 +107,7 @@ pub struct World {
     bodies: Bodies,
     shapes: Shapes,
     contacts: Contacts,
+    waiting: Waiting,
     graph: Graph,
     joints: Joints,
     joint_graph: JointGraph,
@@ -127,10 +128,8 @@ pub struct World {
 /// Lists that a step fills anew; kept only for their memory.
 #[derive(Debug, Default)]
 struct Scratch {
-    pairs: Vec<(u32, u32)>,
-    parted: Vec<u32>,
+    search: pairs::Search,
     changes: Changes,
-    found_pairs: Vec<Vec<(u32, u32)>>,
     findings: Vec<Findings>,
     fast: Vec<FastBody>,
     islands: Vec<u32>,
@@ -178,6 +177,7 @@ impl World {
             bodies: Bodies::new(),
             shapes: Shapes::default(),
             contacts: Contacts::default(),
+            waiting: Waiting::default(),
             graph: Graph::new(),
             joints: Joints::default(),
             joint_graph: JointGraph::new(),
@@ -252,29 +252,34 @@ impl World {
         Ok(StepLengths { dt, h: dt / substeps as f32, substeps, iterations })
     }
 
-    /// Drops contacts of shapes that left their fat boxes and their partners; finds new partners.
+    /// Drops contacts of shapes that left their fat boxes and their partners; gives those that came near one.
     fn update_pairs(&mut self, team: &Team) {
         self.stats.moved_shapes = self.broad_phase.moved().len();
+        let reach = self.contact_reach();
         let Self { broad_phase, shapes, bodies, contacts, graph, joints, hooks, scratch, .. } =
             self;
-        pairs::find_parted(broad_phase, bodies, shapes, contacts, graph, &mut scratch.parted);
         let custom = hooks.pair_filter();
-        let stores = pairs::Partners { shapes, bodies, contacts, joints, custom };
-        pairs::find_new(team, broad_phase, &stores, &mut scratch.found_pairs, &mut scratch.pairs);
-        self.stats.candidate_pairs = scratch.pairs.len();
+        let partners = pairs::Partners { shapes, bodies, contacts, joints, custom, reach };
+        scratch.search.run(team, broad_phase, &partners, graph, &mut self.waiting);
 
-        let parted = core::mem::take(&mut self.scratch.parted);
-        parted.iter().for_each(|&index| self.destroy_contact(index));
-        self.scratch.parted = parted;
+        let search = core::mem::take(&mut self.scratch.search);
+        self.stats.candidate_pairs = search.pairs.len();
+        search.parted.iter().for_each(|&index| self.destroy_contact(index));
         self.events.flush_pending();
         pairs::create_contacts(
-            &self.scratch.pairs,
+            &search.pairs,
             &self.settings,
             &self.shapes,
             &mut self.bodies,
             &mut self.contacts,
             &mut self.graph,
         );
+        self.scratch.search = search;
+    }
+
+    /// How far apart points may be and be a contact, metres.
+    fn contact_reach(&self) -> f32 {
+        SPECULATIVE_DISTANCE * self.settings.length_unit
     }
 
     /// Finds which faces of static shapes are covered by others, where static shapes have changed.
@@ -292,7 +297,7 @@ impl World {
             shape_rows: &self.shapes.rows,
             shapes: &self.shapes.records,
             infos: (self.joint_graph.count() > 0).then_some(&self.bodies.infos),
-            speculative_distance: SPECULATIVE_DISTANCE * self.settings.length_unit,
+            speculative_distance: self.contact_reach(),
             surroundings: surfaces::Surroundings {
                 guards: &self.shapes.guards,
                 broad_phase: &self.broad_phase,

@@ -50,7 +50,7 @@ impl Stage {
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Stats {
     pub(crate) seconds: [f64; Stage::ALL.len()],
-    /// New candidate pairs that the broad phase gave.
+    /// Pairs of shapes that came near and became contacts.
     pub candidate_pairs: usize,
     /// Shapes that left their fat boxes.
     pub moved_shapes: usize,

@@ -1,8 +1,11 @@
 //! A walk over all invariants, for tests.
 
 use super::World;
+use crate::describe::BodyKind;
 use crate::dynamics::{COLOURS, IDLE, NULL, Place, colour_at};
-use crate::stages::pairs;
+use crate::stages::{finalize, pairs};
+use core::ops::ControlFlow;
+use std::collections::HashSet;
 
 impl World {
     /// Checks every invariant of the world's data: links, colours, places, finite numbers. Slow; for
@@ -14,6 +17,7 @@ impl World {
         self.broad_phase.validate()?;
         self.validate_bodies()?;
         self.validate_contacts()?;
+        self.validate_pairs()?;
         self.validate_colours()
     }
 
@@ -97,6 +101,49 @@ impl World {
                 "{alive} contacts, {links} links, {} pairs",
                 self.contacts.pairs.len()
             ));
+        }
+        Ok(())
+    }
+
+    /// Boxes are where the shapes are; of the pairs whose fat boxes overlap, none has been forgotten.
+    fn validate_pairs(&self) -> Result<(), String> {
+        let waiting = &self.waiting;
+        let known: HashSet<(u32, u32)> = waiting.pairs.iter().copied().collect();
+        let fresh: HashSet<u32> =
+            self.broad_phase.moved().iter().filter_map(|&id| self.broad_phase.user(id)).collect();
+        let kind =
+            |shape: u32| self.bodies.infos[self.shapes.records[shape as usize].body as usize].kind;
+        let Self { shapes, bodies, contacts, joints, .. } = self;
+        let (custom, reach) = (self.hooks.pair_filter(), self.contact_reach());
+        let partners = pairs::Partners { shapes, bodies, contacts, joints, custom, reach };
+        for shape in
+            self.shapes.indices().filter(|&i| self.shapes.records[i as usize].proxy != NULL)
+        {
+            let record = &self.shapes.records[shape as usize];
+            let (tight, fat) = (self.shapes.tight[shape as usize], self.shapes.fat[shape as usize]);
+            let now =
+                finalize::shape_box(&self.shapes, shape, self.bodies.poses[record.body as usize]);
+            let room = 1.0e-5 * (1.0 + now.center().length() + now.half_extents().length());
+            if !tight.grown(room).contains(&now) || !now.grown(room).contains(&tight) {
+                return Err(format!("shape {shape} is not where its box is"));
+            }
+            let mut lost = None;
+            self.broad_phase.query(&fat, u64::MAX, |other| {
+                let dynamic = [shape, other].iter().any(|&i| kind(i) == BodyKind::Dynamic);
+                let asked = fresh.contains(&shape) || fresh.contains(&other) || waiting.stale;
+                if shape < other
+                    && dynamic
+                    && !asked
+                    && partners.may_meet(shape, other)
+                    && !known.contains(&(shape, other))
+                {
+                    lost = Some(other);
+                }
+                ControlFlow::Continue(())
+            });
+            if let Some(other) = lost {
+                return Err(format!("shapes {shape} and {other} will not meet"));
+            }
         }
         Ok(())
     }
