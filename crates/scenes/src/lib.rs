@@ -32,5 +32,7 @@ pub use catalogue::{Entry, UnknownScene, all, find, tags};
 pub use error::{Problem, SceneError};
 pub use host::{Host, Player};
 pub use scene::{Counts, Scene, SceneJoint, VERSION};
-pub use script::{Queries, Rain, Script, Terrain, WakeSleepers, Walkers};
+pub use script::{
+    Character, Key, Leg, Queries, Rain, Ride, Script, Terrain, WakeSleepers, Walkers,
+};
 pub use world_host::{Run, WorldHost};

@@ -3,8 +3,8 @@
 use crate::host::{Host, Player};
 use crate::scene::Scene;
 use tiny_physics::{
-    Aabb, BodyId, DVec2, Error, JointDef, JointId, QueryFilter, RigidBody, Rot, Settings, Shape,
-    Transform, Vec2, World,
+    Aabb, BodyId, CharacterMover, DVec2, Error, JointDef, JointId, MoverInput, QueryFilter,
+    RigidBody, Rot, Settings, Shape, Transform, Vec2, World,
 };
 
 /// A scene that runs in a [`World`].
@@ -145,6 +145,18 @@ impl Host for WorldHost {
         if let Some(mut body) = self.body_id(body).and_then(|id| self.world.body_mut(id)) {
             body.set_velocity(velocity);
         }
+    }
+
+    fn set_angular_velocity(&mut self, body: usize, radians_per_second: f32) {
+        if let Some(mut body) = self.body_id(body).and_then(|id| self.world.body_mut(id))
+            && body.as_ref().angular_velocity() != radians_per_second
+        {
+            body.set_angular_velocity(radians_per_second);
+        }
+    }
+
+    fn move_character(&mut self, mover: &mut CharacterMover, input: MoverInput, dt: f32) {
+        mover.update(&mut self.world, input, dt);
     }
 
     fn is_awake(&self, body: usize) -> bool {

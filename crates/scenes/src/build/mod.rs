@@ -1,6 +1,7 @@
 //! Builders of the scenes, one file a family.
 
 pub(crate) mod benchmark;
+pub(crate) mod course;
 pub(crate) mod level;
 pub(crate) mod seed;
 pub(crate) mod show;

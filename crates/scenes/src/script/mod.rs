@@ -1,12 +1,14 @@
 //! What happens to a scene from outside while it runs: plain data in the scene file, played on any
 //! [`Host`].
 
+mod character;
 mod queries;
 mod rain;
 mod terrain;
 mod wake;
 mod walkers;
 
+pub use character::{Character, Key, Leg, Ride};
 pub use queries::Queries;
 pub use rain::Rain;
 pub use terrain::Terrain;
@@ -33,6 +35,8 @@ pub enum Script {
     Terrain(Terrain),
     /// A paddle moves and many questions are asked of the world.
     Queries(Queries),
+    /// A character walks through the scene.
+    Character(Character),
 }
 
 impl Script {
@@ -45,17 +49,19 @@ impl Script {
             Self::Walkers(walkers) => walkers.check(bodies).map_err(|e| e.under("walkers")),
             Self::Terrain(terrain) => terrain.check(bodies).map_err(|e| e.under("terrain")),
             Self::Queries(queries) => queries.check(bodies).map_err(|e| e.under("queries")),
+            Self::Character(character) => character.check(bodies).map_err(|e| e.under("character")),
         }
     }
 
-    /// Begins to play it; `bodies` are the host's numbers of the scene's bodies.
-    pub(crate) fn start(&self, bodies: &[usize]) -> Running {
+    /// Begins to play it; `bodies` are the host's numbers of the scene's bodies, `dt` is the length of a step.
+    pub(crate) fn start(&self, bodies: &[usize], dt: f32) -> Running {
         match self {
             Self::Rain(rain) => Running::Rain(rain.start()),
             Self::WakeSleepers(wake) => Running::Wake(wake.start(bodies)),
             Self::Walkers(walkers) => Running::Walkers(walkers.start(bodies)),
             Self::Terrain(terrain) => Running::Terrain(terrain.start(bodies)),
             Self::Queries(queries) => Running::Queries(queries.start(bodies)),
+            Self::Character(character) => Running::Character(character.start(bodies, dt)),
         }
     }
 }
@@ -68,6 +74,7 @@ pub(crate) enum Running {
     Walkers(walkers::Walking),
     Terrain(terrain::Streaming),
     Queries(queries::Asking),
+    Character(character::Walking),
 }
 
 impl Running {
@@ -79,6 +86,7 @@ impl Running {
             Self::Walkers(walkers) => walkers.before_step(host, step),
             Self::Terrain(terrain) => terrain.before_step(host, step),
             Self::Queries(queries) => queries.before_step(host),
+            Self::Character(character) => character.before_step(host, step),
         }
     }
 }
