@@ -61,7 +61,7 @@ impl Script {
             Self::Walkers(walkers) => Running::Walkers(walkers.start(bodies)),
             Self::Terrain(terrain) => Running::Terrain(terrain.start(bodies)),
             Self::Queries(queries) => Running::Queries(queries.start(bodies)),
-            Self::Character(character) => Running::Character(character.start(bodies, dt)),
+            Self::Character(character) => Running::Character(Box::new(character.start(bodies, dt))),
         }
     }
 }
@@ -74,7 +74,7 @@ pub(crate) enum Running {
     Walkers(walkers::Walking),
     Terrain(terrain::Streaming),
     Queries(queries::Asking),
-    Character(character::Walking),
+    Character(Box<character::Walking>),
 }
 
 impl Running {

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::describe::{BodyKind, JointKind, Spring};
-use crate::dynamics::{Bodies, BodyInfo, JointRecord, Slot};
+use crate::dynamics::{Bodies, BodyInfo, JointRecord, PLAIN, Slot};
 use crate::math::{DVec2, Rot};
 use crate::stages::integrate;
 use crate::threads::Team;
@@ -79,7 +79,8 @@ impl Rig {
     fn step(&mut self) {
         let h = self.dt / self.substeps as f32;
         let team = Team::alone();
-        integrate::prepare(&team, &mut self.bodies, self.gravity, h);
+        let listed = self.bodies.awake.clone();
+        integrate::prepare(&team, &listed, &mut self.bodies, self.gravity, h);
         describe(&mut self.graph, &self.joints, &self.bodies.infos, h);
         for colour in &mut self.graph.colours {
             for blocks in colour.runs(2) {
@@ -87,12 +88,12 @@ impl Rig {
             }
         }
         for _ in 0..self.substeps {
-            integrate::velocities(&team, &mut self.bodies, true);
+            integrate::velocities(&team, &listed, &mut self.bodies, true);
             self.pass(Pass::WarmStart);
             for _ in 0..self.iterations {
                 self.pass(Pass::Solve);
             }
-            integrate::positions(&team, &mut self.bodies, h, 400.0);
+            integrate::positions(&team, &listed, &mut self.bodies, h, 400.0);
             for _ in 0..self.iterations {
                 self.pass(Pass::Relax);
             }
