@@ -32,6 +32,8 @@ pub use catalogue::{Entry, UnknownScene, all, find, resolve, tags};
 pub use error::{Problem, SceneError};
 pub use host::{Host, Player};
 pub use scene::{Counts, Scene, SceneJoint, VERSION};
-pub use script::{Act, Deed, Hero, Pull, Timeline, Walk, When, lead_progress};
-pub use script::{Queries, Rain, Script, Terrain, WakeSleepers, Walkers};
+pub use script::{
+    Act, Character, Deed, Hero, Key, Leg, Pull, Queries, Rain, Ride, Script, Terrain, Timeline,
+    WakeSleepers, Walk, Walkers, When, lead_progress,
+};
 pub use world_host::{Run, WorldHost};

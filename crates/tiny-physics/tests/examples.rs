@@ -38,14 +38,12 @@ examples! {
     tile_map "../examples/tile_map.rs"
 }
 
-/// `mover` is a folder with a level of its own, which `tests/mover.rs` plays.
 #[test]
 fn no_example_is_left_out() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let found: BTreeSet<String> = std::fs::read_dir(folder)
         .unwrap()
         .map(|entry| entry.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned())
-        .filter(|name| name != "mover")
         .collect();
     let tested: BTreeSet<String> = TESTED.iter().map(|name| (*name).to_owned()).collect();
     assert_eq!(found, tested);
