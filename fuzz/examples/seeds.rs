@@ -1,4 +1,4 @@
-//! Writes seeds for the fuzz targets: `cargo run --bin seeds` in this folder.
+//! Writes seeds for the fuzz targets: `cargo run --example seeds` in this folder.
 
 use std::fs;
 use tiny_physics_scenes::{Options, Run, all};
