@@ -413,4 +413,19 @@ mod tests {
             assert!(Recording::from_bytes(&bytes[..length]).is_err());
         }
     }
+
+    /// A recording of an older or newer engine says so; nobody plays it wrongly.
+    #[test]
+    fn recordings_of_another_version_are_refused_with_the_reason() {
+        let bytes = session(1.0).recording().to_bytes();
+        let refusal = |at: usize| {
+            let mut other = bytes.clone();
+            other[at] += 1;
+            Recording::from_bytes(&other).unwrap_err().to_string()
+        };
+        assert!(refusal(3).contains("does not begin like a recording"), "{}", refusal(3));
+        // After the recording's own magic and the length of the first frame: the frame's magic and version.
+        let frame = bytes.windows(4).position(|word| word == b"tpw1").expect("a first frame");
+        assert!(refusal(frame + 4).contains("another version"), "{}", refusal(frame + 4));
+    }
 }

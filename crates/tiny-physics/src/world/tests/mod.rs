@@ -4,6 +4,7 @@ mod anything;
 mod changes;
 mod events;
 mod forces;
+mod handles;
 mod hooks;
 mod one_way;
 
