@@ -73,8 +73,7 @@ pub fn duel(games: [Game; 2], how: &Duel) -> Result<Report, Box<dyn Error + Send
             let (other, done) = (addresses[1 - player], &done);
             scope.spawn(move || Playing::new(player, game, socket, other, how)?.run(how, done))
         };
-        let threads: Vec<_> =
-            games.into_iter().zip(sockets).enumerate().map(spawn).collect();
+        let threads: Vec<_> = games.into_iter().zip(sockets).enumerate().map(spawn).collect();
         threads.into_iter().map(thread::ScopedJoinHandle::join).collect::<Vec<_>>()
     });
     let mut peers = Vec::new();
@@ -121,11 +120,7 @@ impl Playing {
     }
 
     /// Plays until both are done: the one that is first goes on, because the other needs its inputs.
-    fn run(
-        mut self,
-        how: &Duel,
-        done: &AtomicUsize,
-    ) -> Result<Peer, Box<dyn Error + Send + Sync>> {
+    fn run(mut self, how: &Duel, done: &AtomicUsize) -> Result<Peer, Box<dyn Error + Send + Sync>> {
         let (start, tick) = (Instant::now(), Duration::from_secs(1) / how.rate.max(1));
         let (mut next, mut finished, mut skip) = (start, false, 0);
         while done.load(Ordering::SeqCst) < 2 {
@@ -196,7 +191,8 @@ impl Playing {
             }
             GgrsRequest::LoadGameState { frame, .. } => {
                 self.peer.rollbacks += 1;
-                self.peer.deepest = self.peer.deepest.max(now.saturating_sub((*frame).max(0) as u32));
+                self.peer.deepest =
+                    self.peer.deepest.max(now.saturating_sub((*frame).max(0) as u32));
             }
             GgrsRequest::AdvanceFrame { .. } => self.peer.steps += 1,
         }

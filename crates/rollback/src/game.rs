@@ -67,7 +67,8 @@ impl Game {
         build_yard(&mut world)?;
         let mut player = |x: f32| -> Result<Player, Error> {
             let shape = Shape::capsule(Vec2::new(0.0, -0.4), Vec2::new(0.0, 0.4), 0.3)?;
-            let body = RigidBody::dynamic().position(Vec2::new(x, 0.8)).lock_rotation().shape(shape);
+            let body =
+                RigidBody::dynamic().position(Vec2::new(x, 0.8)).lock_rotation().shape(shape);
             Ok(Player { body: world.add_body(body.can_sleep(false))?, ready: 0 })
         };
         let players = [player(-6.0)?, player(6.0)?];

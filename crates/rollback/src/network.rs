@@ -95,7 +95,8 @@ impl NonBlockingSocket<SocketAddr> for RoughSocket {
         });
         let copies = if lost { 0 } else { 1 + u32::from(self.chance() < self.network.twice) };
         for _ in 0..copies {
-            let due = Instant::now() + self.network.delay + self.network.jitter.mul_f32(self.chance());
+            let due =
+                Instant::now() + self.network.delay + self.network.jitter.mul_f32(self.chance());
             self.waiting.push((due, *address, bytes.clone()));
         }
         self.deliver();

@@ -43,7 +43,8 @@ fn two_peers_agree_over_a_rough_network() {
 /// The comparison can fail: a game with another gravity is found out, by us and by ggrs.
 #[test]
 fn peers_that_differ_are_found() {
-    let report = duel([game(), Game::new(10.001).expect("a game")], &rough(60)).expect("both finish");
+    let report =
+        duel([game(), Game::new(10.001).expect("a game")], &rough(60)).expect("both finish");
     assert_eq!(report.first_difference, Some(0));
     assert!(report.peers.iter().any(|peer| peer.desyncs > 0));
 }

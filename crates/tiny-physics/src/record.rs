@@ -319,7 +319,7 @@ impl<'a> Player<'a> {
     /// Plays one step; false at the end.
     ///
     /// # Errors
-    /// The state is not the one that was recorded, or a command is refused that was not.
+    /// [`Error::Differs`] when the state is not the one that was recorded; or a command is refused that was not.
     pub fn step(&mut self) -> Result<bool, Error> {
         let Some(step) = self.recording.steps.get(self.at) else { return Ok(false) };
         for command in &step.commands {
@@ -330,7 +330,7 @@ impl<'a> Player<'a> {
         if self.world.state_hash() == step.hash {
             Ok(true)
         } else {
-            Err(bad("the playback differs from what was recorded"))
+            Err(Error::Differs { step: self.at })
         }
     }
 
@@ -403,7 +403,8 @@ mod tests {
         let mut wrong = a.recording().clone();
         wrong.steps[59].hash ^= 1;
         let mut player = Player::new(&wrong).unwrap();
-        assert!(player.seek(120).is_err() && player.at() == 60);
+        assert_eq!(player.seek(120), Err(Error::Differs { step: 60 }));
+        assert_eq!(player.at(), 60);
     }
 
     #[test]
