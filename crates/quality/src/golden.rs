@@ -16,9 +16,14 @@ pub fn golden() -> Vec<Golden> {
     Golden::read(include_str!("../tests/golden.txt"))
 }
 
-/// The row that a line of the table is of: names have `_` for spaces there.
+/// The row that a line of the table is of.
 pub fn row_of(line: &Golden) -> Option<&'static Row> {
-    rows().iter().find(|row| row.name.replace(' ', "_") == line.name)
+    rows().iter().find(|row| name_of(row) == line.name)
+}
+
+/// A row's name in the table: without spaces, and other than that of any scene.
+fn name_of(row: &Row) -> String {
+    format!("quality/{}", row.name.replace(' ', "_"))
 }
 
 /// Plays a row, and hashes the state of its worlds after each of their first steps.
@@ -36,7 +41,7 @@ pub fn row_hash(row: &Row, level: SimdLevel, threads: usize) -> Golden {
         Box::new(Hashed { host, left: STEPS, hash: hash.clone() })
     };
     row.run(&make, Variant::Usual, false, &mut |_, _| {});
-    Golden { name: row.name.replace(' ', "_"), steps: STEPS, hash: hash.get() }
+    Golden { name: name_of(row), steps: STEPS, hash: hash.get() }
 }
 
 /// A world that hashes its first steps and then stands still.

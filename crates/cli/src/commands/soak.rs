@@ -28,7 +28,11 @@ pub fn run(args: &SoakArgs) -> Outcome {
     )?;
     let (mut clock, mut counted, mut checks) = (Clock::start(), 0, 0);
     for step in 1..=args.steps {
-        churn.step()?;
+        churn.step().map_err(|error| {
+            let sound =
+                churn.world().validate().err().unwrap_or_else(|| "its data are sound".into());
+            Failure::new(format!("step {step}: {error}")).hint(format!("the world: {sound}"))
+        })?;
         if step.is_multiple_of(args.check) {
             let sound = churn.world().validate();
             sound.map_err(|reason| Failure::new(format!("unsound after step {step}: {reason}")))?;
