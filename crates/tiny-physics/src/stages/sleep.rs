@@ -210,8 +210,8 @@ fn put_island_to_sleep(
     }
 }
 
-/// Wakes a body and its island, and gives the bodies that woke, ascending. Nothing happens if it is awake
-/// or cannot move.
+/// Wakes a body and its island, and gives the bodies that woke, ascending. Islands that a joint links to it wake
+/// with it: they fell asleep before the joint was made. Nothing happens if it is awake or cannot move.
 pub(crate) fn wake(
     index: u32,
     bodies: &mut Bodies,
@@ -220,20 +220,17 @@ pub(crate) fn wake(
     joints: &mut Joints,
     joint_graph: &mut JointGraph,
 ) -> Vec<u32> {
-    let info = &bodies.infos[index as usize];
-    if info.awake || !info.alive || !info.enabled || info.kind == BodyKind::Static {
-        return Vec::new();
-    }
     let mut island = Vec::new();
-    let mut body = index;
-    loop {
-        island.push(body);
-        let info = &mut bodies.infos[body as usize];
-        info.awake = true;
-        info.sleep_time = 0.0;
-        body = core::mem::replace(&mut info.island_next, NULL);
-        if body == index || body == NULL {
-            break;
+    let mut sleepers = vec![index];
+    while let Some(sleeper) = sleepers.pop() {
+        let first = island.len();
+        wake_ring(sleeper, bodies, &mut island);
+        for &body in &island[first..] {
+            let linked = joints.of_body(bodies.infos[body as usize].first_joint);
+            let linked = linked.map(|(joint, _)| &joints.records[joint as usize]);
+            let pulling = linked.filter(|joint| joint.class().is_some());
+            let ends = pulling.flat_map(|joint| [joint.body_a, joint.body_b]);
+            sleepers.extend(ends.filter(|&end| bodies.is_dynamic(end)));
         }
     }
     island.sort_unstable();
@@ -251,6 +248,25 @@ pub(crate) fn wake(
         }
     }
     island
+}
+
+/// Wakes the ring of a body that sleeps and can move, and appends its bodies.
+fn wake_ring(index: u32, bodies: &mut Bodies, island: &mut Vec<u32>) {
+    let info = &bodies.infos[index as usize];
+    if info.awake || !info.alive || !info.enabled || info.kind == BodyKind::Static {
+        return;
+    }
+    let mut body = index;
+    loop {
+        island.push(body);
+        let info = &mut bodies.infos[body as usize];
+        info.awake = true;
+        info.sleep_time = 0.0;
+        body = core::mem::replace(&mut info.island_next, NULL);
+        if body == index || body == NULL {
+            break;
+        }
+    }
 }
 
 /// Joints of a body, ascending.

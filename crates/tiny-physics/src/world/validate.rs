@@ -1,7 +1,7 @@
 //! A walk over all invariants, for tests.
 
 use super::World;
-use crate::dynamics::{COLOURS, IDLE, Place};
+use crate::dynamics::{COLOURS, IDLE, JointPlace, JointRecord, Place};
 use crate::stages::pairs;
 
 impl World {
@@ -14,6 +14,7 @@ impl World {
         self.broad_phase.validate()?;
         self.validate_bodies()?;
         self.validate_contacts()?;
+        self.validate_joints()?;
         self.validate_colours()
     }
 
@@ -97,6 +98,30 @@ impl World {
                 "{alive} contacts, {links} links, {} pairs",
                 self.contacts.pairs.len()
             ));
+        }
+        Ok(())
+    }
+
+    /// A joint that pulls is in the graph while one of its bodies is awake, and no body that it moves sleeps then.
+    fn validate_joints(&self) -> Result<(), String> {
+        let pulls = |joint: &JointRecord| {
+            let enabled = |body: u32| self.bodies.infos[body as usize].enabled;
+            let together = enabled(joint.body_a) && enabled(joint.body_b);
+            joint.alive && joint.class().is_some() && together
+        };
+        let joints = self.joints.records.iter().enumerate();
+        for (index, joint) in joints.filter(|(_, joint)| pulls(joint)) {
+            let ends = [joint.body_a, joint.body_b];
+            let awake = ends.iter().any(|&body| self.bodies.infos[body as usize].awake);
+            let asleep = |&body: &u32| {
+                self.bodies.is_dynamic(body) && !self.bodies.infos[body as usize].awake
+            };
+            if awake != (joint.place != JointPlace::Asleep) {
+                return Err(format!("joint {index} is awake without a lane, or sleeps in one"));
+            }
+            if awake && ends.iter().any(asleep) {
+                return Err(format!("joint {index} pulls at a body that sleeps"));
+            }
         }
         Ok(())
     }
