@@ -6,7 +6,6 @@
 # Debian 12 packages: rustc-web cargo-web rust-web-src gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user nodejs.
 # The standard libraries are built once (about a minute of CPU each) into $TINY_PHYSICS_SYSROOTS, by default
 # ~/.cache/tiny-physics-sysroots. Usage: scripts/platforms.sh [x86_64] [aarch64] [wasm32]
-# `available` in place of these leaves out what this machine lacks the tools for.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 unset RUSTFLAGS
@@ -67,15 +66,6 @@ hashes_wasm32() {
     label wasm32
 }
 
-# Has this machine the tools for a platform?
-has_tools() {
-  case $1 in
-    x86_64) [ "$(uname -m)" = x86_64 ] ;;
-    aarch64) [ -x /usr/bin/cargo ] && command -v qemu-aarch64 aarch64-linux-gnu-gcc >/dev/null ;;
-    wasm32) [ -x /usr/bin/cargo ] && command -v node >/dev/null ;;
-  esac
-}
-
 # One line a scene: a column a platform and level with one sign a thread count, `=` for the golden hash and `#` for
 # another.
 print_table() {
@@ -106,12 +96,6 @@ print_table() {
 }
 
 [ $# -gt 0 ] || set -- x86_64 aarch64 wasm32
-if [ "$1" = available ]; then
-  set --
-  for platform in x86_64 aarch64 wasm32; do
-    if has_tools $platform; then set -- "$@" $platform; else echo "no tools for $platform here: left out"; fi
-  done
-fi
 lines=$(mktemp)
 trap 'rm -f "$lines"' EXIT
 for platform in "$@"; do
