@@ -22,7 +22,7 @@ use table::Row;
 #[derive(Parser)]
 #[command(version)]
 struct Args {
-    /// Scenes to run, by name or by tag (benchmark, box2d, huge, show); `benchmark` if none is given.
+    /// Scenes to run, by name or by tag (benchmark, box2d, scale, huge, show); `benchmark` if none is given.
     #[arg(value_name = "SCENE")]
     scenes: Vec<String>,
     /// Engines to run, comma-separated, of: ours, ours-scalar, ours-sse2, ours-avx2, ours-avx512,
@@ -80,11 +80,11 @@ fn compare(args: &Args) -> Result<(), String> {
 /// The scenes that the words of the command line stand for.
 fn scenes(words: &[String]) -> Result<Vec<&'static str>, String> {
     if words.is_empty() {
-        return peers_worker::resolve("benchmark");
+        return peers_worker::resolve("benchmark").map_err(|error| error.to_string());
     }
     let mut names = Vec::new();
     for word in words {
-        names.extend(peers_worker::resolve(word)?);
+        names.extend(peers_worker::resolve(word).map_err(|error| error.to_string())?);
     }
     Ok(names)
 }

@@ -58,6 +58,21 @@ Examples:
   tiny-physics run my_scene.json --json"
     )]
     Run(RunArgs),
+    /// Time scenes stage by stage, on every SIMD level
+    #[command(
+        after_help = "Scenes go by name, by file, or by tag: benchmark (where nothing is said), box2d, show, scale (circles from
+10,000 to a million), huge. Each run is a fresh world: one step untimed, then every step timed. Levels take turns,
+A B C A B C, so that what disturbs the machine disturbs all. Stages, median and p99 are wall
+time; ns/body is CPU time, with several threads wall time.
+
+Examples:
+  tiny-physics bench large_pyramid
+  tiny-physics bench tumbler smash --simd avx2,avx512 --repeat 5
+  tiny-physics bench scale --simd avx2 --steps 60 --repeat 1
+  tiny-physics bench --figures
+  tiny-physics bench spinner --json > spinner.jsonl"
+    )]
+    Bench(BenchArgs),
     /// Measure the engine against scenes whose right answer is known
     #[command(
         after_help = "Columns 'Box2D' and 'Rapier' are reference figures measured elsewhere (August 2026), not by this run.
@@ -222,6 +237,33 @@ pub struct RunArgs {
     pub json: bool,
     #[command(flatten)]
     pub world: WorldArgs,
+}
+
+/// Options of `bench`.
+#[derive(Args, Clone, Debug)]
+pub struct BenchArgs {
+    /// Names, tags or files of scenes
+    #[arg(value_name = "SCENE|FILE")]
+    pub scenes: Vec<String>,
+    /// Threads to use
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub threads: u16,
+    /// SIMD levels to measure, of scalar, sse2, sse42, avx2, avx512, neon and simd128; all that this machine
+    /// has where not said
+    #[arg(long, value_name = "LEVEL", value_delimiter = ',', value_parser = simd_level)]
+    pub simd: Vec<SimdLevel>,
+    /// Runs of each scene and level; the median counts
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub repeat: u16,
+    /// Steps of a run, the untimed first one included; the scene's own number where not said
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..))]
+    pub steps: Option<u32>,
+    /// Measure what should cost next to nothing instead: a world asleep, a level that nothing touches
+    #[arg(long, conflicts_with = "scenes")]
+    pub figures: bool,
+    /// Print a JSON object a row
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Options of `quality`.

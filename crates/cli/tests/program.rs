@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
+use tiny_physics::{SimdLevel, Stage};
 
 fn program(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_tiny-physics"))
@@ -50,7 +51,7 @@ fn without_a_terminal_the_demo_plays_by_itself() {
 #[test]
 fn help_has_examples_everywhere() {
     assert!(good(&["--help"]).contains("Examples:"));
-    for command in ["demo", "list", "run", "render", "view"] {
+    for command in ["demo", "list", "run", "bench", "render", "view"] {
         assert!(good(&[command, "--help"]).contains("Examples:"), "{command}");
     }
 }
@@ -96,6 +97,52 @@ fn the_report_has_its_fields_and_no_others() {
     assert_eq!(report["bodies"], 24);
     let hash = report["hash"].as_str().unwrap();
     assert!(hash.len() == 16 && hash.chars().all(|c| c.is_ascii_hexdigit()), "{hash}");
+}
+
+#[test]
+fn bench_prints_a_row_for_each_level() {
+    let args = ["bench", "stack", "newton_cradle", "--steps", "20", "--repeat", "2", "--json"];
+    let rows: Vec<serde_json::Value> =
+        good(&args).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let levels: Vec<_> = SimdLevel::available().map(SimdLevel::name).collect();
+    assert_eq!(rows.len(), 2 * levels.len());
+    for (i, row) in rows.iter().enumerate() {
+        let scene = ["stack", "newton_cradle"][i / levels.len()];
+        assert_eq!(
+            (&row["scene"], &row["simd"]),
+            (&scene.into(), &levels[i % levels.len()].into())
+        );
+        assert_eq!((&row["steps"], &row["repeat"]), (&19.into(), &2.into()));
+        assert_eq!(row["hash"], rows[i / levels.len() * levels.len()]["hash"]);
+        let number = |name: &str| row[name].as_f64().unwrap_or_else(|| panic!("{name}: {row}"));
+        let stages = row["stage_ms"].as_object().unwrap();
+        assert_eq!(stages.len(), Stage::ALL.len());
+        let sum: f64 = stages.values().map(|ms| ms.as_f64().unwrap()).sum();
+        assert!(sum > 0.0 && number("ms") > 0.0 && number("p99_ms") >= number("median_ms"));
+        assert!(row["ms_range"][0].as_f64() <= row["ms"].as_f64());
+        assert!(!cfg!(unix) || number("cpu_ms") > 0.0, "{row}");
+        let bodies = number("moving");
+        let cost_ms = row["cpu_ms"].as_f64().unwrap_or_else(|| number("ms"));
+        assert!((number("ns_per_body") * bodies / (cost_ms * 1.0e6) - 1.0).abs() < 1.0e-9);
+    }
+}
+
+#[test]
+fn bench_prints_a_table() {
+    let out = good(&["bench", "stack", "--steps", "10", "--repeat", "1", "--simd", "scalar"]);
+    let lines: Vec<_> = out.lines().filter(|line| !line.is_empty()).collect();
+    assert!(lines[0].starts_with("stack: 9 timed steps, median of 1"), "{out}");
+    assert!(lines[1].contains("narrow_phase") && lines[2].starts_with("scalar"), "{out}");
+    assert_eq!(lines.len(), 3);
+}
+
+#[test]
+fn bench_says_what_it_does_not_know() {
+    let error = bad(&["bench", "stack", "large_piramid"]);
+    assert!(error.contains("'large_piramid'") && error.contains("'large_pyramid'"), "{error}");
+    assert!(bad(&["bench", "stack", "--simd", "mmx"]).contains("mmx"));
+    assert!(bad(&["bench", "stack", "--repeat", "0"]).contains("--repeat"));
+    assert!(bad(&["bench", "stack", "--figures"]).contains("--figures"));
 }
 
 #[test]

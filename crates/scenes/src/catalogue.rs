@@ -1,6 +1,6 @@
 //! The list of all scenes that this crate can build.
 
-use crate::build::{Options, benchmark, level, seed, show};
+use crate::build::{Options, benchmark, features, joints, level, seed, show};
 use crate::scene::Scene;
 use core::fmt;
 
@@ -42,12 +42,15 @@ pub mod tags {
     pub const SEEDED: &str = "seeded";
     /// Scenes with very many bodies or shapes.
     pub const HUGE: &str = "huge";
+    /// One scene in several sizes: what a body costs as they become more.
+    pub const SCALE: &str = "scale";
 }
 
 const BOX2D: &[&str] = &[tags::BENCHMARK, tags::BOX2D];
 const BOX2D_HUGE: &[&str] = &[tags::BENCHMARK, tags::BOX2D, tags::HUGE];
 const BENCHMARK: &[&str] = &[tags::BENCHMARK];
-const BENCHMARK_HUGE: &[&str] = &[tags::BENCHMARK, tags::HUGE];
+const SCALE: &[&str] = &[tags::BENCHMARK, tags::SCALE];
+const SCALE_HUGE: &[&str] = &[tags::BENCHMARK, tags::SCALE, tags::HUGE];
 const SHOW: &[&str] = &[tags::SHOW];
 
 const fn entry(
@@ -77,9 +80,9 @@ static ENTRIES: &[Entry] = &[
     entry("seed_pile_5000", "A pile of 5000 circles and never-turning boxes", 600, BENCHMARK, seed::seed_pile_5000),
     entry("seed_pile_20000", "A pile of 20,000 circles and never-turning boxes", 600, BENCHMARK, seed::seed_pile_20000),
     entry("seed_pile_turning_5000", "A pile of 5000 circles and boxes that turn", 600, BENCHMARK, seed::seed_pile_turning_5000),
-    entry("circles_10k", "A pile of 10,000 circles", 120, BENCHMARK, seed::circles_10k),
-    entry("circles_100k", "A pile of 100,000 circles", 120, BENCHMARK_HUGE, seed::circles_100k),
-    entry("circles_1m", "A pile of 1,000,000 circles", 120, BENCHMARK_HUGE, seed::circles_1m),
+    entry("circles_10k", "A pile of 10,000 circles", 120, SCALE, seed::circles_10k),
+    entry("circles_100k", "A pile of 100,000 circles", 120, SCALE_HUGE, seed::circles_100k),
+    entry("circles_1m", "A pile of 1,000,000 circles", 120, SCALE_HUGE, seed::circles_1m),
     entry("tiles", "500 movers walk in a platformer level", 600, &[tags::BENCHMARK, tags::SEEDED], level::tiles),
     entry("tile_map", "Balls and crates on hills and platforms of tiles, and a chain", 600, &[tags::SEEDED], level::tile_map),
     entry("stack", "A tower of crates", 600, SHOW, show::stack),
@@ -95,6 +98,18 @@ static ENTRIES: &[Entry] = &[
     entry("galton_board", "Balls fall through pegs into bins", 1200, SHOW, show::galton_board),
     entry("car", "A car drives over hills", 600, SHOW, show::car),
     entry("friction_ramp", "Crates of rising friction on a slope", 600, SHOW, show::friction_ramp),
+    entry("joints", "Every kind of joint, side by side", 600, SHOW, joints::joints),
+    entry("clockwork", "A motor, a train of wheels, and a rack that lifts a stack", 600, SHOW, joints::clockwork),
+    entry("breaking_bridge", "A bridge whose joints break under too much load", 600, SHOW, joints::breaking_bridge),
+    entry("bowl", "Shapes of every kind in a bowl drawn as a chain", 600, SHOW, features::bowl),
+    entry("changing", "A ball grows, a slope freezes, shelves come loose", 600, SHOW, features::changing),
+    entry("platforms", "Led platforms with cargo, and one-way planks", 600, SHOW, features::platforms),
+    entry("harbour", "Things float or sink, and a boat sails", 900, SHOW, features::harbour),
+    entry("blast", "Three explosions in a town of crates", 600, SHOW, features::blast),
+    entry("orbits", "Stones circle two planets", 600, SHOW, features::orbits),
+    entry("sorting", "Belts and gates sort parcels by their filters", 1200, SHOW, features::sorting),
+    entry("sensor_door", "A ball opens a door by a sensor", 600, SHOW, features::sensor_door),
+    entry("hero", "A character walks, climbs, jumps and rides", 900, SHOW, features::hero),
 ];
 
 /// All scenes.
@@ -108,6 +123,18 @@ pub fn all() -> &'static [Entry] {
 /// There is none of that name; the error has the nearest name.
 pub fn find(name: &str) -> Result<&'static Entry, UnknownScene> {
     ENTRIES.iter().find(|entry| entry.name == name).ok_or_else(|| UnknownScene::new(name))
+}
+
+/// The names of the scenes that a word stands for: a scene's own name, or a tag for all scenes that have it.
+/// Huge ones come only with the tags [`tags::HUGE`] and [`tags::SCALE`].
+///
+/// # Errors
+/// It is neither.
+pub fn resolve(word: &str) -> Result<Vec<&'static str>, UnknownScene> {
+    let huge_too = [tags::HUGE, tags::SCALE].contains(&word);
+    let tagged = all().iter().filter(|e| e.has_tag(word) && (huge_too || !e.has_tag(tags::HUGE)));
+    let names: Vec<_> = tagged.map(|entry| entry.name).collect();
+    if names.is_empty() { find(word).map(|entry| vec![entry.name]) } else { Ok(names) }
 }
 
 /// There is no scene of this name.
@@ -176,6 +203,16 @@ mod tests {
         assert_eq!(meant(""), None);
         let message = find("dominoes").unwrap_err().to_string();
         assert_eq!(message, "there is no scene `dominoes`; did you mean `domino`?");
+    }
+
+    #[test]
+    fn words_stand_for_scenes() {
+        assert_eq!(resolve("tumbler"), Ok(vec!["tumbler"]));
+        assert_eq!(resolve(tags::SCALE), Ok(vec!["circles_10k", "circles_100k", "circles_1m"]));
+        let benchmark = resolve(tags::BENCHMARK).unwrap();
+        assert!(benchmark.contains(&"rain") && benchmark.contains(&"sleep"));
+        assert!(benchmark.contains(&"circles_10k") && !benchmark.contains(&"circles_1m"));
+        assert_eq!(resolve("tumbler2").unwrap_err().nearest, Some("tumbler"));
     }
 
     #[test]

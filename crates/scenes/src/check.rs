@@ -70,7 +70,7 @@ fn check_shape_def(def: &ShapeDef) -> Check {
     def.one_way.map_or(Ok(()), |direction| finite_vec("one_way", direction))
 }
 
-fn check_material(material: &Material) -> Check {
+pub(crate) fn check_material(material: &Material) -> Check {
     not_negative("density", material.density)?;
     not_negative("friction", material.friction)?;
     not_negative("restitution", material.restitution)?;
@@ -79,7 +79,7 @@ fn check_material(material: &Material) -> Check {
 }
 
 /// The engine says what is wrong with a shape; here the error finds its field.
-fn check_shape(shape: &Shape) -> Check {
+pub(crate) fn check_shape(shape: &Shape) -> Check {
     let Err(error) = shape.validate() else { return Ok(()) };
     let (variant, fields): (_, &[&str]) = match shape {
         Shape::Circle { .. } => ("circle", &["radius"]),
@@ -122,7 +122,7 @@ pub(crate) fn check_joint(def: &JointDef) -> Check {
         .map_err(|e| e.under("break_at"))
 }
 
-/// Kinds that this crate does not know are left to the engine.
+/// The engine checks the kinds whose fields are not named here; its message names the number.
 fn check_kind(kind: &JointKind) -> Check {
     match kind {
         JointKind::Distance { length, spring, limits, motor } => positive("length", *length)
@@ -133,7 +133,10 @@ fn check_kind(kind: &JointKind) -> Check {
                 .and_then(|()| check_parts(spring.as_ref(), limits.as_ref(), motor.as_ref()))
                 .map_err(|e| e.under("revolute"))
         }
-        _ => Ok(()),
+        other => match JointDef::new(*other).validate() {
+            Err(error) => Err(SceneError::new("", Problem::Value(error))),
+            Ok(()) => Ok(()),
+        },
     }
 }
 

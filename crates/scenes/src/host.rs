@@ -1,14 +1,14 @@
 //! What a scene is played on: any engine that can do this little.
 
 use crate::scene::Scene;
-use crate::script::Running;
-use tiny_physics::{DVec2, JointDef, RigidBody, Vec2};
+use crate::script::{Deed, Running};
+use tiny_physics::{CharacterMover, DVec2, JointDef, MoverInput, RigidBody, Vec2};
 
 /// An engine's world, seen by a scene and its script.
 ///
 /// Bodies and joints go by a number of the host's choice, which stays the same until the body or joint
-/// is removed. A removed body takes its joints with it. Queries have default answers ("nothing there"):
-/// a host that lacks them plays every scene all the same.
+/// is removed. A removed body takes its joints with it. Queries have default answers ("nothing there") and
+/// deeds are left undone: a host that lacks them plays every scene all the same.
 pub trait Host {
     /// Adds a body; its number.
     fn add_body(&mut self, body: &RigidBody) -> usize;
@@ -51,6 +51,17 @@ pub trait Host {
     fn count_overlaps(&mut self, _lower: Vec2, _upper: Vec2, _mask: u64) -> usize {
         0
     }
+
+    /// Does what a timeline asks for before the next step, which begins at `time` and is `dt` long, seconds.
+    fn act(&mut self, _deed: &Deed, _time: f32, _dt: f32) {}
+
+    /// Does a sensor of this body see anything?
+    fn is_entered(&mut self, _body: usize) -> bool {
+        false
+    }
+
+    /// Moves a character on by `dt` seconds, and the body that shows it along.
+    fn walk(&mut self, _hero: &mut CharacterMover, _body: usize, _input: MoverInput, _dt: f32) {}
 }
 
 /// A scene that runs on a host.
@@ -103,7 +114,7 @@ impl<H: Host> Player<H> {
                 joints.push(host.add_joint(a, b, &joint.def));
             }
         }
-        let running = scene.script.as_ref().map(|script| script.start(&bodies));
+        let running = scene.script.as_ref().map(|script| script.start(&bodies, scene.dt));
         Self { host, bodies, joints, running, steps_done: 0, steps: scene.steps, dt: scene.dt }
     }
 

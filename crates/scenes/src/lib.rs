@@ -30,11 +30,12 @@ mod shapes;
 mod world_host;
 
 pub use build::Options;
-pub use catalogue::{Entry, UnknownScene, all, find, tags};
+pub use catalogue::{Entry, UnknownScene, all, find, resolve, tags};
 pub use churn::{Churn, ChurnCounts};
 pub use error::{Problem, SceneError};
 pub use golden::{Golden, golden, run_hash};
 pub use host::{Host, Player};
 pub use scene::{Counts, Scene, SceneJoint, VERSION};
+pub use script::{Act, Deed, Hero, Pull, Timeline, Walk, When, lead_progress};
 pub use script::{Queries, Rain, Script, Terrain, WakeSleepers, Walkers};
 pub use world_host::{Run, WorldHost};

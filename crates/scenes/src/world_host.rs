@@ -2,9 +2,11 @@
 
 use crate::host::{Host, Player};
 use crate::scene::Scene;
+use crate::script::{Deed, Pull, lead_progress};
 use tiny_physics::{
-    Aabb, BodyId, DVec2, Error, JointDef, JointId, QueryFilter, RigidBody, Rot, Settings, Shape,
-    Transform, Vec2, World,
+    Aabb, BodyId, BodyMut, CharacterMover, DVec2, Error, Explosion, ForceZone, JointDef, JointId,
+    MoverInput, Pose, QueryFilter, RigidBody, Rot, Settings, Shape, ShapeId, Transform, Vec2,
+    Water, Wind, World, ZoneForce,
 };
 
 /// A scene that runs in a [`World`].
@@ -87,6 +89,92 @@ impl WorldHost {
     /// The first thing that the world refused.
     pub fn error(&self) -> Option<&Error> {
         self.error.as_ref()
+    }
+
+    fn body_mut(&mut self, body: usize) -> Option<BodyMut<'_>> {
+        self.body_id(body).and_then(|id| self.world.body_mut(id))
+    }
+
+    /// Does what is done to a place; `None` for what is done to a body.
+    fn act_on_place(&mut self, deed: &Deed, dt: f32) -> Option<()> {
+        let all = QueryFilter::new();
+        match *deed {
+            Deed::Explode { center, radius, falloff, impulse_per_metre } => {
+                let center = center.into();
+                let blast = Explosion { center, radius, falloff, impulse_per_metre };
+                self.world.explode(&blast, &all);
+            }
+            Deed::Water { surface, between, density, flow } => {
+                let area = between.map(|(left, right)| Aabb {
+                    min: Vec2::new(left, f32::MIN),
+                    max: Vec2::new(right, f32::MAX),
+                });
+                let surface = DVec2::new(0.0, surface.into());
+                let water = Water { surface, density, flow, area, ..Water::default() };
+                self.world.apply_water(&water, &all, dt);
+            }
+            Deed::Zone { shape, position, force } => {
+                let pose = Pose::new(position.into(), Rot::IDENTITY);
+                let force = match force {
+                    Pull::Along(acceleration) => ZoneForce::Acceleration(acceleration),
+                    Pull::Inwards(acceleration) => {
+                        ZoneForce::Attraction { center: position.into(), acceleration }
+                    }
+                    Pull::Slow(linear, angular) => ZoneForce::Damping { linear, angular },
+                };
+                self.world.apply_zone(&ForceZone { shape, pose, force, wakes: true }, &all, dt);
+            }
+            _ => return None,
+        }
+        Some(())
+    }
+
+    /// Does what is done to a body; nothing where it has been removed.
+    fn act_on_body(&mut self, deed: &Deed, time: f32, dt: f32) -> Result<(), Error> {
+        match *deed {
+            Deed::SetVelocity { body, velocity, angular_velocity } => {
+                let Some(mut body) = self.body_mut(body) else { return Ok(()) };
+                body.set_velocity(velocity);
+                body.set_angular_velocity(angular_velocity);
+            }
+            Deed::SetKind { body, kind } => {
+                let Some(mut body) = self.body_mut(body) else { return Ok(()) };
+                body.set_kind(kind);
+            }
+            Deed::SetShape { body, shape } => {
+                let first = self.shapes_of(body).first().copied();
+                let Some(mut first) = first.and_then(|id| self.world.shape_mut(id)) else {
+                    return Ok(());
+                };
+                first.set_shape(shape)?;
+            }
+            Deed::SetMaterial { body, material } => {
+                for id in self.shapes_of(body) {
+                    let shape = self.world.shape_mut(id);
+                    shape.map_or(Ok(()), |mut shape| shape.set_material(material))?;
+                }
+            }
+            Deed::Lead { body, from, to, turn, period } => {
+                let done = lead_progress(time + dt, period);
+                let target = Transform::from_angle(from + (to - from) * done, turn * done);
+                let Some(mut body) = self.body_mut(body) else { return Ok(()) };
+                body.set_target(target, dt);
+            }
+            Deed::Wind { body, velocity } => {
+                let Some(mut body) = self.body_mut(body) else { return Ok(()) };
+                body.apply_wind(&Wind { velocity, ..Wind::default() }, dt);
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// The shapes of a body in the order in which it was described.
+    fn shapes_of(&self, body: usize) -> Vec<ShapeId> {
+        let body = self.body_id(body).and_then(|id| self.world.body(id));
+        let mut shapes: Vec<ShapeId> = body.map_or(Vec::new(), |body| body.shapes().collect());
+        shapes.sort_unstable_by_key(|id| id.index());
+        shapes
     }
 
     /// Keeps the first error.
@@ -182,5 +270,27 @@ impl Host for WorldHost {
     fn count_overlaps(&mut self, lower: Vec2, upper: Vec2, mask: u64) -> usize {
         let filter = QueryFilter::default().mask(mask);
         self.world.overlap_aabb(Aabb { min: lower, max: upper }, &filter).len()
+    }
+
+    fn act(&mut self, deed: &Deed, time: f32, dt: f32) {
+        let result = match self.act_on_place(deed, dt) {
+            Some(()) => Ok(()),
+            None => self.act_on_body(deed, time, dt),
+        };
+        self.keep(result);
+    }
+
+    fn is_entered(&mut self, body: usize) -> bool {
+        let Some(body) = self.body_id(body).and_then(|id| self.world.body(id)) else {
+            return false;
+        };
+        body.shapes().any(|shape| self.world.sensor_overlaps(shape).next().is_some())
+    }
+
+    fn walk(&mut self, hero: &mut CharacterMover, body: usize, input: MoverInput, dt: f32) {
+        hero.update(&mut self.world, input, dt);
+        if let Some(mut body) = self.body_mut(body) {
+            body.set_position(hero.position);
+        }
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use tiny_physics::{ChainLink, JointDef, Locks, RigidBody, Shape, ShapeDef, Vec2};
-use tiny_physics_scenes::{Options, Problem, Scene, SceneJoint, all, find, tags};
+use tiny_physics_scenes::{Options, Problem, Scene, SceneJoint, Script, all, find, tags};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
@@ -219,19 +219,51 @@ fn the_schema_knows_every_field() {
     assert_eq!(keys(shape.material), schema_keys(&schema, "/$defs/shape_def/properties/material"));
     assert_eq!(keys(shape.filter), schema_keys(&schema, "/$defs/shape_def/properties/filter"));
     assert_eq!(keys(joint), schema_keys(&schema, "/$defs/joint"));
-    for (kind, joint) in [("distance", JointDef::distance(1.0)), ("revolute", JointDef::revolute())]
-    {
+    let joints = [
+        ("distance", JointDef::distance(1.0)),
+        ("revolute", JointDef::revolute()),
+        ("prismatic", JointDef::prismatic(Vec2::Y)),
+        ("weld", JointDef::weld()),
+        ("wheel", JointDef::wheel(Vec2::Y)),
+        ("motor", JointDef::drive()),
+        ("mouse", JointDef::mouse(Vec2::ZERO, 1.0)),
+        ("pulley", JointDef::pulley(Vec2::ZERO, Vec2::X, 1.0)),
+        ("gear", JointDef::gear(1.0)),
+    ];
+    for (kind, joint) in joints {
         let value = serde_json::to_value(joint.kind).unwrap();
         let path = format!("/$defs/joint_kind/properties/{kind}");
         assert_eq!(keys(&value[kind]), schema_keys(&schema, &path), "{kind}");
     }
-    for name in ["rain", "sleep", "tiles", "tile_world", "queries"] {
+    for name in ["rain", "sleep", "tiles", "tile_world", "queries", "hero"] {
         scene.script = find(name).unwrap().build(Options::default().size(1)).script;
         let value = serde_json::to_value(&scene.script).unwrap();
         let (kind, parameters) = value.as_object().unwrap().iter().next().unwrap();
         let path = format!("/$defs/script/properties/{kind}");
         assert_eq!(keys(parameters), schema_keys(&schema, &path), "{kind}");
     }
+}
+
+/// Every deed of the shipped scenes has the fields that the schema says, and every deed has a scene.
+#[test]
+fn the_schema_knows_every_deed() {
+    let text = fs::read_to_string(folder().join("scene.schema.json")).unwrap();
+    let schema: Value = serde_json::from_str(&text).unwrap();
+    let mut seen = BTreeSet::new();
+    for entry in all().iter().filter(|e| e.has_tag(tags::SHOW)) {
+        let Some(Script::Timeline(line)) = entry.build(Options::default()).script else { continue };
+        for act in &line.acts {
+            let deed = serde_json::to_value(&act.deed).unwrap();
+            let (name, fields) = deed.as_object().unwrap().iter().next().unwrap();
+            let known = schema_keys(&schema, &format!("/$defs/deed/properties/{name}"));
+            assert_eq!(keys(fields), known, "{name}");
+            seen.insert(name.clone());
+        }
+        if let Some(hero) = &line.hero {
+            assert_eq!(keys(hero), schema_keys(&schema, "/$defs/hero"));
+        }
+    }
+    assert_eq!(seen, schema_keys(&schema, "/$defs/deed"), "each is in a scene");
 }
 
 /// The JSON texts of the page are what the page says.

@@ -89,12 +89,36 @@ struct Readme;
 /// The pages of the guide: their examples are tests.
 #[cfg(doctest)]
 mod guide {
-    #[doc = include_str!("../../../docs/guide/queries.md")]
-    mod queries {}
-    #[doc = include_str!("../../../docs/guide/events.md")]
-    mod events {}
+    #[doc = include_str!("../../../docs/guide/bodies.md")]
+    mod bodies {}
     #[doc = include_str!("../../../docs/guide/changes-and-hooks.md")]
     mod changes_and_hooks {}
+    #[doc = include_str!("../../../docs/guide/character.md")]
+    mod character {}
+    #[doc = include_str!("../../../docs/guide/coming-from-box2d.md")]
+    mod coming_from_box2d {}
+    #[doc = include_str!("../../../docs/guide/coming-from-rapier.md")]
+    mod coming_from_rapier {}
+    #[doc = include_str!("../../../docs/guide/debug-drawing.md")]
+    mod debug_drawing {}
+    #[doc = include_str!("../../../docs/guide/events.md")]
+    mod events {}
+    #[doc = include_str!("../../../docs/guide/filters-and-sensors.md")]
+    mod filters_and_sensors {}
+    #[doc = include_str!("../../../docs/guide/first-steps.md")]
+    mod first_steps {}
     #[doc = include_str!("../../../docs/guide/forces.md")]
     mod forces {}
+    #[doc = include_str!("../../../docs/guide/joints.md")]
+    mod joints {}
+    #[doc = include_str!("../../../docs/guide/performance.md")]
+    mod performance {}
+    #[doc = include_str!("../../../docs/guide/queries.md")]
+    mod queries {}
+    #[doc = include_str!("../../../docs/guide/saving.md")]
+    mod saving {}
+    #[doc = include_str!("../../../docs/guide/shapes.md")]
+    mod shapes {}
+    #[doc = include_str!("../../../docs/guide/troubleshooting.md")]
+    mod troubleshooting {}
 }

@@ -13,5 +13,5 @@ mod run;
 pub use clock::{mean, percentile};
 pub use engine::{BodyState, Engine, Summary};
 pub use protocol::{Answer, Job, Report};
-pub use run::{resolve, serve};
-pub use tiny_physics_scenes::Host;
+pub use run::serve;
+pub use tiny_physics_scenes::{Host, resolve};

@@ -7,7 +7,7 @@
 use crate::clock::{Stopwatch, mean, peak_mib, percentile};
 use crate::{Answer, Engine, Job, Report};
 use std::time::Instant;
-use tiny_physics_scenes::{Options, Player, all, find, tags};
+use tiny_physics_scenes::{Options, Player, find};
 
 /// Reads one job from standard input, runs it in the engine `E`, and prints the answer.
 pub fn serve<E: Engine>() {
@@ -25,21 +25,6 @@ fn read_job() -> Result<Job, String> {
         .read_line(&mut line)
         .map_err(|error| format!("cannot read the job: {error}"))?;
     serde_json::from_str(&line).map_err(|error| format!("cannot understand the job: {error}"))
-}
-
-/// The names of the scenes that a word stands for: a scene's own name, or a tag such as `box2d`,
-/// `benchmark` or `show` for all scenes with it but the huge ones.
-///
-/// # Errors
-/// It is neither.
-pub fn resolve(word: &str) -> Result<Vec<&'static str>, String> {
-    let tagged =
-        all().iter().filter(|e| e.has_tag(word) && (word == tags::HUGE || !e.has_tag(tags::HUGE)));
-    let names: Vec<_> = tagged.map(|entry| entry.name).collect();
-    if !names.is_empty() {
-        return Ok(names);
-    }
-    find(word).map(|entry| vec![entry.name]).map_err(|error| error.to_string())
 }
 
 fn run<E: Engine>(job: &Job) -> Result<Report, String> {

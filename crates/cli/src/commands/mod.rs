@@ -1,5 +1,7 @@
 //! One file a command.
 
+mod bench;
+mod bench_figures;
 mod demo;
 mod list;
 mod player;
@@ -23,6 +25,7 @@ pub fn run(cli: Cli) -> Outcome {
         Some(Command::Demo(args)) => demo::run(&args),
         Some(Command::List(args)) => list::run(&args),
         Some(Command::Run(args)) => run::run(&args),
+        Some(Command::Bench(args)) => bench::run(&args),
         Some(Command::Quality(args)) => quality::run(&args),
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::View(args)) => view::run(&args),

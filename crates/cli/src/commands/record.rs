@@ -7,8 +7,10 @@ use std::fs;
 use std::io::{Write, stdout};
 use std::path::Path;
 use tiny_physics::record::{Command, Made, Player, Recorder, Recording};
-use tiny_physics::{BodyId, DVec2, Error, JointDef, JointId, RigidBody, Vec2, World};
-use tiny_physics_scenes::{Host, Player as ScenePlayer};
+use tiny_physics::{
+    BodyId, CharacterMover, DVec2, Error, JointDef, JointId, MoverInput, RigidBody, Vec2, World,
+};
+use tiny_physics_scenes::{Deed, Host, Player as ScenePlayer};
 
 /// Runs a scene and writes what was done.
 ///
@@ -162,5 +164,15 @@ impl Host for RecordingHost {
 
     fn step(&mut self, dt: f32) {
         self.recorder.step(dt);
+    }
+
+    fn act(&mut self, _: &Deed, _: f32, _: f32) {
+        let reason = "a recording holds no deeds of a timeline";
+        self.error.get_or_insert(Error::Unsupported { reason });
+    }
+
+    fn walk(&mut self, _: &mut CharacterMover, _: usize, _: MoverInput, _: f32) {
+        let reason = "a recording holds no character";
+        self.error.get_or_insert(Error::Unsupported { reason });
     }
 }

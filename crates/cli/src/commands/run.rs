@@ -32,11 +32,11 @@ struct Report {
 
 /// Milliseconds a step over a run.
 #[derive(Serialize, Clone, Copy, PartialEq, Debug, Default)]
-struct Times {
-    mean: f64,
-    median: f64,
-    p99: f64,
-    max: f64,
+pub(super) struct Times {
+    pub(super) mean: f64,
+    pub(super) median: f64,
+    pub(super) p99: f64,
+    pub(super) max: f64,
 }
 
 /// Runs the scene and prints the report.
@@ -109,7 +109,7 @@ fn report(
 }
 
 impl Times {
-    fn of(mut milliseconds: Vec<f64>) -> Self {
+    pub(super) fn of(mut milliseconds: Vec<f64>) -> Self {
         milliseconds.sort_by(f64::total_cmp);
         let count = milliseconds.len();
         // The smallest value that at least this part of all values does not exceed.

@@ -41,7 +41,7 @@ pub(crate) fn tiles(options: Options) -> Scene {
 
 /// Balls and crates on hills, stairs and platforms of a tile map, beside a chain; size is their number.
 pub(crate) fn tile_map(options: Options) -> Scene {
-    let count = options.size_or(24, 2000);
+    let count = options.size_or(60, 2000);
     let mut random = Random::new(options.seed);
     let mut scene =
         Scene::new("tile_map", "Balls and crates roll over tiles and slide on a chain.");
@@ -77,12 +77,12 @@ const MAP: [&str; 9] = [
     "#.......................................",
     "#.......................................",
     "#..........----..............lhHL.......",
-    "#\\...........................##........",
+    "#\\..........................####.......",
     "##\\................/\\..................",
     "###HL...........lh##\\........_____.....",
     "#####HL......lh######\\.............../#",
-    "#######HL__lh##########HL..__....lh####.",
-    "#######################################.",
+    "#######HL__lh##########HL..__....lh#####",
+    "########################################",
 ];
 
 /// Movers start in the free rows over the floors, spread over the level.

@@ -1,6 +1,8 @@
 //! Builders of the scenes, one file a family.
 
 pub(crate) mod benchmark;
+pub(crate) mod features;
+pub(crate) mod joints;
 pub(crate) mod level;
 pub(crate) mod seed;
 pub(crate) mod show;

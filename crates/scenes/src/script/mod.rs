@@ -1,15 +1,19 @@
 //! What happens to a scene from outside while it runs: plain data in the scene file, played on any
 //! [`Host`].
 
+mod deed;
 mod queries;
 mod rain;
 mod terrain;
+mod timeline;
 mod wake;
 mod walkers;
 
+pub use deed::{Deed, Pull, lead_progress};
 pub use queries::Queries;
 pub use rain::Rain;
 pub use terrain::Terrain;
+pub use timeline::{Act, Hero, Timeline, Walk, When};
 pub use wake::WakeSleepers;
 pub use walkers::Walkers;
 
@@ -33,6 +37,8 @@ pub enum Script {
     Terrain(Terrain),
     /// A paddle moves and many questions are asked of the world.
     Queries(Queries),
+    /// Things are done at their times, and a character walks.
+    Timeline(Timeline),
 }
 
 impl Script {
@@ -45,17 +51,19 @@ impl Script {
             Self::Walkers(walkers) => walkers.check(bodies).map_err(|e| e.under("walkers")),
             Self::Terrain(terrain) => terrain.check(bodies).map_err(|e| e.under("terrain")),
             Self::Queries(queries) => queries.check(bodies).map_err(|e| e.under("queries")),
+            Self::Timeline(line) => line.check(bodies).map_err(|e| e.under("timeline")),
         }
     }
 
-    /// Begins to play it; `bodies` are the host's numbers of the scene's bodies.
-    pub(crate) fn start(&self, bodies: &[usize]) -> Running {
+    /// Begins to play it; `bodies` are the host's numbers of the scene's bodies, `dt` is the scene's step.
+    pub(crate) fn start(&self, bodies: &[usize], dt: f32) -> Running {
         match self {
             Self::Rain(rain) => Running::Rain(rain.start()),
             Self::WakeSleepers(wake) => Running::Wake(wake.start(bodies)),
             Self::Walkers(walkers) => Running::Walkers(walkers.start(bodies)),
             Self::Terrain(terrain) => Running::Terrain(terrain.start(bodies)),
             Self::Queries(queries) => Running::Queries(queries.start(bodies)),
+            Self::Timeline(timeline) => Running::Timeline(timeline.start(bodies, dt)),
         }
     }
 }
@@ -68,6 +76,7 @@ pub(crate) enum Running {
     Walkers(walkers::Walking),
     Terrain(terrain::Streaming),
     Queries(queries::Asking),
+    Timeline(timeline::Happening),
 }
 
 impl Running {
@@ -79,6 +88,7 @@ impl Running {
             Self::Walkers(walkers) => walkers.before_step(host, step),
             Self::Terrain(terrain) => terrain.before_step(host, step),
             Self::Queries(queries) => queries.before_step(host),
+            Self::Timeline(timeline) => timeline.before_step(host, step),
         }
     }
 }

@@ -1,5 +1,5 @@
-//! A character walks through a level: `cargo run --example mover` shows the scripted run as text,
-//! `cargo run --example mover -- play` reads keys from lines: `d` right, `a` left, `w` jump, `s` through a
+//! A character walks through a level: `cargo run -p tiny-physics --example mover` shows the scripted run as text,
+//! `cargo run -p tiny-physics --example mover -- play` reads keys from lines: `d` right, `a` left, `w` jump, `s` through a
 //! one-way platform, `q` quit; each letter is a fifth of a second.
 
 mod level;

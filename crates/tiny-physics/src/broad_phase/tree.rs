@@ -12,7 +12,8 @@
 use super::boxes::{Boxes, WIDTH};
 use super::stack::Stack;
 use super::{BoxCast, NONE, clamped};
-use crate::codec::data;
+use crate::codec::{Data, Reader, Sink, data};
+use crate::error::Error;
 use crate::math::Aabb;
 use core::ops::ControlFlow;
 
@@ -42,10 +43,10 @@ impl Node {
 }
 
 data!(Node { category, child, parent, lane, level, count });
-data!(DynamicTree { boxes, nodes, places, root, free, count, changes, built_cost });
+data!(DynamicTree { boxes, nodes, places, root, free, count, changes, built_cost, spare });
 
 /// A child with its box: what is moved about when nodes are cut and built.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Branch {
     aabb: Aabb,
     category: u64,
@@ -83,6 +84,19 @@ pub struct DynamicTree {
     changes: usize,
     /// [`cost`](Self::cost) after the last rebuild.
     built_cost: f32,
+    spare: Spare,
+}
+
+/// Memory for rebuilding; empty otherwise, and no part of what a tree is.
+#[derive(Debug, Default)]
+struct Spare(Vec<Branch>);
+
+impl Data for Spare {
+    fn save(&self, _: &mut impl Sink) {}
+
+    fn load(_: &mut Reader<'_>) -> Result<Self, Error> {
+        Ok(Self::default())
+    }
 }
 
 impl Default for DynamicTree {
@@ -97,6 +111,7 @@ impl Clone for DynamicTree {
             boxes: self.boxes.clone(),
             nodes: self.nodes.clone(),
             places: self.places.clone(),
+            spare: Spare::default(),
             ..*self
         }
     }
@@ -122,6 +137,7 @@ impl DynamicTree {
             count: 0,
             changes: 0,
             built_cost: 0.0,
+            spare: Spare(Vec::new()),
         }
     }
 
@@ -336,7 +352,8 @@ impl DynamicTree {
 
     /// Builds the tree anew, top down, by halving along the longer side of the boxes' centres.
     pub fn rebuild(&mut self) {
-        let mut branches = Vec::with_capacity(self.count);
+        let mut branches = core::mem::take(&mut self.spare.0);
+        branches.reserve(self.count);
         for id in 0..self.places.len() as u32 {
             if let Some((node, lane)) = self.place(id) {
                 branches.push(self.branch(node, lane));
@@ -352,6 +369,8 @@ impl DynamicTree {
             }
             self.root = self.build(&mut branches, level);
         }
+        branches.clear();
+        self.spare.0 = branches;
         self.changes = 0;
         self.built_cost = self.cost();
     }

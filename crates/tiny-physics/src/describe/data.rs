@@ -14,6 +14,7 @@ data_enum!(Mix { 0 => GeometricMean, 1 => Average, 2 => Min, 3 => Max, 4 => Mult
 data!(Settings {
     substeps,
     iterations,
+    refine_up_to,
     length_unit,
     contact_hertz,
     contact_damping_ratio,

@@ -1,6 +1,7 @@
 //! Bodies: hot rows for the solver, poses, and everything else.
 
 use super::clone::{Serial, clone_by_field};
+use super::pace::PLAIN;
 use crate::codec::data;
 use crate::describe::{BodyKind, Locks};
 use crate::math::{DVec2, Pose, Rot, Vec2};
@@ -50,6 +51,8 @@ pub(crate) struct BodyInfo {
     pub(crate) can_sleep: bool,
     /// Some shape of the body turns with nothing: rotation is locked for good.
     pub(crate) never_turns: bool,
+    /// How finely its island is solved, see [`pace`](super::pace).
+    pub(crate) pace: u8,
     pub(crate) locks: Locks,
     pub(crate) force: Vec2,
     pub(crate) torque: f32,
@@ -97,6 +100,7 @@ impl Default for BodyInfo {
             bullet: false,
             can_sleep: true,
             never_turns: false,
+            pace: PLAIN as u8,
             locks: Locks::default(),
             generation: 0,
             local_center: Vec2::ZERO,
@@ -251,6 +255,21 @@ impl Bodies {
     #[inline]
     pub(crate) fn is_dynamic(&self, index: u32) -> bool {
         self.infos[index as usize].kind == BodyKind::Dynamic
+    }
+
+    /// Do two dynamic bodies have different paces? The next step brings them in line.
+    #[inline]
+    pub(crate) fn are_mixed(&self, a: u32, b: u32) -> bool {
+        let (a, b) = (&self.infos[a as usize], &self.infos[b as usize]);
+        let dynamic = a.kind == BodyKind::Dynamic && b.kind == BodyKind::Dynamic;
+        dynamic && a.pace != b.pace
+    }
+
+    /// The pace at which what joins two bodies is solved.
+    #[inline]
+    pub(crate) fn common_pace(&self, a: u32, b: u32) -> usize {
+        let dynamic = if self.is_dynamic(a) { a } else { b };
+        if self.is_dynamic(dynamic) { self.infos[dynamic as usize].pace.into() } else { PLAIN }
     }
 
     /// Linear velocity of the centre of mass.

@@ -14,6 +14,7 @@ use super::blocks::{BlockHead, ConstraintBlock, ManifoldBlock, SurfaceBlock, fla
 use super::bodies::Bodies;
 use super::clone::clone_by_field;
 use super::contacts::{Contact, Contacts, Place, SavedPoint};
+use super::pace::PACES;
 use crate::codec::{Data, Reader, Sink};
 use crate::error::Error;
 use crate::geometry::manifold::PairClass;
@@ -21,10 +22,20 @@ use crate::simd::BLOCK;
 
 /// Number of colours.
 pub(crate) const COLOURS: usize = 24;
-/// Index of the overflow among the colours.
-pub(crate) const OVERFLOW: usize = COLOURS;
-/// Index of the contacts that do not touch.
-pub(crate) const IDLE: usize = COLOURS + 1;
+/// Places of one pace: its colours and, last, its overflow.
+const PER_PACE: usize = COLOURS + 1;
+/// Place of the contacts that do not touch, after those of all paces.
+pub(crate) const IDLE: usize = PER_PACE * PACES;
+
+/// The colour at a place below [`IDLE`], or [`COLOURS`] for an overflow.
+pub(crate) fn colour_at(place: usize) -> usize {
+    place % PER_PACE
+}
+
+/// The pace of a place below [`IDLE`].
+pub(crate) fn pace_at(place: usize) -> usize {
+    place / PER_PACE
+}
 
 /// Contacts of one colour and class.
 #[derive(Debug, PartialEq, Default)]
@@ -190,15 +201,21 @@ pub(crate) struct Graph {
     touching: usize,
     /// Blocks that got a touching contact since the last narrow phase.
     fresh: Vec<BlockAddress>,
+    /// A contact has come in that joins bodies of different paces.
+    pub(crate) mixed: bool,
+    /// Contacts between dynamic bodies that have come in since the paces were last assigned.
+    pub(crate) news: u32,
 }
 
-clone_by_field!(Graph { buckets, touching, fresh });
+clone_by_field!(Graph { buckets, touching, fresh, mixed, news });
 
 impl Data for Graph {
     fn save(&self, sink: &mut impl Sink) {
         // Fresh blocks are those of the step at work.
-        let Self { buckets, touching: _, fresh: _ } = self;
+        let Self { buckets, touching: _, fresh: _, mixed, news } = self;
         buckets.iter().flatten().for_each(|bucket| bucket.save(sink));
+        mixed.save(sink);
+        news.save(sink);
     }
 
     fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
@@ -206,6 +223,8 @@ impl Data for Graph {
         for bucket in graph.buckets.iter_mut().flatten() {
             *bucket = Data::load(reader)?;
         }
+        graph.mixed = Data::load(reader)?;
+        graph.news = Data::load(reader)?;
         let coloured = graph.buckets[..IDLE].iter().flatten();
         graph.touching = coloured.map(|bucket| bucket.contacts.len()).sum();
         Ok(graph)
@@ -218,6 +237,8 @@ impl Graph {
             buckets: (0..=IDLE).map(|_| Default::default()).collect(),
             touching: 0,
             fresh: Vec::new(),
+            mixed: false,
+            news: 0,
         }
     }
 
@@ -231,13 +252,15 @@ impl Graph {
         self.touching
     }
 
-    /// Lists the buckets that the solver has to visit, in its order: the overflow, then colour by colour.
-    pub(crate) fn list_occupied(&self, occupied: &mut Vec<(usize, PairClass)>) {
+    /// Lists the buckets of a pace that the solver has to visit, in its order: the overflow, then colour by
+    /// colour.
+    pub(crate) fn list_occupied(&self, pace: usize, occupied: &mut Vec<(usize, PairClass)>) {
         occupied.clear();
-        for colour in core::iter::once(OVERFLOW).chain(0..COLOURS) {
-            for (bucket, class) in self.buckets[colour].iter().zip(PairClass::ALL) {
+        for colour in core::iter::once(COLOURS).chain(0..COLOURS) {
+            let place = pace * PER_PACE + colour;
+            for (bucket, class) in self.buckets[place].iter().zip(PairClass::ALL) {
                 if !bucket.contacts.is_empty() {
-                    occupied.push((colour, class));
+                    occupied.push((place, class));
                 }
             }
         }
@@ -249,7 +272,10 @@ impl Graph {
         debug_assert_eq!(contact.place, Place::Asleep);
         let colour = if contact.touching {
             self.touching += 1;
-            take_colour(bodies, contact.body_a, contact.body_b)
+            let (a, b) = (contact.body_a, contact.body_b);
+            self.mixed |= bodies.are_mixed(a, b);
+            self.news += u32::from(bodies.is_dynamic(a) && bodies.is_dynamic(b));
+            bodies.common_pace(a, b) * PER_PACE + take_colour(bodies, a, b)
         } else {
             IDLE
         };
@@ -261,20 +287,24 @@ impl Graph {
         }
     }
 
-    /// Forgets which blocks are fresh: the narrow phase is about to visit all.
+    /// Forgets which blocks are fresh: the narrow phase has visited them, or is about to visit all.
     pub(crate) fn clear_fresh(&mut self) {
         self.fresh.clear();
     }
 
-    /// The blocks whose constraints are not written yet: colour, class, block. Each once, in order.
-    pub(crate) fn take_fresh(&mut self) -> Vec<BlockAddress> {
-        let mut fresh = core::mem::take(&mut self.fresh);
+    /// Sorts the blocks whose constraints are not written yet, and drops those that are no longer there.
+    pub(crate) fn sort_fresh(&mut self) {
+        let Self { buckets, fresh, .. } = self;
         fresh.sort_unstable();
         fresh.dedup();
         fresh.retain(|&(colour, class, block)| {
-            (block as usize) < self.buckets[colour as usize][class as usize].manifolds.len()
+            (block as usize) < buckets[colour as usize][class as usize].manifolds.len()
         });
-        fresh
+    }
+
+    /// The blocks whose constraints are not written yet: colour, class, block.
+    pub(crate) fn fresh(&self) -> &[BlockAddress] {
+        &self.fresh
     }
 
     /// Takes a contact out of the graph, if it is there, and saves its impulses in the record.
@@ -291,7 +321,7 @@ impl Graph {
         }
         if colour != IDLE {
             self.touching -= 1;
-            give_colour_back(bodies, body_a, body_b, colour);
+            give_colour_back(bodies, body_a, body_b, colour_at(colour));
         }
     }
 }
@@ -305,7 +335,7 @@ fn take_colour(bodies: &mut Bodies, a: u32, b: u32) -> usize {
     };
     let free = !(used(dynamic_a, a) | used(dynamic_b, b)) & ALL;
     if free == 0 {
-        return OVERFLOW;
+        return COLOURS;
     }
     let colour = if dynamic_a && dynamic_b {
         free.trailing_zeros()
@@ -320,7 +350,7 @@ fn take_colour(bodies: &mut Bodies, a: u32, b: u32) -> usize {
 }
 
 fn give_colour_back(bodies: &mut Bodies, a: u32, b: u32, colour: usize) {
-    if colour == OVERFLOW {
+    if colour == COLOURS {
         return;
     }
     for i in [a, b] {

@@ -11,14 +11,15 @@ use super::joint_blocks::{
     PulleyBlock, RevoluteBlock, WeldBlock, WheelBlock,
 };
 use super::joints::{JointPlace, JointRecord, Joints};
+use super::pace::{PACES, PLAIN};
 use crate::codec::data;
 use crate::simd::BLOCK;
 use crate::threads::Team;
 
 /// Number of colours of joints.
 pub(crate) const JOINT_COLOURS: usize = 24;
-/// Index of the overflow among the colours.
-pub(crate) const JOINT_OVERFLOW: usize = JOINT_COLOURS;
+/// Places of one pace: its colours and, last, its overflow.
+pub(crate) const JOINT_PLACES: usize = JOINT_COLOURS + 1;
 
 /// Joints of one colour and class.
 #[derive(Debug, PartialEq)]
@@ -165,64 +166,75 @@ impl JointColour {
             + self.gear.joints.len()
     }
 
-    /// Works on all blocks in runs, spread over the team.
+    /// Works on all blocks class by class, in runs that the team shares out. A team of one, such as the
+    /// overflow wants, goes through them in order.
     pub(crate) fn for_each_run(&mut self, team: &Team, work: impl Fn(JointBlocks<'_>) + Sync) {
         /// Blocks that one member of the team works on at a time.
         const RUN: usize = 4;
-        if team.member_count() == 1 || self.count() <= RUN * BLOCK {
-            self.runs(usize::MAX).for_each(work);
-        } else {
-            let mut runs: Vec<_> = self.runs(RUN).map(Some).collect();
-            team.for_each_chunk_mut(&mut runs, 1, |_, runs| {
-                runs.iter_mut().filter_map(Option::take).for_each(&work);
-            });
+        let alone = team.member_count() == 1 || self.count() <= RUN * BLOCK;
+        let length = if alone { usize::MAX } else { RUN };
+        macro_rules! share_out {
+            ($($bucket:ident: $class:ident),*) => {
+                $(team.for_each_chunk_mut(&mut self.$bucket.blocks, length, |_, blocks| {
+                    work(JointBlocks::$class(blocks));
+                });)*
+            };
         }
-    }
-
-    /// Its blocks in runs of at most `length` blocks, always in the same order. Runs may be worked on
-    /// at once, except in the overflow.
-    pub(crate) fn runs(&mut self, length: usize) -> impl Iterator<Item = JointBlocks<'_>> {
-        let distance = self.distance.blocks.chunks_mut(length).map(JointBlocks::Distance);
-        let revolute = self.revolute.blocks.chunks_mut(length).map(JointBlocks::Revolute);
-        let prismatic = self.prismatic.blocks.chunks_mut(length).map(JointBlocks::Prismatic);
-        let weld = self.weld.blocks.chunks_mut(length).map(JointBlocks::Weld);
-        let wheel = self.wheel.blocks.chunks_mut(length).map(JointBlocks::Wheel);
-        let drive = self.drive.blocks.chunks_mut(length).map(JointBlocks::Drive);
-        let pulley = self.pulley.blocks.chunks_mut(length).map(JointBlocks::Pulley);
-        let gear = self.gear.blocks.chunks_mut(length).map(JointBlocks::Gear);
-        distance
-            .chain(revolute)
-            .chain(prismatic)
-            .chain(weld)
-            .chain(wheel)
-            .chain(drive)
-            .chain(pulley)
-            .chain(gear)
+        share_out!(
+            distance: Distance,
+            revolute: Revolute,
+            prismatic: Prismatic,
+            weld: Weld,
+            wheel: Wheel,
+            drive: Drive,
+            pulley: Pulley,
+            gear: Gear
+        );
     }
 }
 
 /// All colours and the overflow.
 #[derive(Debug, PartialEq)]
 pub(crate) struct JointGraph {
-    /// Colours, then the overflow.
+    /// For each pace: colours, then the overflow.
     pub(crate) colours: Vec<JointColour>,
-    /// Substep length that the lanes were described for, seconds.
+    /// Plain substep length that the lanes were described for, seconds.
     pub(crate) described_h: f32,
     /// Some block is stale.
     pub(crate) any_stale: bool,
     pub(crate) count: usize,
+    /// A joint has come in that joins bodies of different paces.
+    pub(crate) mixed: bool,
 }
 
-clone_by_field!(JointGraph { colours, described_h, any_stale, count });
-data!(JointGraph { colours, described_h, any_stale, count });
+clone_by_field!(JointGraph { colours, described_h, any_stale, count, mixed });
+data!(JointGraph { colours, described_h, any_stale, count, mixed });
 
 impl JointGraph {
     pub(crate) fn new() -> Self {
         Self {
-            colours: (0..=JOINT_OVERFLOW).map(|_| JointColour::default()).collect(),
+            colours: (0..JOINT_PLACES * PACES).map(|_| JointColour::default()).collect(),
             described_h: 0.0,
             any_stale: false,
             count: 0,
+            mixed: false,
+        }
+    }
+
+    /// The colours of a pace, in which joints may be worked on at once, and its overflow, in which they may
+    /// not.
+    pub(crate) fn of_pace(&mut self, pace: usize) -> (&mut [JointColour], &mut JointColour) {
+        let first = pace * JOINT_PLACES;
+        let places = &mut self.colours[first..first + JOINT_PLACES];
+        let (colours, overflow) = places.split_at_mut(JOINT_COLOURS);
+        (colours, &mut overflow[0])
+    }
+
+    /// The pace at which a joint is solved.
+    pub(crate) fn pace_of(&self, record: &JointRecord) -> usize {
+        match record.place {
+            JointPlace::Graph { colour, .. } => usize::from(colour) / JOINT_PLACES,
+            JointPlace::Asleep => PLAIN,
         }
     }
 
@@ -241,7 +253,9 @@ impl JointGraph {
         {
             return;
         }
-        let colour = take_colour(bodies, record.body_a, record.body_b);
+        let (a, b) = (record.body_a, record.body_b);
+        self.mixed |= bodies.are_mixed(a, b);
+        let colour = bodies.common_pace(a, b) * JOINT_PLACES + take_colour(bodies, a, b);
         let ends = [record.body_a, record.body_b];
         let slot = with_bucket!([&mut] self.colours[colour], class, bucket => {
             bucket.push(index, ends, &record.saved)
@@ -266,7 +280,7 @@ impl JointGraph {
         if let Some(moved) = moved {
             joints.records[moved as usize].place = JointPlace::Graph { colour, slot };
         }
-        give_colour_back(bodies, ends, usize::from(colour));
+        give_colour_back(bodies, ends, usize::from(colour) % JOINT_PLACES);
         self.count -= 1;
     }
 
@@ -329,7 +343,7 @@ fn take_colour(bodies: &mut Bodies, a: u32, b: u32) -> usize {
         |dynamic: bool, i: u32| if dynamic { bodies.infos[i as usize].joint_colours } else { 0 };
     let free = !(used(dynamic_a, a) | used(dynamic_b, b)) & ALL;
     if free == 0 {
-        return JOINT_OVERFLOW;
+        return JOINT_COLOURS;
     }
     let colour = if dynamic_a && dynamic_b {
         free.trailing_zeros()
@@ -345,7 +359,7 @@ fn take_colour(bodies: &mut Bodies, a: u32, b: u32) -> usize {
 }
 
 fn give_colour_back(bodies: &mut Bodies, ends: [u32; 2], colour: usize) {
-    if colour == JOINT_OVERFLOW {
+    if colour == JOINT_COLOURS {
         return;
     }
     for i in ends {
@@ -431,7 +445,7 @@ mod tests {
                 assert_eq!(frame.body_a[slot as usize % BLOCK], ends[0]);
                 assert_eq!(frame.body_b[slot as usize % BLOCK], ends[1]);
             });
-            if usize::from(colour) == JOINT_OVERFLOW {
+            if usize::from(colour) == JOINT_COLOURS {
                 continue;
             }
             for end in ends.into_iter().filter(|&end| bodies.is_dynamic(end)) {

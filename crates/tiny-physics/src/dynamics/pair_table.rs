@@ -91,12 +91,22 @@ impl PairTable {
         self.len
     }
 
+    /// Doubles the table in place, so that one that has been this large before needs no new memory.
+    ///
+    /// Each entry is taken out and put where it belongs now. One that had to step over another that was still
+    /// in the way lies behind it and is taken again after it: in the old half, or in the run that goes on behind
+    /// its end.
     fn grow(&mut self) {
-        let size = (self.places.len() * 2).max(64);
-        let old = core::mem::replace(&mut self.places, vec![(EMPTY, 0); size]);
-        for (key, contact) in old.into_iter().filter(|&(key, _)| key != EMPTY) {
-            let at = self.find(key);
-            self.places[at] = (key, contact);
+        let old = self.places.len();
+        self.places.resize((old * 2).max(64), (EMPTY, 0));
+        let mut at = 0;
+        while at < old || self.places[at].0 != EMPTY {
+            let (key, contact) = core::mem::replace(&mut self.places[at], (EMPTY, 0));
+            if key != EMPTY {
+                let place = self.find(key);
+                self.places[place] = (key, contact);
+            }
+            at += 1;
         }
     }
 }
@@ -130,6 +140,22 @@ mod tests {
         }
         for (&(a, b), &contact) in &model {
             assert_eq!(table.get(a, b), Some(contact));
+        }
+    }
+
+    #[test]
+    fn growing_loses_nothing_and_finds_nothing_else() {
+        for stride in [1, 7, 64, 4096] {
+            let mut table = PairTable::default();
+            for i in 0..3000 {
+                table.insert(i * stride, i * stride + 1, i);
+                if i.is_power_of_two() {
+                    for k in 0..=i {
+                        assert_eq!(table.get(k * stride + 1, k * stride), Some(k), "{k} of {i}");
+                    }
+                    assert_eq!(table.get(i * stride + 2, i * stride), None);
+                }
+            }
         }
     }
 }

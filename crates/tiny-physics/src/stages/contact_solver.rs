@@ -58,6 +58,10 @@ pub(crate) struct Parameters {
     pub(crate) static_soft: Softness,
     /// Greatest push-out speed, metres a second.
     pub(crate) push_speed: f32,
+    /// Rate at which overlap beyond what the load accounts for is pushed out, 1 / second.
+    pub(crate) push_rate: f32,
+    /// Overlaps that close in faster than this are solved without softness, metres a second.
+    pub(crate) fast_approach: f32,
     /// Approach below this does not bounce, metres a second.
     pub(crate) restitution_threshold: f32,
     /// Metres a second squared.
@@ -189,6 +193,7 @@ struct Constants<L> {
     zero: L,
     inv_h: L,
     push: L,
+    push_rate: L,
     fast: L,
     soft: [L; 3],
     static_soft: [L; 3],
@@ -209,7 +214,8 @@ impl<L: Lanes> Constants<L> {
             zero: splat(0.0),
             inv_h: splat(parameters.inv_h),
             push: splat(-parameters.push_speed),
-            fast: splat(-FAST_APPROACH * parameters.push_speed),
+            push_rate: splat(parameters.push_rate),
+            fast: splat(-parameters.fast_approach),
             soft: soft(parameters.soft),
             static_soft: soft(parameters.static_soft),
             threshold: splat(-parameters.restitution_threshold),
@@ -219,10 +225,6 @@ impl<L: Lanes> Constants<L> {
         }
     }
 }
-
-/// Overlaps that close in this many times faster than they would be pushed out are solved without
-/// softness, which would let a part of the speed pass.
-const FAST_APPROACH: f32 = 10.0;
 
 /// Where in a block a kernel works, and on what rows.
 struct Stride<'a, L: Lanes> {
@@ -418,11 +420,17 @@ fn solve_normal<L: Lanes, const BIAS: bool>(
     let apart = s.gt(constants.zero);
     let velocity = pair.normal_velocity(arm_a, arm_b);
     let impulse = if BIAS {
-        let bias = L::select(apart, s * constants.inv_h, (bias_rate * s).max(constants.push));
         let rigid = L::or(apart, velocity.lt(constants.fast));
         let velocity = L::select(rigid, velocity, mass_scale * velocity);
-        let decay = L::select(apart, constants.zero, impulse_scale * old);
-        old - mass * (velocity + bias) - decay
+        let decay = impulse_scale * old;
+        // What carries the load is not bounded.
+        let bound = (constants.push_rate * s).max(constants.push);
+        let push = (mass * (bias_rate * s)).max(mass * bound - decay);
+        let (push, decay) = (
+            L::select(apart, mass * (s * constants.inv_h), push),
+            L::select(apart, constants.zero, decay),
+        );
+        old - mass * velocity - push - decay
     } else {
         let bias = L::select(apart, s * constants.inv_h, constants.zero);
         old - mass * (velocity + bias)
@@ -539,7 +547,10 @@ impl<L: Lanes> Normal<L> {
             };
         }
         let rigid = L::or(apart, velocity.lt(constants.fast));
-        let push = (push_rate * s).max(constants.push) * inv_scale;
+        // What carries the load is not bounded.
+        let carry = k * inv_scale - k;
+        let bound = (constants.push_rate * s).max(constants.push);
+        let push = (push_rate * s * inv_scale).max(bound - carry * old);
         Self {
             arm_a,
             arm_b,

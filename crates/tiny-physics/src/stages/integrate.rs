@@ -15,16 +15,23 @@ const MAX_TURN: f32 = core::f32::consts::FRAC_PI_4;
 /// Bodies that one member of the team integrates at a time.
 const CHUNK: usize = 256;
 
-/// Works out what each substep adds to the velocity of each awake body.
-pub(crate) fn prepare(team: &Team, bodies: &mut Bodies, gravity: Vec2, h: f32) {
-    let Bodies { awake, rows, motions, starts, infos, .. } = bodies;
+/// Works out what each substep adds to the velocity of each body listed. Bodies that are not dynamic are
+/// integrated once at every pace: they begin anew.
+pub(crate) fn prepare(team: &Team, listed: &[u32], bodies: &mut Bodies, gravity: Vec2, h: f32) {
+    let Bodies { rows, motions, starts, infos, .. } = bodies;
+    let rows = SharedRows::new(rows);
     let (motions, starts) = (SharedSlice::new(motions), SharedSlice::new(starts));
-    team.for_each_chunk(awake.len(), CHUNK, |range| {
-        for &index in &awake[range] {
-            let (info, row) = (&infos[index as usize], &rows[index as usize]);
-            motions.write(index, motion(info, row, gravity, h));
-            let carry = if info.first_joint == NULL { 1.0 } else { 0.0 };
-            starts.write(index, [row[0], row[1], row[2], carry]);
+    team.for_each_chunk(listed.len(), CHUNK, |range| {
+        for &index in &listed[range] {
+            let info = &infos[index as usize];
+            rows.update(index, |row| {
+                if info.kind != BodyKind::Dynamic {
+                    row[Slot::DX..=Slot::DA].fill(0.0);
+                }
+                motions.write(index, motion(info, row, gravity, h));
+                let carry = if info.first_joint == NULL { 1.0 } else { 0.0 };
+                starts.write(index, [row[0], row[1], row[2], carry]);
+            });
         }
     });
 }
@@ -51,12 +58,12 @@ fn motion(info: &BodyInfo, row: &Row, gravity: Vec2, h: f32) -> Motion {
 /// before: they are what warm starting all contacts of the body would add, because contacts keep
 /// their lever arms during a step. Joints turn theirs, so bodies with joints go without
 /// ([`prepare`] marks them) and have their contacts warm started one by one.
-pub(crate) fn velocities(team: &Team, bodies: &mut Bodies, first: bool) {
-    let Bodies { awake, rows, motions, starts, .. } = bodies;
+pub(crate) fn velocities(team: &Team, listed: &[u32], bodies: &mut Bodies, first: bool) {
+    let Bodies { rows, motions, starts, .. } = bodies;
     let rows = SharedRows::new(rows);
     let starts = SharedSlice::new(starts);
-    team.for_each_chunk(awake.len(), CHUNK, |range| {
-        for &index in &awake[range] {
+    team.for_each_chunk(listed.len(), CHUNK, |range| {
+        for &index in &listed[range] {
             let motion = &motions[index as usize];
             rows.update(index, |row| starts.update(index, |start| gain(row, start, motion, first)));
         }
@@ -75,11 +82,11 @@ fn gain(row: &mut Row, start: &mut [f32; 4], motion: &Motion, first: bool) {
 }
 
 /// Moves the bodies on by a substep; speeds above the limits are cut.
-pub(crate) fn positions(team: &Team, bodies: &mut Bodies, h: f32, max_speed: f32) {
-    let Bodies { awake, rows, motions, .. } = bodies;
+pub(crate) fn positions(team: &Team, listed: &[u32], bodies: &mut Bodies, h: f32, max_speed: f32) {
+    let Bodies { rows, motions, .. } = bodies;
     let rows = SharedRows::new(rows);
-    team.for_each_chunk(awake.len(), CHUNK, |range| {
-        for &index in &awake[range] {
+    team.for_each_chunk(listed.len(), CHUNK, |range| {
+        for &index in &listed[range] {
             let free = &motions[index as usize].free;
             rows.update(index, |row| advance(row, free, h, max_speed));
         }

@@ -5,105 +5,64 @@
 //! in which every body has rested fall asleep together. A sleeping island is a ring of bodies; waking
 //! one wakes the ring.
 
+use super::islands::{self, Islands, Stores};
 use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, Contacts, Graph, JointGraph, Joints, NULL, OVERFLOW, Place};
+use crate::dynamics::{Bodies, Contacts, Graph, Joints, NULL, Place};
 use crate::math::Vec2;
 
 /// Steps between two looks for islands at rest: one look costs about as much as a solver pass.
 pub(crate) const INTERVAL: u64 = 8;
 
-/// Finds islands at rest and appends their bodies to `islands`, each island ended by [`NULL`].
+/// What the look for islands at rest fills anew; kept for its memory.
+#[derive(Debug, Default)]
+pub(crate) struct Sets {
+    islands: Islands,
+    /// Must the island of this root stay awake?
+    restless: Vec<bool>,
+    /// Root and body of those that may sleep.
+    resting: Vec<(u32, u32)>,
+}
+
+/// Finds islands at rest and lists their bodies in `found`, each island ended by [`NULL`]: those in which every
+/// body has rested and none is moved by what it lies on.
 pub(crate) fn find_resting(
     bodies: &Bodies,
     graph: &Graph,
     joints: &Joints,
     time_to_sleep: f32,
-    islands: &mut Vec<u32>,
+    sets: &mut Sets,
+    found: &mut Vec<u32>,
 ) {
-    islands.clear();
+    found.clear();
     if !bodies.awake.iter().any(|&i| bodies.infos[i as usize].sleep_time >= time_to_sleep) {
         return;
     }
-    let mut sets = Sets::new(bodies, time_to_sleep);
-    sets.join_contacts(bodies, graph);
-    sets.join_joints(bodies, joints);
-    sets.collect_resting(bodies, islands);
-}
-
-/// Union-find over awake bodies.
-struct Sets {
-    parent: Vec<u32>,
-    /// Must the set of this root stay awake?
-    restless: Vec<bool>,
-    time_to_sleep: f32,
-}
-
-impl Sets {
-    fn new(bodies: &Bodies, time_to_sleep: f32) -> Self {
-        let count = bodies.infos.len();
-        let parent = (0..count as u32).collect();
-        Self { parent, restless: vec![false; count], time_to_sleep }
-    }
-
-    fn find(&mut self, mut i: u32) -> u32 {
-        while self.parent[i as usize] != i {
-            let above = self.parent[self.parent[i as usize] as usize];
-            self.parent[i as usize] = above;
-            i = above;
-        }
-        i
-    }
-
-    /// Joins two bodies' islands. Bodies that are not dynamic join nothing, but a moving one keeps
-    /// the other awake.
-    fn join(&mut self, bodies: &Bodies, a: u32, b: u32) {
+    let Sets { islands: sets, restless, resting } = sets;
+    sets.find_all(bodies, graph, joints);
+    restless.clear();
+    restless.resize(bodies.infos.len(), false);
+    let touching = islands::touching(graph).chain(joints.pairs());
+    for (a, b) in touching {
         match (bodies.is_dynamic(a), bodies.is_dynamic(b)) {
-            (true, true) => {
-                let (a, b) = (self.find(a), self.find(b));
-                // The smaller index becomes the root: the result depends on the sets alone.
-                let (root, child) = if a < b { (a, b) } else { (b, a) };
-                self.parent[child as usize] = root;
-            }
-            (true, false) => self.restless[a as usize] |= !rests(bodies, b, self.time_to_sleep),
-            (false, true) => self.restless[b as usize] |= !rests(bodies, a, self.time_to_sleep),
-            (false, false) => {}
+            (true, false) => restless[a as usize] |= !rests(bodies, b, time_to_sleep),
+            (false, true) => restless[b as usize] |= !rests(bodies, a, time_to_sleep),
+            _ => {}
         }
     }
-
-    fn join_contacts(&mut self, bodies: &Bodies, graph: &Graph) {
-        for buckets in &graph.buckets[..=OVERFLOW] {
-            for bucket in buckets {
-                for slot in 0..bucket.contacts.len() {
-                    let (a, b) = bucket.bodies(slot);
-                    self.join(bodies, a, b);
-                }
-            }
+    for &body in &bodies.awake {
+        let rested = bodies.infos[body as usize].sleep_time >= time_to_sleep;
+        if !rested || restless[body as usize] {
+            restless[sets.root(body) as usize] = true;
         }
     }
-
-    fn join_joints(&mut self, bodies: &Bodies, joints: &Joints) {
-        for (a, b) in joints.pairs() {
-            self.join(bodies, a, b);
-        }
-    }
-
-    fn collect_resting(&mut self, bodies: &Bodies, islands: &mut Vec<u32>) {
-        for &body in &bodies.awake {
-            let rested = bodies.infos[body as usize].sleep_time >= self.time_to_sleep;
-            if !rested || self.restless[body as usize] {
-                let root = self.find(body);
-                self.restless[root as usize] = true;
-            }
-        }
-        let mut resting: Vec<(u32, u32)> =
-            bodies.awake.iter().map(|&body| (self.find(body), body)).collect();
-        resting.retain(|&(root, _)| !self.restless[root as usize]);
-        resting.sort_unstable();
-        for (i, &(root, body)) in resting.iter().enumerate() {
-            islands.push(body);
-            if resting.get(i + 1).is_none_or(|&(next, _)| next != root) {
-                islands.push(NULL);
-            }
+    resting.clear();
+    resting.extend(bodies.awake.iter().map(|&body| (sets.root(body), body)));
+    resting.retain(|&(root, _)| !restless[root as usize]);
+    resting.sort_unstable();
+    for (i, &(root, body)) in resting.iter().enumerate() {
+        found.push(body);
+        if resting.get(i + 1).is_none_or(|&(next, _)| next != root) {
+            found.push(NULL);
         }
     }
 }
@@ -156,30 +115,17 @@ pub(crate) fn island_of(
 }
 
 /// Puts islands (each ended by [`NULL`]) to sleep: takes their bodies and what hangs on them out of the
-/// simulation.
-pub(crate) fn put_to_sleep(
-    islands: &[u32],
-    bodies: &mut Bodies,
-    contacts: &mut Contacts,
-    graph: &mut Graph,
-    joints: &mut Joints,
-    joint_graph: &mut JointGraph,
-) {
+/// simulation. `hinges` is memory.
+pub(crate) fn put_to_sleep(islands: &[u32], mut stores: Stores<'_>, hinges: &mut Vec<u32>) {
     for island in islands.split(|&body| body == NULL).filter(|island| !island.is_empty()) {
-        put_island_to_sleep(island, bodies, contacts, graph, joints, joint_graph);
+        put_island_to_sleep(island, &mut stores, hinges);
     }
-    let Bodies { awake, infos, .. } = bodies;
+    let Bodies { awake, infos, .. } = stores.bodies;
     awake.retain(|&i| infos[i as usize].awake);
 }
 
-fn put_island_to_sleep(
-    island: &[u32],
-    bodies: &mut Bodies,
-    contacts: &mut Contacts,
-    graph: &mut Graph,
-    joints: &mut Joints,
-    joint_graph: &mut JointGraph,
-) {
+fn put_island_to_sleep(island: &[u32], stores: &mut Stores<'_>, hinges: &mut Vec<u32>) {
+    let Stores { bodies, contacts, graph, joints, joint_graph } = stores;
     for (i, &body) in island.iter().enumerate() {
         bodies.set_velocity(body, Vec2::ZERO);
         bodies.set_angular_velocity(body, 0.0);
@@ -199,7 +145,8 @@ fn put_island_to_sleep(
             }
             edge = next;
         }
-        for index in joints_of(bodies, joints, body) {
+        list_joints(bodies, joints, body, hinges);
+        for &index in hinges.iter() {
             let record = &joints.records[index as usize];
             if !bodies.infos[record.body_a as usize].awake
                 && !bodies.infos[record.body_b as usize].awake
@@ -210,31 +157,26 @@ fn put_island_to_sleep(
     }
 }
 
-/// Wakes a body and its island, and gives the bodies that woke, ascending. Islands that a joint links to it wake
-/// with it: they fell asleep before the joint was made. Nothing happens if it is awake or cannot move.
-pub(crate) fn wake(
-    index: u32,
-    bodies: &mut Bodies,
-    contacts: &mut Contacts,
-    graph: &mut Graph,
-    joints: &mut Joints,
-    joint_graph: &mut JointGraph,
-) -> Vec<u32> {
-    let mut island = Vec::new();
-    let mut sleepers = vec![index];
-    while let Some(sleeper) = sleepers.pop() {
-        let first = island.len();
-        wake_ring(sleeper, bodies, &mut island);
-        for &body in &island[first..] {
-            let linked = joints.of_body(bodies.infos[body as usize].first_joint);
-            let linked = linked.map(|(joint, _)| &joints.records[joint as usize]);
-            let pulling = linked.filter(|joint| joint.class().is_some());
-            let ends = pulling.flat_map(|joint| [joint.body_a, joint.body_b]);
-            sleepers.extend(ends.filter(|&end| bodies.is_dynamic(end)));
+/// Wakes a body and its island, and lists the bodies that woke, ascending. Islands that a joint links to it wake
+/// with it: they fell asleep before the joint was made. Nothing happens and the list is empty if it is awake or
+/// cannot move. `hinges` is memory.
+pub(crate) fn wake(index: u32, stores: Stores<'_>, island: &mut Vec<u32>, hinges: &mut Vec<u32>) {
+    let Stores { bodies, contacts, graph, joints, joint_graph } = stores;
+    island.clear();
+    wake_ring(index, bodies, island);
+    let mut next = 0;
+    while let Some(&body) = island.get(next) {
+        next += 1;
+        for (joint, side) in joints.of_body(bodies.infos[body as usize].first_joint) {
+            let record = &joints.records[joint as usize];
+            let other = if side == 0 { record.body_b } else { record.body_a };
+            if record.class().is_some() && bodies.is_dynamic(other) {
+                wake_ring(other, bodies, island);
+            }
         }
     }
     island.sort_unstable();
-    for &body in &island {
+    for &body in island.iter() {
         bodies.push_awake(body);
         let mut edge = bodies.infos[body as usize].first_contact;
         while edge != NULL {
@@ -243,11 +185,11 @@ pub(crate) fn wake(
             }
             edge = contacts.records[edge as usize / 2].links[edge as usize % 2].1;
         }
-        for index in joints_of(bodies, joints, body) {
+        list_joints(bodies, joints, body, hinges);
+        for &index in hinges.iter() {
             joint_graph.insert(bodies, joints, index);
         }
     }
-    island
 }
 
 /// Wakes the ring of a body that sleeps and can move, and appends its bodies.
@@ -269,10 +211,10 @@ fn wake_ring(index: u32, bodies: &mut Bodies, island: &mut Vec<u32>) {
     }
 }
 
-/// Joints of a body, ascending.
-fn joints_of(bodies: &Bodies, joints: &Joints, body: u32) -> Vec<u32> {
+/// Lists the joints of a body, ascending.
+fn list_joints(bodies: &Bodies, joints: &Joints, body: u32, list: &mut Vec<u32>) {
     let first = bodies.infos[body as usize].first_joint;
-    let mut indices: Vec<u32> = joints.of_body(first).map(|(index, _)| index).collect();
-    indices.sort_unstable();
-    indices
+    list.clear();
+    list.extend(joints.of_body(first).map(|(index, _)| index));
+    list.sort_unstable();
 }

@@ -1,6 +1,6 @@
 //! Which contacts began and which ended: the serial part after the narrow phase.
 
-use crate::dynamics::{COLOURS, Graph, IDLE, OVERFLOW};
+use crate::dynamics::{Graph, IDLE};
 use crate::simd::BLOCK;
 
 /// Contacts whose state changed in the narrow phase, each list ascending.
@@ -14,7 +14,6 @@ pub(crate) struct Changes {
 pub(crate) fn find_changes(graph: &Graph, changes: &mut Changes) {
     changes.began.clear();
     changes.ended.clear();
-    const { assert!(OVERFLOW == COLOURS && IDLE == OVERFLOW + 1) };
     for (colour, buckets) in graph.buckets.iter().enumerate() {
         for bucket in buckets {
             for (block, head) in bucket.heads.iter().enumerate() {

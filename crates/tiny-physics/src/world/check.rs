@@ -6,8 +6,8 @@ use super::World;
 use crate::broad_phase::ProxyId;
 use crate::describe::BodyKind;
 use crate::dynamics::{
-    Bucket, Contact, FrameLanes, IDLE, JOINT_OVERFLOW, JointBucket, JointClass, JointLanes,
-    JointPlace, JointRecord, NULL, Place, guard,
+    Bucket, Contact, FrameLanes, IDLE, JOINT_PLACES, JointBucket, JointClass, JointLanes,
+    JointPlace, JointRecord, NULL, PACES, Place, guard,
 };
 use crate::geometry::manifold::{PairClass, ShapeClass};
 use crate::simd::BLOCK;
@@ -262,7 +262,7 @@ impl World {
 
     fn check_joint_graph(&self) -> Check {
         let graph = &self.joint_graph;
-        ensure(graph.colours.len() == JOINT_OVERFLOW + 1, "colours of joints are missing")?;
+        ensure(graph.colours.len() == JOINT_PLACES * PACES, "colours of joints are missing")?;
         for (colour, buckets) in graph.colours.iter().enumerate() {
             self.check_joint_bucket(colour, JointClass::Distance, &buckets.distance)?;
             self.check_joint_bucket(colour, JointClass::Revolute, &buckets.revolute)?;

@@ -4,9 +4,10 @@ use super::World;
 use super::events::{ContactBegin, ContactEnd, Hit};
 use super::ids::{BodyId, ShapeId};
 use crate::describe::BodyKind;
-use crate::dynamics::{Bucket, NULL, OVERFLOW, Place, flags};
+use crate::dynamics::{Bucket, IDLE, NULL, Place, flags};
 use crate::math::{DVec2, Vec2};
 use crate::simd::BLOCK;
+use crate::stages::islands::Stores;
 use crate::stages::{one_way, pairs, sleep};
 
 /// One point of a contact.
@@ -55,7 +56,7 @@ impl World {
     /// The contacts that touch (or are about to) and are awake, as of the last step, in a fixed order
     /// that threads do not change.
     pub fn contacts(&self) -> impl Iterator<Item = ContactView> + '_ {
-        self.graph.buckets[..=OVERFLOW].iter().flatten().flat_map(move |bucket| {
+        self.graph.buckets[..IDLE].iter().flatten().flat_map(move |bucket| {
             (0..bucket.contacts.len()).map(move |slot| self.view(bucket, slot))
         })
     }
@@ -113,7 +114,7 @@ impl World {
     pub(super) fn collect_hits(&mut self) {
         let threshold = self.settings.hit_event_threshold * self.settings.length_unit;
         let mut hits = core::mem::take(&mut self.events.hits);
-        for bucket in self.graph.buckets[..=OVERFLOW].iter().flatten() {
+        for bucket in self.graph.buckets[..IDLE].iter().flatten() {
             for (block, head) in bucket.heads.iter().enumerate() {
                 if head.flags & flags::HIT == 0 {
                     continue;
@@ -236,21 +237,17 @@ impl World {
 
     /// Wakes the island of a body; with a kinematic body, also what rests on it or hangs on it.
     pub(super) fn wake_index(&mut self, index: u32) {
-        let woken = sleep::wake(
-            index,
-            &mut self.bodies,
-            &mut self.contacts,
-            &mut self.graph,
-            &mut self.joints,
-            &mut self.joint_graph,
-        );
+        let mut woken = core::mem::take(&mut self.scratch.woken);
+        let (stores, hinges) = self.sleep_stores();
+        sleep::wake(index, stores, &mut woken, hinges);
         // Not where it was awake already or is not enabled: this calls itself.
         let info = &self.bodies.infos[index as usize];
         let starts_to_carry = info.kind == BodyKind::Kinematic && !woken.is_empty();
-        for body in woken {
+        for &body in &woken {
             let body = self.body_id(body);
             self.events.pending_woke.push(body);
         }
+        self.scratch.woken = woken;
         if starts_to_carry {
             self.wake_neighbours(index);
             self.wake_joined(index);
@@ -267,14 +264,15 @@ impl World {
             let body = self.body_id(body);
             self.events.pending_asleep.push(body);
         }
-        sleep::put_to_sleep(
-            islands,
-            &mut self.bodies,
-            &mut self.contacts,
-            &mut self.graph,
-            &mut self.joints,
-            &mut self.joint_graph,
-        );
+        let (stores, hinges) = self.sleep_stores();
+        sleep::put_to_sleep(islands, stores, hinges);
+    }
+
+    /// What changes when bodies fall asleep and wake, and memory for it.
+    fn sleep_stores(&mut self) -> (Stores<'_>, &mut Vec<u32>) {
+        let Self { bodies, contacts, graph, joints, joint_graph, scratch, .. } = self;
+        let stores = Stores { bodies, contacts, graph, joints, joint_graph };
+        (stores, &mut scratch.hinges)
     }
 }
 

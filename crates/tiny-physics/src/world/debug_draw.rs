@@ -4,7 +4,7 @@ use super::{Body, ContactView, ShapeRef, World};
 use crate::debug_draw::{
     Color, DebugDraw, DebugDrawOptions, Layer, depth_color, draw_bounds, draw_shape,
 };
-use crate::describe::BodyKind;
+use crate::describe::{BodyKind, JointKind};
 use crate::math::{Aabb, DVec2, Pose, Rot, Transform, Vec2};
 
 /// Length of drawn normals, metres at length unit 1.
@@ -83,6 +83,23 @@ impl World {
             let def = joint.def();
             let (anchor_a, anchor_b) = (a.pose().apply(def.anchor_a), b.pose().apply(def.anchor_b));
             let color = pen.options.palette.joint;
+            match def.kind {
+                // Pulled to a point of the world, not to A.
+                JointKind::Mouse { target, .. } => {
+                    pen.line(b.center(), anchor_b, color);
+                    pen.line(anchor_b, target, color);
+                    continue;
+                }
+                JointKind::Pulley { ground_a, ground_b, .. } => {
+                    for (from, to) in
+                        [(anchor_a, ground_a), (ground_a, ground_b), (ground_b, anchor_b)]
+                    {
+                        pen.line(from, to, color);
+                    }
+                    continue;
+                }
+                _ => {}
+            }
             // The way to static bodies would be a web over the whole picture.
             if a.kind() != BodyKind::Static {
                 pen.line(a.center(), anchor_a, color);

@@ -7,7 +7,7 @@
 use super::World;
 use super::contacts::ContactView;
 use super::ids::{BodyId, ShapeId};
-use crate::dynamics::{Bodies, Bucket, OVERFLOW, Shapes, Slot, flags};
+use crate::dynamics::{Bodies, Bucket, IDLE, Shapes, Slot, flags};
 use crate::simd::BLOCK;
 use crate::stages::pairs::PairRule;
 use crate::threads::Team;
@@ -92,7 +92,7 @@ impl PairRule for Hooks {
 const CHUNK: usize = 64;
 
 /// A contact of the graph: colour, class, slot.
-type At = (u8, u8, u32);
+pub(super) type At = (u8, u8, u32);
 
 impl World {
     /// Sets a function that decides, beyond the filters of the shapes, which pairs may collide. It is asked when
@@ -148,7 +148,9 @@ impl World {
     /// Takes the function of [`World::set_pre_solve`] away again.
     pub fn clear_pre_solve(&mut self) {
         if self.hooks.pre_solve.take().is_some() {
-            for at in self.touching_places() {
+            let mut places = Vec::new();
+            self.list_touching(&mut places);
+            for at in places {
                 let rules = self.rules(at);
                 self.apply_rules(at, &rules);
             }
@@ -167,10 +169,12 @@ impl World {
     /// Asks the user about all contacts that touch.
     pub(super) fn call_pre_solve(&mut self, team: &Team) {
         let Some(hook) = self.hooks.pre_solve.clone() else { return };
-        let places = self.touching_places();
-        let mut answers: Vec<Vec<ContactRules>> = Vec::new();
+        let mut places = core::mem::take(&mut self.scratch.touching);
+        let mut answers = core::mem::take(&mut self.scratch.answers);
+        self.list_touching(&mut places);
         let world = &*self;
         let chunks = team.map_chunks(places.len(), CHUNK, &mut answers, |range, answers| {
+            answers.clear();
             answers.extend(places[range].iter().map(|&at| {
                 let mut rules = world.rules(at);
                 let bucket = &world.graph.buckets[usize::from(at.0)][usize::from(at.1)];
@@ -178,22 +182,22 @@ impl World {
                 rules
             }));
         });
-        let answers: Vec<ContactRules> = chunks.iter().flatten().copied().collect();
-        for (&at, rules) in places.iter().zip(&answers) {
+        for (&at, rules) in places.iter().zip(chunks.iter().flatten()) {
             self.apply_rules(at, rules);
         }
+        self.scratch.touching = places;
+        self.scratch.answers = answers;
     }
 
-    /// All contacts that touch and are awake, in the order of the graph.
-    fn touching_places(&self) -> Vec<At> {
-        let mut places = Vec::with_capacity(self.graph.touching_count());
-        for (colour, buckets) in self.graph.buckets[..=OVERFLOW].iter().enumerate() {
+    /// Lists all contacts that touch and are awake, in the order of the graph.
+    fn list_touching(&self, places: &mut Vec<At>) {
+        places.clear();
+        for (colour, buckets) in self.graph.buckets[..IDLE].iter().enumerate() {
             for (class, bucket) in buckets.iter().enumerate() {
                 let slots = 0..bucket.contacts.len() as u32;
                 places.extend(slots.map(|slot| (colour as u8, class as u8, slot)));
             }
         }
-        places
     }
 
     /// How a contact behaves by its materials.

@@ -40,9 +40,10 @@ pub use shapes::ShapeRef;
 pub use stats::{Stage, Stats};
 
 use crate::broad_phase::BroadPhase;
-use crate::describe::Settings;
+use crate::describe::{BodyKind, Settings};
 use crate::dynamics::{
-    Bodies, Contacts, Graph, JOINT_OVERFLOW, JointGraph, Joints, OVERFLOW, Overlap, Sensors, Shapes,
+    Bodies, COLOURS, Contacts, Graph, JointGraph, Joints, Overlap, PACES, PLAIN, REFINEMENT,
+    Sensors, Shapes, colour_at,
 };
 use crate::error::Error;
 use crate::geometry::manifold::PairClass;
@@ -50,9 +51,11 @@ use crate::math::Vec2;
 use crate::simd::SimdLevel;
 use crate::stages::contact_solver::{self, Parameters, Pass, Softness};
 use crate::stages::finalize::{FastBody, Findings};
+use crate::stages::islands::Stores;
 use crate::stages::touching::Changes;
 use crate::stages::{
-    continuous, finalize, integrate, joint_solver, narrow_phase, pairs, sleep, surfaces, touching,
+    continuous, finalize, integrate, joint_solver, narrow_phase, paces, pairs, sleep, surfaces,
+    touching,
 };
 use crate::threads::{Pool, SharedRows, Team};
 use stats::Stopwatch;
@@ -67,6 +70,12 @@ const STATIC_STIFFNESS: f32 = 2.0;
 /// 0.125, as elsewhere, lets a tower of 20 crates sink by 0.135 m, 0.22 by 0.044 m. From 0.25 on a pyramid
 /// of 40 rows no longer comes to rest.
 const CONTACT_RATE_FRACTION: f32 = 0.22;
+
+/// Metres a second; multiplied by [`Settings::length_unit`]. Overlaps that close in faster are solved without
+/// softness, which would let a part of the speed pass.
+const FAST_APPROACH: f32 = 10.0;
+/// What is deeper in than its load accounts for is pushed out at this rate, 1 / second.
+const PUSH_RATE: f32 = 20.0;
 
 /// Rounds of bouncing in a step: an impulse runs through this many bodies at once.
 const BOUNCE_ROUNDS: usize = 8;
@@ -107,7 +116,7 @@ pub struct World {
     hooks: hooks::Hooks,
     events: Events,
     step_count: u64,
-    /// 1 / substep length of the last step.
+    /// 1 / substep length of the last step, at the plain pace.
     inv_h: f32,
     level: SimdLevel,
     pool: Pool,
@@ -125,10 +134,17 @@ struct Scratch {
     findings: Vec<Findings>,
     fast: Vec<FastBody>,
     islands: Vec<u32>,
+    sets: sleep::Sets,
+    paces: paces::Memory,
+    woken: Vec<u32>,
+    hinges: Vec<u32>,
+    listed: Vec<u32>,
     occupied: Vec<(usize, PairClass)>,
     overlaps: Vec<Overlap>,
     found_overlaps: Vec<Vec<Overlap>>,
     broken_joints: Vec<u32>,
+    touching: Vec<hooks::At>,
+    answers: Vec<Vec<ContactRules>>,
 }
 
 /// Numbers of one step.
@@ -138,6 +154,14 @@ struct StepLengths {
     h: f32,
     substeps: u32,
     iterations: u32,
+}
+
+impl StepLengths {
+    /// The same for a pace.
+    fn refined(self, pace: usize) -> Self {
+        let refinement = REFINEMENT[pace];
+        Self { h: self.h / refinement as f32, substeps: self.substeps * refinement, ..self }
+    }
 }
 
 impl World {
@@ -203,7 +227,7 @@ impl World {
         watch.lap(&mut self.stats, Stage::Pairs);
         self.update_manifolds(team);
         watch.lap(&mut self.stats, Stage::NarrowPhase);
-        self.update_touching(lengths.dt);
+        self.update_touching(lengths);
         self.call_pre_solve(team);
         watch.lap(&mut self.stats, Stage::Touching);
         self.solve(team, lengths);
@@ -290,53 +314,93 @@ impl World {
     }
 
     /// Moves contacts that began or ended to where they belong; wakes what was touched.
-    fn update_touching(&mut self, dt: f32) {
+    fn update_touching(&mut self, lengths: StepLengths) {
         let mut changes = core::mem::take(&mut self.scratch.changes);
         touching::find_changes(&self.graph, &mut changes);
         changes.ended.iter().for_each(|&index| self.end_contact(index));
-        changes.began.retain(|&index| self.may_begin(index, dt));
+        changes.began.retain(|&index| self.may_begin(index, lengths.dt));
         changes.began.iter().for_each(|&index| self.begin_contact(index));
+        self.assign_paces(lengths);
         self.stats.contacts_begun = changes.began.len();
         self.stats.contacts_ended = changes.ended.len();
         self.scratch.changes = changes;
 
+        self.graph.sort_fresh();
         let (context, graph) = self.narrow_phase();
-        for (colour, class, block) in graph.take_fresh() {
+        for i in 0..graph.fresh().len() {
+            let (colour, class, block) = graph.fresh()[i];
             let bucket = &mut graph.buckets[usize::from(colour)][usize::from(class)];
             let class = PairClass::ALL[usize::from(class)];
             narrow_phase::update_block(context, class, bucket, block as usize);
         }
+        graph.clear_fresh();
     }
 
-    /// Integrates velocities and positions, and solves contacts and joints, substep by substep.
+    /// Chooses which islands are solved more finely than others.
+    fn assign_paces(&mut self, lengths: StepLengths) {
+        let omega = core::f32::consts::TAU * self.contact_hertz(lengths.h);
+        let rules = paces::Rules {
+            gravity: self.gravity,
+            length_unit: self.settings.length_unit,
+            omega_squared: omega * omega,
+            inv_h: 1.0 / lengths.h,
+            most_bodies: self.settings.refine_up_to as usize,
+            step: self.step_count,
+        };
+        let Self { bodies, contacts, graph, joints, joint_graph, scratch, .. } = self;
+        let stores = Stores { bodies, contacts, graph, joints, joint_graph };
+        paces::assign(stores, rules, &mut scratch.paces);
+    }
+
+    /// Solves the islands pace by pace, the plain one last.
     fn solve(&mut self, team: &Team, lengths: StepLengths) {
-        let parameters = self.contact_parameters(lengths);
-        self.inv_h = parameters.inv_h;
+        self.inv_h = 1.0 / lengths.h;
         if self.bodies.awake.is_empty() {
             return;
         }
-        self.graph.list_occupied(&mut self.scratch.occupied);
-        self.prepare_joints(team, lengths.h);
-        integrate::prepare(team, &mut self.bodies, self.gravity, lengths.h);
+        let Self { joint_graph, joints, bodies, .. } = self;
+        joint_solver::describe(joint_graph, joints, &bodies.infos, lengths.h);
+        let mut listed = core::mem::take(&mut self.scratch.listed);
+        let refined = paces::any_refined(&self.bodies);
+        for pace in (0..PACES).rev().filter(|&pace| refined || pace == PLAIN) {
+            listed.clear();
+            let infos = &self.bodies.infos;
+            let concerns = |&&i: &&u32| {
+                let info = &infos[i as usize];
+                info.kind != BodyKind::Dynamic || usize::from(info.pace) == pace
+            };
+            listed.extend(self.bodies.awake.iter().filter(concerns));
+            self.solve_pace(team, pace, &listed, lengths.refined(pace));
+        }
+        self.scratch.listed = listed;
+        self.collect_hits();
+        self.break_joints();
+    }
+
+    /// Integrates velocities and positions, and solves contacts and joints, substep by substep.
+    fn solve_pace(&mut self, team: &Team, pace: usize, listed: &[u32], lengths: StepLengths) {
+        let parameters = self.contact_parameters(lengths);
+        self.graph.list_occupied(pace, &mut self.scratch.occupied);
+        self.prepare_joints(team, pace, lengths.h);
+        integrate::prepare(team, listed, &mut self.bodies, self.gravity, lengths.h);
         let max_speed = self.settings.max_speed * self.settings.length_unit;
         self.bounce(team, &parameters);
+        let joints = |world: &mut Self, pass| world.solve_joints(team, pace, pass, lengths.h);
         for substep in 0..lengths.substeps {
             let first = substep == 0;
-            integrate::velocities(team, &mut self.bodies, first);
-            self.solve_joints(team, joint_solver::Pass::WarmStart);
+            integrate::velocities(team, listed, &mut self.bodies, first);
+            joints(self, joint_solver::Pass::WarmStart);
             let warm_start = if first { Pass::WarmStart } else { Pass::WarmStartJointed };
             self.solve_contacts(team, warm_start, &parameters);
             for _ in 0..lengths.iterations {
-                self.solve_joints(team, joint_solver::Pass::Solve);
+                joints(self, joint_solver::Pass::Solve);
                 self.solve_contacts(team, Pass::Solve, &parameters);
             }
-            integrate::positions(team, &mut self.bodies, lengths.h, max_speed);
-            self.solve_joints(team, joint_solver::Pass::Relax);
+            integrate::positions(team, listed, &mut self.bodies, lengths.h, max_speed);
+            joints(self, joint_solver::Pass::Relax);
             self.solve_contacts(team, Pass::Relax, &parameters);
         }
-        self.solve_joints(team, joint_solver::Pass::Finish);
-        self.collect_hits();
-        self.break_joints();
+        joints(self, joint_solver::Pass::Finish);
     }
 
     /// Reflects what hits something bouncy, round by round: what is hit may hit the next.
@@ -345,7 +409,10 @@ impl World {
         let threshold = parameters.restitution_threshold;
         for _ in 0..BOUNCE_ROUNDS {
             self.solve_contacts(team, Pass::AimBounce, &parameters);
-            if !self.graph.buckets[..=OVERFLOW].iter().flatten().any(contact_solver::any_bounce) {
+            let Self { graph, scratch, .. } = self;
+            let bucket =
+                |&(place, class): &(usize, PairClass)| &graph.buckets[place][class as usize];
+            if !scratch.occupied.iter().map(bucket).any(contact_solver::any_bounce) {
                 return;
             }
             for _ in 0..BOUNCE_ITERATIONS {
@@ -356,16 +423,23 @@ impl World {
         }
     }
 
+    /// Stiffness of contacts for a substep length.
+    fn contact_hertz(&self, h: f32) -> f32 {
+        self.settings.contact_hertz.min(CONTACT_RATE_FRACTION / h)
+    }
+
     fn contact_parameters(&self, lengths: StepLengths) -> Parameters {
         let settings = &self.settings;
         let inv_h = 1.0 / lengths.h;
-        let hertz = settings.contact_hertz.min(CONTACT_RATE_FRACTION * inv_h);
+        let hertz = self.contact_hertz(lengths.h);
         let damping = settings.contact_damping_ratio;
         Parameters {
             inv_h,
             soft: Softness::new(hertz, damping, lengths.h),
             static_soft: Softness::new(STATIC_STIFFNESS * hertz, damping, lengths.h),
             push_speed: settings.push_speed * settings.length_unit,
+            push_rate: PUSH_RATE,
+            fast_approach: FAST_APPROACH * settings.length_unit,
             gravity: self.gravity,
             h: lengths.h,
             dt: lengths.dt,
@@ -380,10 +454,10 @@ impl World {
         }
         let Self { bodies, graph, scratch, level, .. } = self;
         let rows = SharedRows::new(&mut bodies.rows);
-        for &(colour, class) in &scratch.occupied {
-            let bucket = &mut graph.buckets[colour][class as usize];
+        for &(place, class) in &scratch.occupied {
+            let bucket = &mut graph.buckets[place][class as usize];
             let points = class.max_points();
-            if colour == OVERFLOW {
+            if colour_at(place) == COLOURS {
                 contact_solver::run_in_order(pass, parameters, rows, bucket, points);
             } else {
                 contact_solver::run(team, *level, pass, parameters, rows, bucket, points);
@@ -391,25 +465,25 @@ impl World {
         }
     }
 
-    /// Brings the joints' lanes in line with their descriptions and the poses.
-    fn prepare_joints(&mut self, team: &Team, h: f32) {
-        let Self { joint_graph, joints, bodies, level, .. } = self;
-        joint_solver::describe(joint_graph, joints, &bodies.infos, h);
+    /// Brings the joints' lanes in line with the poses.
+    fn prepare_joints(&mut self, team: &Team, pace: usize, h: f32) {
+        let Self { joint_graph, bodies, level, .. } = self;
         let (poses, level) = (&bodies.poses, *level);
-        for colour in &mut joint_graph.colours {
+        let (colours, overflow) = joint_graph.of_pace(pace);
+        for colour in colours.iter_mut().chain([overflow]) {
             colour.for_each_run(team, |blocks| joint_solver::prepare(level, poses, h, blocks));
         }
     }
 
     /// Runs one pass over all joints: the overflow one by one, then colour by colour.
-    fn solve_joints(&mut self, team: &Team, pass: joint_solver::Pass) {
+    fn solve_joints(&mut self, team: &Team, pace: usize, pass: joint_solver::Pass, h: f32) {
         if self.joint_graph.count() == 0 {
             return;
         }
         let rows = SharedRows::new(&mut self.bodies.rows);
-        let (level, inv_h) = (self.level, self.inv_h);
-        let (colours, overflow) = self.joint_graph.colours.split_at_mut(JOINT_OVERFLOW);
-        overflow[0].for_each_run(&Team::alone(), |blocks| {
+        let (level, inv_h) = (self.level, 1.0 / h);
+        let (colours, overflow) = self.joint_graph.of_pace(pace);
+        overflow.for_each_run(&Team::alone(), |blocks| {
             joint_solver::run_in_order(pass, inv_h, rows, blocks);
         });
         for colour in colours {
@@ -451,6 +525,7 @@ impl World {
             &self.graph,
             &self.joints,
             self.settings.time_to_sleep,
+            &mut self.scratch.sets,
             &mut islands,
         );
         self.put_to_sleep(&islands);

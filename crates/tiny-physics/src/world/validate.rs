@@ -1,7 +1,7 @@
 //! A walk over all invariants, for tests.
 
 use super::World;
-use crate::dynamics::{COLOURS, IDLE, JointPlace, JointRecord, Place};
+use crate::dynamics::{COLOURS, IDLE, JointPlace, JointRecord, Place, colour_at};
 use crate::stages::pairs;
 
 impl World {
@@ -129,8 +129,9 @@ impl World {
     /// No two contacts of a colour share a dynamic body, and the bodies know their colours.
     fn validate_colours(&self) -> Result<(), String> {
         let mut used = vec![0_u32; self.bodies.infos.len()];
-        for (colour, buckets) in self.graph.buckets[..COLOURS].iter().enumerate() {
-            for bucket in buckets {
+        for (place, buckets) in self.graph.buckets[..IDLE].iter().enumerate() {
+            let colour = colour_at(place);
+            for bucket in buckets.iter().filter(|_| colour < COLOURS) {
                 for slot in 0..bucket.contacts.len() {
                     let (a, b) = bucket.bodies(slot);
                     for body in [a, b].into_iter().filter(|&body| self.bodies.is_dynamic(body)) {

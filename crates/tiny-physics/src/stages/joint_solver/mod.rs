@@ -38,8 +38,8 @@ mod tests;
 
 use crate::describe::{BodyKind, JointDef};
 use crate::dynamics::{
-    BodyInfo, JointBlocks, JointBucket, JointClass, JointGraph, JointLanes, JointLoad, JointPlace,
-    Joints,
+    BodyInfo, JOINT_PLACES, JointBlocks, JointBucket, JointClass, JointGraph, JointLanes,
+    JointLoad, JointPlace, Joints, REFINEMENT,
 };
 use crate::math::{Pose, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
@@ -99,22 +99,26 @@ macro_rules! with_blocks {
 }
 
 /// Brings the lanes in line with the descriptions of the joints: nothing to do in most steps. `h` is
-/// the substep length, seconds.
+/// the plain substep length, seconds.
 pub(crate) fn describe(graph: &mut JointGraph, joints: &Joints, infos: &[BodyInfo], h: f32) {
     let all = graph.described_h != h;
     if !all && !graph.any_stale {
         return;
     }
-    let rates = [Rates::new(h), Rates::anchored(h)];
-    for colour in &mut graph.colours {
-        describe_bucket(&mut colour.distance, joints, infos, &rates, all);
-        describe_bucket(&mut colour.revolute, joints, infos, &rates, all);
-        describe_bucket(&mut colour.prismatic, joints, infos, &rates, all);
-        describe_bucket(&mut colour.weld, joints, infos, &rates, all);
-        describe_bucket(&mut colour.wheel, joints, infos, &rates, all);
-        describe_bucket(&mut colour.drive, joints, infos, &rates, all);
-        describe_bucket(&mut colour.pulley, joints, infos, &rates, all);
-        describe_bucket(&mut colour.gear, joints, infos, &rates, all);
+    let rates = REFINEMENT.map(|refinement| {
+        let h = h / refinement as f32;
+        [Rates::new(h), Rates::anchored(h)]
+    });
+    for (place, colour) in graph.colours.iter_mut().enumerate() {
+        let rates = &rates[place / JOINT_PLACES];
+        describe_bucket(&mut colour.distance, joints, infos, rates, all);
+        describe_bucket(&mut colour.revolute, joints, infos, rates, all);
+        describe_bucket(&mut colour.prismatic, joints, infos, rates, all);
+        describe_bucket(&mut colour.weld, joints, infos, rates, all);
+        describe_bucket(&mut colour.wheel, joints, infos, rates, all);
+        describe_bucket(&mut colour.drive, joints, infos, rates, all);
+        describe_bucket(&mut colour.pulley, joints, infos, rates, all);
+        describe_bucket(&mut colour.gear, joints, infos, rates, all);
     }
     graph.described_h = h;
     graph.any_stale = false;
@@ -220,9 +224,11 @@ impl<B: JointKernel> LaneKernel for RunPass<'_, B> {
     }
 }
 
-/// What a joint does to its body B as of the last substep; nothing while it sleeps.
+/// What a joint does to its body B as of the last substep; nothing while it sleeps. `inv_h` is 1 / plain
+/// substep length.
 pub(crate) fn load(graph: &JointGraph, joints: &Joints, index: u32, inv_h: f32) -> JointLoad {
     let record = &joints.records[index as usize];
+    let inv_h = inv_h * REFINEMENT[graph.pace_of(record)] as f32;
     let (JointPlace::Graph { colour, slot }, Some(class)) = (record.place, record.class()) else {
         return JointLoad::default();
     };

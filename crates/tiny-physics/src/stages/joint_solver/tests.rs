@@ -66,33 +66,34 @@ impl Rig {
         let inv_h = self.inv_h();
         let rows = SharedRows::new(&mut self.bodies.rows);
         for (i, colour) in self.graph.colours.iter_mut().enumerate() {
-            for blocks in colour.runs(2) {
-                if i == crate::dynamics::JOINT_OVERFLOW {
+            colour.for_each_run(&Team::alone(), |blocks| {
+                if i % crate::dynamics::JOINT_PLACES == crate::dynamics::JOINT_PLACES - 1 {
                     run_in_order(pass, inv_h, rows, blocks);
                 } else {
                     run(self.level, pass, inv_h, rows, blocks);
                 }
-            }
+            });
         }
     }
 
     fn step(&mut self) {
         let h = self.dt / self.substeps as f32;
         let team = Team::alone();
-        integrate::prepare(&team, &mut self.bodies, self.gravity, h);
+        let listed = self.bodies.awake.clone();
+        integrate::prepare(&team, &listed, &mut self.bodies, self.gravity, h);
         describe(&mut self.graph, &self.joints, &self.bodies.infos, h);
         for colour in &mut self.graph.colours {
-            for blocks in colour.runs(2) {
+            colour.for_each_run(&team, |blocks| {
                 prepare(self.level, &self.bodies.poses, h, blocks);
-            }
+            });
         }
         for _ in 0..self.substeps {
-            integrate::velocities(&team, &mut self.bodies, true);
+            integrate::velocities(&team, &listed, &mut self.bodies, true);
             self.pass(Pass::WarmStart);
             for _ in 0..self.iterations {
                 self.pass(Pass::Solve);
             }
-            integrate::positions(&team, &mut self.bodies, h, 400.0);
+            integrate::positions(&team, &listed, &mut self.bodies, h, 400.0);
             for _ in 0..self.iterations {
                 self.pass(Pass::Relax);
             }

@@ -7,6 +7,7 @@ mod forces;
 mod handles;
 mod hooks;
 mod one_way;
+mod paces;
 mod threads;
 
 use super::*;

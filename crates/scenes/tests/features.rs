@@ -1,0 +1,128 @@
+//! The scenes that show an ability each: at their end, what they show has come about.
+
+use tiny_physics::{BodyKind, Shape};
+use tiny_physics_scenes::{Options, Run, find};
+
+/// The run of a scene at its end.
+fn end_of(name: &str) -> Run {
+    let entry = find(name).unwrap();
+    let mut run = Run::start(&entry.build(Options::default())).unwrap();
+    while !run.is_done() {
+        run.step();
+    }
+    assert_eq!(run.host().error(), None, "{name}");
+    run.world().validate().unwrap();
+    run
+}
+
+/// Where the bodies of the scene are, in its order.
+fn places(run: &Run) -> Vec<tiny_physics::Vec2> {
+    let ids = run.bodies().iter().map(|body| run.host().body_id(*body).unwrap());
+    ids.map(|id| run.world().body(id).unwrap().position()).collect()
+}
+
+#[test]
+fn every_kind_of_joint_does_what_it_should() {
+    let run = end_of("joints");
+    let joints = find("joints").unwrap().build(Options::default()).joints;
+    let kinds: std::collections::BTreeSet<String> = joints
+        .iter()
+        .map(|joint| format!("{:?}", joint.def.kind).split([' ', '{']).next().unwrap().to_owned())
+        .collect();
+    assert_eq!(kinds.len(), 10, "all kinds: {kinds:?}");
+    assert_eq!(run.world().joint_count(), joints.len() - 1, "one has broken");
+}
+
+#[test]
+fn the_rack_is_lifted_to_its_limit() {
+    let run = end_of("clockwork");
+    let rack = places(&run)[6];
+    assert!((rack.y - (-2.3 + 3.5)).abs() < 0.05, "{rack:?}");
+}
+
+#[test]
+fn the_bridge_breaks_in_part() {
+    let scene = find("breaking_bridge").unwrap().build(Options::default());
+    let left = end_of("breaking_bridge").world().joint_count();
+    assert!(left > 0 && left < scene.joints.len(), "{left} of {}", scene.joints.len());
+}
+
+#[test]
+fn nothing_leaves_the_bowl() {
+    let places = places(&end_of("bowl"));
+    let inside = |p: &tiny_physics::Vec2| (p.x / 9.0).powi(2) + (p.y / 7.0).powi(2) < 1.0;
+    assert!(places[1..].iter().all(|p| inside(p) || p.y > 0.0));
+    assert!(places[1..].iter().all(|p| p.y > -7.0 && p.x.abs() < 9.0));
+}
+
+#[test]
+fn what_was_to_change_has_changed() {
+    let run = end_of("changing");
+    let world = run.world();
+    let body = |index: usize| world.body(run.host().body_id(run.bodies()[index]).unwrap()).unwrap();
+    let balloon = world.shape(body(1).shapes().next().unwrap()).unwrap();
+    assert!(matches!(balloon.shape(), Shape::Circle { radius } if *radius > 2.0));
+    let shelves = world.body_ids().filter(|id| world.body(*id).unwrap().kind() == BodyKind::Static);
+    assert_eq!(shelves.count(), 2, "the ground and the slope");
+    assert!(places(&run)[15..19].iter().all(|crate_| crate_.y < 0.6), "all slid off the ice");
+}
+
+#[test]
+fn balls_stay_on_the_planks() {
+    let places = places(&end_of("platforms"));
+    assert!(places[17..].iter().all(|ball| ball.y > 2.0 && ball.x > 3.0), "{:?}", &places[17..]);
+}
+
+#[test]
+fn light_things_float() {
+    let run = end_of("harbour");
+    let places = places(&run);
+    let density = |i: usize| [100.0, 400.0, 700.0, 950.0, 1500.0][i % 5];
+    for (i, place) in places[3..].iter().enumerate() {
+        let floats = place.y > -3.0; // It may be under the boat.
+        assert_eq!(floats, density(i) < 1000.0, "{i} of density {} at {place:?}", density(i));
+    }
+    assert!(places[2].x > -11.0, "the boat has sailed: {:?}", places[2]);
+}
+
+#[test]
+fn parcels_come_into_the_box_of_their_kind() {
+    let run = end_of("sorting");
+    let places = places(&run);
+    let mut boxed = [0, 0, 0];
+    for (i, place) in places[1..].iter().enumerate().filter(|(_, p)| p.x > 9.6 && p.y < 2.0) {
+        let kind = i % 3;
+        assert_eq!(((place.x - 9.6) / 2.4) as usize, 2 - kind, "parcel {i} at {place:?}");
+        boxed[kind] += 1;
+    }
+    assert!(boxed.iter().all(|count| *count >= 5), "{boxed:?}");
+}
+
+#[test]
+fn the_door_opens() {
+    let places = places(&end_of("sensor_door"));
+    assert!(places[5].y > 6.5, "the door is up: {:?}", places[5]);
+    assert!(places[7..].iter().all(|load| load.y < 2.0), "all has come down: {:?}", &places[7..]);
+}
+
+#[test]
+fn the_hero_arrives() {
+    let places = places(&end_of("hero"));
+    let hero = places.last().unwrap();
+    assert!(hero.x > 26.0 && hero.y > 5.0, "{hero:?}");
+}
+
+#[test]
+fn a_scene_whose_deeds_make_no_sense_is_refused() {
+    let text = find("harbour").unwrap().build(Options::default()).to_json().unwrap();
+    for (from, to, message) in [
+        ("\"density\": 1000.0, \"flow\"", "\"density\": -1.0, \"flow\"", "water.density"),
+        ("\"wind\": { \"body\": 2", "\"wind\": { \"body\": 99", "wind.body"),
+        ("\"water\": {", "\"lava\": {", "unknown variant `lava`"),
+    ] {
+        assert!(text.contains(from), "{from} is in {text}");
+        let error = tiny_physics_scenes::Scene::from_json(&text.replacen(from, to, 1));
+        let error = error.unwrap_err().to_string();
+        assert!(error.contains(message), "{error}");
+    }
+}

@@ -1,0 +1,288 @@
+//! Paces: which islands the solver divides a step more finely for.
+//!
+//! A soft contact under the force F sinks by `F / (m w^2)`, with its effective mass m and the angular
+//! frequency w of its spring, which is bounded by the substep rate. So an island whose contacts would sink
+//! visibly gets more substeps, and the sink falls with their square. What a contact carries is known from
+//! the last step, and foreseen from the weights of what lies above.
+//!
+//! Only islands of bounded size are refined, and only up to a budget, so that a step never costs many times
+//! what it did before. An island keeps its pace until its strain has fallen to half of what called for it.
+
+use super::islands::{Islands, Stores};
+use crate::dynamics::{
+    Bodies, Bucket, Graph, IDLE, JointPlace, NULL, PACES, PLAIN, Place, REFINEMENT, pace_at,
+};
+use crate::math::Vec2;
+use crate::simd::BLOCK;
+
+/// Steps between two looks at all islands.
+const INTERVAL: u64 = 8;
+/// So many new contacts, if they are a good part of all, are looked at at once: somebody has put in a pile.
+const MANY_NEWS: usize = 16;
+/// Sink at the plain pace from which an island gets each pace, metres a length unit.
+const VISIBLE: [f32; PACES] = [0.0, 0.0008, 0.02];
+/// Speed below which a body counts as settled, length units a second.
+const SETTLED: f32 = 0.05;
+/// Bodies that an island of the finest pace may have.
+const MOST_AT_FINEST: usize = 128;
+/// What all refined islands may cost together: bodies times additional refinement, for each body that one of
+/// them may have.
+const BUDGET: usize = 4;
+
+/// How strain is told.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rules {
+    pub(crate) gravity: Vec2,
+    pub(crate) length_unit: f32,
+    /// Square of the angular frequency of contacts at the plain pace.
+    pub(crate) omega_squared: f32,
+    /// 1 / plain substep length.
+    pub(crate) inv_h: f32,
+    /// Bodies that a refined island may have.
+    pub(crate) most_bodies: usize,
+    pub(crate) step: u64,
+}
+
+/// Lists that [`assign`] fills anew; kept for their memory.
+#[derive(Debug, Default)]
+pub(crate) struct Memory {
+    islands: Islands,
+    found: Vec<Island>,
+    /// Height and body, from the highest down.
+    order: Vec<(f64, u32)>,
+    /// What lies on each body, newtons.
+    loads: Vec<f32>,
+    below: Vec<u32>,
+    changed: Vec<(u32, u8)>,
+    moved_contacts: Vec<(u32, usize)>,
+    moved_joints: Vec<(u32, usize)>,
+    of_body: Vec<u32>,
+}
+
+/// Is any body refined?
+pub(crate) fn any_refined(bodies: &Bodies) -> bool {
+    bodies.awake.iter().any(|&i| usize::from(bodies.infos[i as usize].pace) != PLAIN)
+}
+
+/// Gives every island its pace, where that is due.
+pub(crate) fn assign(mut stores: Stores<'_>, rules: Rules, memory: &mut Memory) {
+    if !is_due(&stores, rules) {
+        return;
+    }
+    memory.islands.find_all(stores.bodies, stores.graph, stores.joints);
+    survey(&stores, rules, memory);
+    let Memory { islands, found, changed, .. } = memory;
+    let mut budget = BUDGET * rules.most_bodies;
+    changed.clear();
+    for &body in &stores.bodies.awake {
+        let root = islands.root(body) as usize;
+        if root == body as usize {
+            found[root].grant(rules, &mut budget);
+        }
+        let info = &stores.bodies.infos[body as usize];
+        if stores.bodies.is_dynamic(body) && info.pace != found[root].pace {
+            changed.push((body, found[root].pace));
+        }
+    }
+    change(&mut stores, memory);
+    stores.graph.mixed = false;
+    stores.graph.news = 0;
+    stores.joint_graph.mixed = false;
+}
+
+fn is_due(stores: &Stores<'_>, rules: Rules) -> bool {
+    let Stores { bodies, graph, joint_graph, .. } = stores;
+    let news = graph.news as usize;
+    let many = news >= MANY_NEWS && news * 4 > graph.touching_count();
+    let look = rules.step.is_multiple_of(INTERVAL);
+    graph.mixed
+        || joint_graph.mixed
+        || many
+        || look && (news > 0 || any_refined(bodies) || is_any_strained(graph, rules))
+}
+
+/// Would a point of the plain pace sink visibly?
+fn is_any_strained(graph: &Graph, rules: Rules) -> bool {
+    let least = VISIBLE[1] * rules.length_unit * rules.omega_squared / rules.inv_h;
+    let plain = graph.buckets[..IDLE].iter().enumerate().filter(|&(at, _)| pace_at(at) == PLAIN);
+    let mut points = plain
+        .flat_map(|(_, buckets)| buckets)
+        .flat_map(|bucket| &bucket.constraints)
+        .flat_map(|block| &block.points);
+    points.any(|lanes| {
+        let lanes = lanes.normal_impulse.iter().zip(&lanes.normal_mass);
+        lanes.fold(false, |any, (impulse, mass)| any | (*impulse > least * mass))
+    })
+}
+
+/// What is known of an island, at the index of its root.
+#[derive(Clone, Copy, Debug, Default)]
+struct Island {
+    bodies: usize,
+    /// Greatest pace of its bodies so far; after [`Island::grant`] the pace of all.
+    pace: u8,
+    /// Greatest sink that its contacts would have at the plain pace, metres.
+    strain: f32,
+}
+
+impl Island {
+    /// Chooses the pace: the finest that the strain calls for and the bounds allow.
+    fn grant(&mut self, rules: Rules, budget: &mut usize) {
+        let wanted = (1..PACES).rev().find(|&pace| {
+            let keep = if pace <= usize::from(self.pace) { 0.5 } else { 1.0 };
+            self.strain > keep * VISIBLE[pace] * rules.length_unit
+        });
+        let most = [usize::MAX, rules.most_bodies, rules.most_bodies.min(MOST_AT_FINEST)];
+        let cost = |pace: usize| self.bodies * (REFINEMENT[pace] as usize - 1);
+        let allowed = (1..=wanted.unwrap_or(PLAIN))
+            .rev()
+            .find(|&pace| self.bodies <= most[pace] && cost(pace) <= *budget);
+        let pace = allowed.unwrap_or(PLAIN);
+        *budget -= cost(pace);
+        self.pace = pace as u8;
+    }
+}
+
+/// Counts and strains of all islands.
+fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
+    let Stores { bodies, graph, .. } = stores;
+    let Memory { islands, found, .. } = memory;
+    found.clear();
+    found.resize(bodies.infos.len(), Island::default());
+    for &body in bodies.awake.iter().filter(|&&body| bodies.is_dynamic(body)) {
+        let island = &mut found[islands.root(body) as usize];
+        island.bodies += 1;
+        island.pace = island.pace.max(bodies.infos[body as usize].pace);
+    }
+    for (at, buckets) in graph.buckets[..IDLE].iter().enumerate() {
+        let refinement = REFINEMENT[pace_at(at)] as f32;
+        let scale = refinement * rules.inv_h / rules.omega_squared;
+        for bucket in buckets {
+            for slot in 0..bucket.contacts.len() {
+                let (a, b) = bucket.bodies(slot);
+                let both = bodies.is_dynamic(a) && bodies.is_dynamic(b);
+                if both && rests(bodies, a, rules) && rests(bodies, b, rules) {
+                    let sink = scale * greatest_load(bucket, slot);
+                    let island = &mut found[islands.root(a) as usize];
+                    island.strain = island.strain.max(sink);
+                }
+            }
+        }
+    }
+    foresee(stores, rules, memory);
+}
+
+/// Is a body slow enough for its contacts to carry what they will go on carrying?
+fn rests(bodies: &Bodies, body: u32, rules: Rules) -> bool {
+    let limit = SETTLED * rules.length_unit;
+    let velocity = bodies.velocity(body);
+    velocity.dot(velocity) < limit * limit
+}
+
+/// Greatest impulse of a contact's points over their effective masses, metres a second.
+fn greatest_load(bucket: &Bucket, slot: usize) -> f32 {
+    let (block, lane) = (slot / BLOCK, slot % BLOCK);
+    let load = |k: usize| {
+        let point = &bucket.constraints[block].points[k];
+        let mass = point.normal_mass[lane];
+        if mass > 0.0 { point.normal_impulse[lane] / mass } else { 0.0 }
+    };
+    load(0).max(load(1))
+}
+
+/// Lets weights run down through small islands and notes how far contacts would sink under them.
+///
+/// From the highest body to the lowest, each hands its weight and what lies on it in equal parts to what it
+/// touches below and to bodies that nothing moves. So a pile that has just been put in, whose contacts carry
+/// nothing yet, is judged by what they are going to carry.
+fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
+    let Stores { bodies, contacts, .. } = stores;
+    let Memory { islands, found, order, loads, below, .. } = memory;
+    let height = |body: u32| {
+        let p = bodies.poses[body as usize].p;
+        -(p.x * f64::from(rules.gravity.x) + p.y * f64::from(rules.gravity.y))
+    };
+    order.clear();
+    for &body in bodies.awake.iter().filter(|&&body| bodies.is_dynamic(body)) {
+        if (2..=rules.most_bodies).contains(&found[islands.root(body) as usize].bodies) {
+            order.push((height(body), body));
+        }
+    }
+    order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    loads.clear();
+    loads.resize(bodies.infos.len(), 0.0);
+    for &(top, body) in order.iter() {
+        let info = &bodies.infos[body as usize];
+        below.clear();
+        below.extend(contacts.of_body(info.first_contact).filter_map(|(index, side)| {
+            let contact = &contacts.records[index as usize];
+            let other = if side == 0 { contact.body_b } else { contact.body_a };
+            let lower = !bodies.is_dynamic(other) || height(other) < top;
+            (contact.touching && lower).then_some(other)
+        }));
+        let weight = info.mass * info.gravity_scale.abs() * rules.gravity.length();
+        let share = (weight + loads[body as usize]) / below.len().max(1) as f32;
+        let inverse_mass = bodies.inverse_masses(body).0;
+        for &other in below.iter().filter(|&&other| bodies.is_dynamic(other)) {
+            loads[other as usize] += share;
+            let compliance = (inverse_mass + bodies.inverse_masses(other).0) / rules.omega_squared;
+            let island = &mut found[islands.root(body) as usize];
+            island.strain = island.strain.max(share * compliance);
+        }
+    }
+}
+
+/// Moves bodies to other paces, and what hangs on them.
+fn change(stores: &mut Stores<'_>, memory: &mut Memory) {
+    let Stores { bodies, contacts, graph, joints, joint_graph } = stores;
+    let Memory { changed, moved_contacts, moved_joints, of_body, .. } = memory;
+    moved_contacts.clear();
+    moved_joints.clear();
+    for &(body, _) in changed.iter() {
+        let mut edge = bodies.infos[body as usize].first_contact;
+        while edge != NULL {
+            let contact = &contacts.records[edge as usize / 2];
+            let next = contact.links[edge as usize % 2].1;
+            if let (true, Place::Graph { colour, .. }) = (contact.touching, contact.place) {
+                graph.remove(bodies, contacts, edge / 2);
+                moved_contacts.push((edge / 2, pace_at(colour.into())));
+            }
+            edge = next;
+        }
+        let joined = joints.of_body(bodies.infos[body as usize].first_joint);
+        of_body.clear();
+        of_body.extend(joined.map(|(index, _)| index));
+        for &index in of_body.iter() {
+            if let JointPlace::Graph { .. } = joints.records[index as usize].place {
+                let pace = joint_graph.pace_of(&joints.records[index as usize]);
+                joint_graph.remove(bodies, joints, index);
+                moved_joints.push((index, pace));
+            }
+        }
+    }
+    for &(body, pace) in changed.iter() {
+        bodies.infos[body as usize].pace = pace;
+    }
+    moved_contacts.sort_unstable();
+    for &(index, old) in moved_contacts.iter() {
+        let contact = &mut contacts.records[index as usize];
+        let scale = rescale(old, bodies.common_pace(contact.body_a, contact.body_b));
+        for point in &mut contact.saved {
+            point.normal_impulse *= scale;
+            point.tangent_impulse *= scale;
+        }
+        graph.insert(bodies, contacts, index);
+    }
+    moved_joints.sort_unstable();
+    for &(index, old) in moved_joints.iter() {
+        let record = &mut joints.records[index as usize];
+        let scale = rescale(old, bodies.common_pace(record.body_a, record.body_b));
+        record.saved.iter_mut().for_each(|impulse| *impulse *= scale);
+        joint_graph.insert(bodies, joints, index);
+    }
+}
+
+/// Impulses go with the length of a substep.
+fn rescale(old: usize, new: usize) -> f32 {
+    REFINEMENT[old] as f32 / REFINEMENT[new] as f32
+}
