@@ -237,3 +237,54 @@ fn without_a_display_view_says_so() {
         assert!(error.contains("display") && error.contains("render"), "{error}");
     }
 }
+
+/// A short soak: twice the same, other seeds other worlds, and every line of the table is there.
+#[test]
+fn a_soak_ends_in_the_same_state() {
+    let soak = |seed: &str| good(&["soak", "--steps", "4000", "--check", "50", "--seed", seed]);
+    let hash = |out: &str| out.lines().last().unwrap_or_default().to_owned();
+    let (a, b) = (soak("1"), soak("1"));
+    assert_eq!(hash(&a), hash(&b));
+    assert!(hash(&a).starts_with("hash ") && hash(&a).len() == 21, "{a}");
+    assert_ne!(hash(&a), hash(&soak("2")));
+    assert!(a.contains("80 checks found all data sound"), "{a}");
+    assert_eq!(a.lines().count(), 1 + 20 + 3, "{a}");
+    assert!(bad(&["soak", "--steps", "0"]).contains("--steps"));
+}
+
+/// Record, replay to a step, compare; what is damaged or of another version is refused with the reason.
+#[test]
+fn recordings_are_played_again_compared_and_refused() {
+    let path = |name: &str| scratch(name).to_str().unwrap().to_owned();
+    let record = |name: &str, scene: &[&str]| {
+        let file = path(name);
+        good(&[&["record"], scene, &["-o", &file]].concat())
+    };
+    let out = record("a.tpr", &["seed_demo", "--steps", "60"]);
+    let (a, b, c) = (path("a.tpr"), path("b.tpr"), path("c.tpr"));
+    let last = |out: &str| out.trim_end().rsplit(' ').next().unwrap_or_default().to_owned();
+    let played = good(&["replay", &a]);
+    assert!(played.starts_with("60 steps with the same bits") && last(&played) == last(&out));
+    let seen = good(&["run", "seed_demo", "--steps", "25"]);
+    assert_eq!(last(&good(&["replay", &a, "--to", "25"])), last(&seen));
+
+    record("b.tpr", &["seed_demo", "--steps", "60", "--seed", "2"]);
+    record("c.tpr", &["seed_demo", "--steps", "40"]);
+    assert!(good(&["diff", &a, &a]).contains("alike in all 60 steps"));
+    assert!(bad(&["diff", &a, &b]).contains("differ from step 1"));
+    assert!(bad(&["diff", &a, &c]).contains("before step 41"));
+
+    let bytes = std::fs::read(&a).unwrap();
+    let refusal = |at: usize| {
+        let mut other = bytes.clone();
+        other[at] ^= 0x40;
+        std::fs::write(&b, other).unwrap();
+        bad(&["replay", &b])
+    };
+    let frame = bytes.windows(4).position(|word| word == b"tpw1").expect("a first frame");
+    assert!(refusal(frame + 4).contains("another version"));
+    assert!(refusal(frame + 30).contains("damaged"));
+    assert!(refusal(0).contains("does not begin like a recording"));
+    // The end of the file is the hash of the last step.
+    assert!(refusal(bytes.len() - 1).contains("first after step 60"));
+}

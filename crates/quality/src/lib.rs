@@ -10,6 +10,7 @@
 //! assert_eq!(report.id, 18);
 //! ```
 
+mod golden;
 mod lab;
 mod report;
 mod rows;
@@ -17,6 +18,7 @@ mod scenery;
 mod subject;
 mod target;
 
+pub use golden::{golden, row_hash, row_of};
 pub use lab::{Lab, MakeSubject, Trial, Variant};
 pub use report::{Measure, Report};
 pub use rows::{Row, find, rows};

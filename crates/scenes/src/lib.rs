@@ -16,8 +16,10 @@
 mod build;
 mod catalogue;
 mod check;
+mod churn;
 mod error;
 mod file;
+mod golden;
 mod host;
 mod human;
 mod json;
@@ -29,7 +31,9 @@ mod world_host;
 
 pub use build::Options;
 pub use catalogue::{Entry, UnknownScene, all, find, resolve, tags};
+pub use churn::{Churn, ChurnCounts};
 pub use error::{Problem, SceneError};
+pub use golden::{Golden, golden, run_hash};
 pub use host::{Host, Player};
 pub use scene::{Counts, Scene, SceneJoint, VERSION};
 pub use script::{

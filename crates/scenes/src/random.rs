@@ -8,6 +8,7 @@ use rand_pcg::rand_core::Rng;
 use tiny_physics::Vec2;
 
 /// Numbers for the seeded scenes: PCG-XSH-RR 64/32 (O'Neill 2014).
+#[derive(Clone)]
 pub(crate) struct Random(Pcg32);
 
 impl Random {

@@ -2,14 +2,9 @@
 //! builds. `UPDATE_GOLDEN=1 cargo test -p tiny-physics-scenes --test golden` writes `golden.txt` anew; say
 //! why in the changelog. `scripts/platforms.sh` holds the same table against other architectures.
 
-#[path = "common/golden.rs"]
-mod common;
-
-use common::hash;
-use std::collections::BTreeMap;
 use std::fmt::Write;
 use tiny_physics::SimdLevel;
-use tiny_physics_scenes::{Entry, Options, all, tags};
+use tiny_physics_scenes::{Entry, Golden, Options, all, golden, run_hash, tags};
 
 const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden.txt");
 
@@ -30,15 +25,8 @@ fn levels() -> Vec<SimdLevel> {
     SimdLevel::ALL.into_iter().filter(|level| level.is_available()).collect()
 }
 
-fn golden() -> BTreeMap<String, (u32, u64)> {
-    let text = std::fs::read_to_string(PATH).unwrap_or_default();
-    text.lines()
-        .filter_map(|line| {
-            let mut words = line.split_whitespace();
-            let (name, steps, hash) = (words.next()?, words.next()?, words.next()?);
-            Some((name.to_owned(), (steps.parse().ok()?, u64::from_str_radix(hash, 16).ok()?)))
-        })
-        .collect()
+fn hash(entry: &Entry, steps: u32, level: SimdLevel, threads: usize) -> u64 {
+    run_hash(entry, steps, level, threads).expect(entry.name)
 }
 
 #[test]
@@ -48,9 +36,9 @@ fn scenes_have_their_golden_hashes() {
     let golden = golden();
     let (mut table, mut wrong) = (String::new(), Vec::new());
     for (entry, steps) in scenes() {
-        let hash = hash(entry, steps, best, 1);
-        writeln!(table, "{} {steps} {hash:016x}", entry.name).expect("text");
-        if golden.get(entry.name) != Some(&(steps, hash)) {
+        let line = Golden { name: entry.name.into(), steps, hash: hash(entry, steps, best, 1) };
+        writeln!(table, "{line}").expect("text");
+        if !golden.contains(&line) {
             wrong.push(entry.name);
         }
     }

@@ -39,6 +39,11 @@ pub enum Error {
         /// What is wrong.
         reason: &'static str,
     },
+    /// A recording was played again and came out otherwise.
+    Differs {
+        /// The first step, counted from 1, after which the state is another.
+        step: usize,
+    },
     /// The combination is not possible; the text says why.
     Unsupported {
         /// What and why.
@@ -91,6 +96,9 @@ impl fmt::Display for Error {
                 write!(f, "{handle} has been removed or was never here")
             }
             Self::BadFrame { reason } => write!(f, "not a frame that can be read: {reason}"),
+            Self::Differs { step } => {
+                write!(f, "the playback differs from what was recorded, first after step {step}")
+            }
             Self::Unsupported { reason } => f.write_str(reason),
         }
     }

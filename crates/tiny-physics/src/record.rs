@@ -319,7 +319,7 @@ impl<'a> Player<'a> {
     /// Plays one step; false at the end.
     ///
     /// # Errors
-    /// The state is not the one that was recorded, or a command is refused that was not.
+    /// [`Error::Differs`] when the state is not the one that was recorded; or a command is refused that was not.
     pub fn step(&mut self) -> Result<bool, Error> {
         let Some(step) = self.recording.steps.get(self.at) else { return Ok(false) };
         for command in &step.commands {
@@ -330,7 +330,7 @@ impl<'a> Player<'a> {
         if self.world.state_hash() == step.hash {
             Ok(true)
         } else {
-            Err(bad("the playback differs from what was recorded"))
+            Err(Error::Differs { step: self.at })
         }
     }
 
@@ -403,7 +403,8 @@ mod tests {
         let mut wrong = a.recording().clone();
         wrong.steps[59].hash ^= 1;
         let mut player = Player::new(&wrong).unwrap();
-        assert!(player.seek(120).is_err() && player.at() == 60);
+        assert_eq!(player.seek(120), Err(Error::Differs { step: 60 }));
+        assert_eq!(player.at(), 60);
     }
 
     #[test]
@@ -412,5 +413,20 @@ mod tests {
         for length in (0..bytes.len()).step_by(101) {
             assert!(Recording::from_bytes(&bytes[..length]).is_err());
         }
+    }
+
+    /// A recording of an older or newer engine says so; nobody plays it wrongly.
+    #[test]
+    fn recordings_of_another_version_are_refused_with_the_reason() {
+        let bytes = session(1.0).recording().to_bytes();
+        let refusal = |at: usize| {
+            let mut other = bytes.clone();
+            other[at] += 1;
+            Recording::from_bytes(&other).unwrap_err().to_string()
+        };
+        assert!(refusal(3).contains("does not begin like a recording"), "{}", refusal(3));
+        // After the recording's own magic and the length of the first frame: the frame's magic and version.
+        let frame = bytes.windows(4).position(|word| word == b"tpw1").expect("a first frame");
+        assert!(refusal(frame + 4).contains("another version"), "{}", refusal(frame + 4));
     }
 }

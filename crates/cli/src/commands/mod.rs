@@ -9,6 +9,7 @@ mod quality;
 mod record;
 mod render;
 mod run;
+mod soak;
 mod view;
 
 use crate::args::{Cli, Command};
@@ -31,5 +32,6 @@ pub fn run(cli: Cli) -> Outcome {
         Some(Command::Record(args)) => record::record(&args),
         Some(Command::Replay(args)) => record::replay(&args),
         Some(Command::Diff(args)) => record::diff(&args),
+        Some(Command::Soak(args)) => soak::run(&args),
     }
 }

@@ -41,7 +41,10 @@ pub fn replay(args: &ReplayArgs) -> Outcome {
     let recording = load(&args.file)?;
     let mut player = Player::new(&recording)?;
     let played = player.seek(args.to.unwrap_or(recording.len()));
-    played.map_err(|error| Failure::new(format!("{error} (at step {})", player.at())))?;
+    played.map_err(|error| match error {
+        Error::Differs { .. } => error.into(),
+        _ => Failure::new(format!("{error} (at step {})", player.at() + 1)),
+    })?;
     let hash = player.world().state_hash();
     writeln!(stdout(), "{} steps with the same bits, state hash {hash:016x}", player.at())?;
     Ok(())

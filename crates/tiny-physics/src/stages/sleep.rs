@@ -157,24 +157,22 @@ fn put_island_to_sleep(island: &[u32], stores: &mut Stores<'_>, hinges: &mut Vec
     }
 }
 
-/// Wakes a body and its island, and lists the bodies that woke, ascending. Nothing happens and the list is
-/// empty if it is awake or cannot move. `hinges` is memory.
+/// Wakes a body and its island, and lists the bodies that woke, ascending. Islands that a joint links to it wake
+/// with it: they fell asleep before the joint was made. Nothing happens and the list is empty if it is awake or
+/// cannot move. `hinges` is memory.
 pub(crate) fn wake(index: u32, stores: Stores<'_>, island: &mut Vec<u32>, hinges: &mut Vec<u32>) {
     let Stores { bodies, contacts, graph, joints, joint_graph } = stores;
     island.clear();
-    let info = &bodies.infos[index as usize];
-    if info.awake || !info.alive || !info.enabled || info.kind == BodyKind::Static {
-        return;
-    }
-    let mut body = index;
-    loop {
-        island.push(body);
-        let info = &mut bodies.infos[body as usize];
-        info.awake = true;
-        info.sleep_time = 0.0;
-        body = core::mem::replace(&mut info.island_next, NULL);
-        if body == index || body == NULL {
-            break;
+    wake_ring(index, bodies, island);
+    let mut next = 0;
+    while let Some(&body) = island.get(next) {
+        next += 1;
+        for (joint, side) in joints.of_body(bodies.infos[body as usize].first_joint) {
+            let record = &joints.records[joint as usize];
+            let other = if side == 0 { record.body_b } else { record.body_a };
+            if record.class().is_some() && bodies.is_dynamic(other) {
+                wake_ring(other, bodies, island);
+            }
         }
     }
     island.sort_unstable();
@@ -190,6 +188,25 @@ pub(crate) fn wake(index: u32, stores: Stores<'_>, island: &mut Vec<u32>, hinges
         list_joints(bodies, joints, body, hinges);
         for &index in hinges.iter() {
             joint_graph.insert(bodies, joints, index);
+        }
+    }
+}
+
+/// Wakes the ring of a body that sleeps and can move, and appends its bodies.
+fn wake_ring(index: u32, bodies: &mut Bodies, island: &mut Vec<u32>) {
+    let info = &bodies.infos[index as usize];
+    if info.awake || !info.alive || !info.enabled || info.kind == BodyKind::Static {
+        return;
+    }
+    let mut body = index;
+    loop {
+        island.push(body);
+        let info = &mut bodies.infos[body as usize];
+        info.awake = true;
+        info.sleep_time = 0.0;
+        body = core::mem::replace(&mut info.island_next, NULL);
+        if body == index || body == NULL {
+            break;
         }
     }
 }

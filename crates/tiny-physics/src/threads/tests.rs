@@ -7,6 +7,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Numbers of threads to try: one, some, more than there are cores.
 const THREAD_COUNTS: [usize; 5] = [0, 1, 2, 3, 9];
 
+/// Miri walks through every operation, so it gets short tests.
+const MIRI: bool = cfg!(miri);
+
 /// Many stages that each depend on the one before, over slices and shared slices.
 fn mix(team: &Team<'_>, len: usize, stage_count: u32) -> Vec<u64> {
     let mut now: Vec<u64> = (0..len as u64).collect();
@@ -34,7 +37,11 @@ fn mix(team: &Team<'_>, len: usize, stage_count: u32) -> Vec<u64> {
 
 #[test]
 fn results_do_not_depend_on_the_number_of_threads() {
-    let stage_count = if cfg!(debug_assertions) { 300 } else { 3000 };
+    let stage_count = match MIRI {
+        true => 6,
+        false if cfg!(debug_assertions) => 300,
+        false => 3000,
+    };
     let expected = mix(&Team::alone(), 131, stage_count);
     for thread_count in THREAD_COUNTS {
         let pool = Pool::new(thread_count);
@@ -48,7 +55,8 @@ fn results_do_not_depend_on_the_number_of_threads() {
 fn every_index_is_visited_once_in_ranges_of_the_chunk_length() {
     for thread_count in THREAD_COUNTS {
         let pool = Pool::new(thread_count);
-        for (len, chunk_len) in [(0, 4), (1, 4), (4, 4), (5, 4), (1000, 1), (1000, 0), (1000, 33)] {
+        let many = if MIRI { 70 } else { 1000 };
+        for (len, chunk_len) in [(0, 4), (1, 4), (4, 4), (5, 4), (many, 1), (many, 0), (many, 33)] {
             let visits: Vec<_> = (0..len).map(|_| AtomicUsize::new(0)).collect();
             pool.scope(|team| {
                 team.for_each_chunk(len, chunk_len, |range| {
@@ -147,15 +155,16 @@ fn a_panic_between_stages_frees_the_pool() {
 
 #[test]
 fn clones_on_several_threads_work_at_once() {
+    let (rounds, stage_count) = if MIRI { (2, 8) } else { (10, 100) };
     let pool = Pool::new(2);
-    let expected = mix(&Team::alone(), 64, 100);
+    let expected = mix(&Team::alone(), 64, stage_count);
     std::thread::scope(|scope| {
         for _ in 0..4 {
             let pool = pool.clone();
             let expected = &expected;
             scope.spawn(move || {
-                for _ in 0..10 {
-                    assert_eq!(&pool.scope(|team| mix(team, 64, 100)), expected);
+                for _ in 0..rounds {
+                    assert_eq!(&pool.scope(|team| mix(team, 64, stage_count)), expected);
                 }
             });
         }
@@ -164,7 +173,7 @@ fn clones_on_several_threads_work_at_once() {
 
 #[test]
 fn pools_come_and_go_while_their_workers_start() {
-    for thread_count in 0..60 {
+    for thread_count in 0..if MIRI { 12 } else { 60 } {
         let pool = Pool::new(thread_count % 6);
         if thread_count % 2 == 0 {
             assert_eq!(pool.scope(|team| mix(team, 5, 3)), mix(&Team::alone(), 5, 3));

@@ -2,7 +2,7 @@
 
 use super::World;
 use crate::describe::BodyKind;
-use crate::dynamics::{COLOURS, IDLE, NULL, Place, colour_at};
+use crate::dynamics::{COLOURS, IDLE, JointPlace, JointRecord, NULL, Place, colour_at};
 use crate::stages::{finalize, pairs};
 use core::ops::ControlFlow;
 use std::collections::HashSet;
@@ -18,6 +18,7 @@ impl World {
         self.validate_bodies()?;
         self.validate_contacts()?;
         self.validate_pairs()?;
+        self.validate_joints()?;
         self.validate_colours()
     }
 
@@ -148,6 +149,30 @@ impl World {
         Ok(())
     }
 
+    /// A joint that pulls is in the graph while one of its bodies is awake, and no body that it moves sleeps then.
+    fn validate_joints(&self) -> Result<(), String> {
+        let pulls = |joint: &JointRecord| {
+            let enabled = |body: u32| self.bodies.infos[body as usize].enabled;
+            let together = enabled(joint.body_a) && enabled(joint.body_b);
+            joint.alive && joint.class().is_some() && together
+        };
+        let joints = self.joints.records.iter().enumerate();
+        for (index, joint) in joints.filter(|(_, joint)| pulls(joint)) {
+            let ends = [joint.body_a, joint.body_b];
+            let awake = ends.iter().any(|&body| self.bodies.infos[body as usize].awake);
+            let asleep = |&body: &u32| {
+                self.bodies.is_dynamic(body) && !self.bodies.infos[body as usize].awake
+            };
+            if awake != (joint.place != JointPlace::Asleep) {
+                return Err(format!("joint {index} is awake without a lane, or sleeps in one"));
+            }
+            if awake && ends.iter().any(asleep) {
+                return Err(format!("joint {index} pulls at a body that sleeps"));
+            }
+        }
+        Ok(())
+    }
+
     /// No two contacts of a colour share a dynamic body, and the bodies know their colours.
     fn validate_colours(&self) -> Result<(), String> {
         let mut used = vec![0_u32; self.bodies.infos.len()];
@@ -170,7 +195,6 @@ impl World {
             if info.contact_colours != used[index as usize] {
                 return Err(format!("body {index} does not know its colours"));
             }
-            debug_assert_ne!(info.generation, NULL);
         }
         Ok(())
     }

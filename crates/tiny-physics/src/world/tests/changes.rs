@@ -261,3 +261,28 @@ fn forces_and_velocities_act_at_their_points() {
     run(&mut other, 1);
     assert!((other.body(body).unwrap().velocity() - before).length() < 1e-6);
 }
+
+/// Found by an endurance run: two sleepers that were joined in their sleep, and one of them woken, left the other
+/// in the joint's hands without ever moving it, until its speed overflowed.
+#[test]
+fn sleepers_that_a_joint_links_wake_together() {
+    let mut world = world();
+    add_ground(&mut world);
+    let [a, b, c] = [0.0, 3.0, 6.0].map(|x| add(&mut world, x, 0.5, rect(0.5, 0.5)));
+    (0..120).for_each(|_| world.step(DT));
+    let awake = |world: &World, id| world.body(id).unwrap().is_awake();
+    assert!(![a, b, c].iter().any(|&id| awake(&world, id)), "three islands of one asleep");
+    world.add_joint(a, b, JointDef::prismatic(Vec2::X).limits(-1.0, 1.0)).unwrap();
+    world.add_joint(b, c, JointDef::distance(1.0).spring(2.0, 0.3)).unwrap();
+    world.validate().unwrap();
+    world.body_mut(a).unwrap().set_velocity(Vec2::new(0.0, 2.0));
+    assert!([a, b, c].iter().all(|&id| awake(&world, id)));
+    for _ in 0..600 {
+        world.step(DT);
+        world.validate().unwrap();
+    }
+    let fastest = [a, b, c].map(|id| world.body(id).unwrap().velocity().length());
+    assert!(fastest.iter().all(|&speed| speed < 1.0), "{fastest:?}");
+    let apart = world.body(c).unwrap().position().x - world.body(b).unwrap().position().x;
+    assert!(apart < 2.5, "the spring drew them together: {apart}");
+}

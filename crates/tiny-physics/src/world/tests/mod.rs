@@ -5,9 +5,11 @@ mod changes;
 mod compounds;
 mod events;
 mod forces;
+mod handles;
 mod hooks;
 mod one_way;
 mod paces;
+mod threads;
 mod trees;
 
 use super::*;
