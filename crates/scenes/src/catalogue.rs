@@ -1,6 +1,6 @@
 //! The list of all scenes that this crate can build.
 
-use crate::build::{Options, benchmark, features, joints, level, seed, show};
+use crate::build::{Options, benchmark, course, features, joints, level, seed, show};
 use crate::scene::Scene;
 use core::fmt;
 
@@ -97,6 +97,7 @@ static ENTRIES: &[Entry] = &[
     entry("arch", "An arch of stones without mortar", 600, SHOW, show::arch),
     entry("galton_board", "Balls fall through pegs into bins", 1200, SHOW, show::galton_board),
     entry("car", "A car drives over hills", 600, SHOW, show::car),
+    entry("character", "A character walks over hills, stairs and platforms and pushes a crate", 2250, SHOW, course::character),
     entry("friction_ramp", "Crates of rising friction on a slope", 600, SHOW, show::friction_ramp),
     entry("joints", "Every kind of joint, side by side", 600, SHOW, joints::joints),
     entry("clockwork", "A motor, a train of wheels, and a rack that lifts a stack", 600, SHOW, joints::clockwork),

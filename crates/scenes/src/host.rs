@@ -24,12 +24,17 @@ pub trait Host {
     fn velocity(&self, body: usize) -> Vec2;
     /// Sets that velocity and wakes the body.
     fn set_velocity(&mut self, body: usize, velocity: Vec2);
+    /// Sets its angular velocity, radians a second.
+    fn set_angular_velocity(&mut self, _body: usize, _radians_per_second: f32) {}
     /// Is the body awake?
     fn is_awake(&self, body: usize) -> bool;
     /// Wakes a body and its island.
     fn wake(&mut self, body: usize);
     /// Steps the world by `dt` seconds.
     fn step(&mut self, dt: f32);
+
+    /// Moves a character on by `dt` seconds, after a step.
+    fn move_character(&mut self, _mover: &mut CharacterMover, _input: MoverInput, _dt: f32) {}
 
     /// Fraction of `translation`, 0 to 1, at which a ray first meets a shape with a category in `mask`.
     fn ray_cast(&mut self, _origin: Vec2, _translation: Vec2, _mask: u64) -> Option<f32> {

@@ -33,5 +33,7 @@ pub use error::{Problem, SceneError};
 pub use host::{Host, Player};
 pub use scene::{Counts, Scene, SceneJoint, VERSION};
 pub use script::{Act, Deed, Hero, Pull, Timeline, Walk, When, lead_progress};
-pub use script::{Queries, Rain, Script, Terrain, WakeSleepers, Walkers};
+pub use script::{
+    Character, Key, Leg, Queries, Rain, Ride, Script, Terrain, WakeSleepers, Walkers,
+};
 pub use world_host::{Run, WorldHost};

@@ -235,6 +235,18 @@ impl Host for WorldHost {
         }
     }
 
+    fn set_angular_velocity(&mut self, body: usize, radians_per_second: f32) {
+        if let Some(mut body) = self.body_id(body).and_then(|id| self.world.body_mut(id))
+            && body.as_ref().angular_velocity() != radians_per_second
+        {
+            body.set_angular_velocity(radians_per_second);
+        }
+    }
+
+    fn move_character(&mut self, mover: &mut CharacterMover, input: MoverInput, dt: f32) {
+        mover.update(&mut self.world, input, dt);
+    }
+
     fn is_awake(&self, body: usize) -> bool {
         let body = self.body_id(body).and_then(|id| self.world.body(id));
         body.is_some_and(|body| body.is_awake())

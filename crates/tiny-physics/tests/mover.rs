@@ -1,51 +1,8 @@
-//! The character mover: the example level at three step rates, and what it must do by numbers.
+//! The character mover: what it must do by numbers. The tests of the scenes have its level.
 
-#[path = "../examples/mover/level.rs"]
-mod level;
-
-use level::{END, Level};
-use tiny_physics::{
-    CharacterMover, DVec2, MoverInput, RigidBody, Shape, ShapeDef, TileGrid, Vec2, World,
-};
+use tiny_physics::{CharacterMover, MoverInput, RigidBody, Shape, ShapeDef, TileGrid, Vec2, World};
 
 const FLOOR: f64 = 0.91; // Half the height and the skin.
-
-/// Places at whole seconds, and the last one.
-fn run(hertz: u32) -> Vec<DVec2> {
-    let mut level = Level::new().unwrap();
-    let dt = 1.0 / hertz as f32;
-    let mut places = Vec::new();
-    for step in 0..(END as u32 * hertz) {
-        level.time = step as f32 * dt;
-        let input = level.scripted_input(dt);
-        level.step(input, dt);
-        if (step + 1) % hertz == 0 {
-            places.push(level.hero.position);
-        }
-    }
-    level.world.validate().unwrap();
-    let crate_ = level.world.body(level.crate_).unwrap().position();
-    assert!((crate_.x - 62.6).abs() < 0.02, "the crate is at the wall: {crate_:?}");
-    places
-}
-
-#[test]
-fn the_run_ends_at_the_same_place_at_every_rate() {
-    let runs = [30, 60, 120].map(run);
-    for (second, place) in runs[1].iter().enumerate() {
-        println!("{:2} s  {:?} {:?} {:?}", second + 1, runs[0][second], place, runs[2][second]);
-    }
-    let at = |seconds: usize| runs[1][seconds - 1];
-    assert!((at(7).x - 28.0).abs() < 0.01, "over hills and stairs: {:?}", at(7));
-    assert!((at(8).y - 5.0 - FLOOR).abs() < 0.01, "on the one-way platform: {:?}", at(8));
-    assert!((at(13).y - 4.2 - FLOOR).abs() < 0.02, "up on the lift: {:?}", at(13));
-    assert!((at(23).x - 46.0).abs() < 0.02, "over the pit: {:?}", at(23));
-    assert!((at(40).x - 57.89).abs() < 0.02, "back from the wall: {:?}", at(40));
-    for run in [&runs[0], &runs[2]] {
-        let apart = (*run.last().unwrap()).relative_to(*runs[1].last().unwrap()).length();
-        assert!(apart < 0.01, "the ends are {apart} m apart");
-    }
-}
 
 fn settle(world: &mut World, mover: &mut CharacterMover, steps: u32, dt: f32) {
     for _ in 0..steps {
@@ -129,27 +86,45 @@ fn steep_slopes_and_high_steps_stop_it() {
     }
 }
 
+/// Where the character and a crate that stood at 2 m are after pushing for 2 s.
+fn push(mass: f32, hertz: u32) -> (f64, f64) {
+    let dt = 1.0 / hertz as f32;
+    let mut world = World::new(Vec2::new(0.0, -10.0));
+    let floor = RigidBody::fixed().position(Vec2::new(0.0, -0.5));
+    world.add_body(floor.shape(Shape::rect(40.0, 0.5).unwrap()).friction(0.5)).unwrap();
+    let shape = ShapeDef::new(Shape::rect(0.5, 0.5).unwrap()).friction(0.5);
+    let body = RigidBody::dynamic().position(Vec2::new(2.0, 0.5)).shape(shape).mass(mass);
+    let body = world.add_body(body.lock_rotation()).unwrap();
+    let mut mover = CharacterMover::new(Vec2::new(0.0, 1.0), 1.8, 0.3);
+    for _ in 0..3 * hertz {
+        world.step(dt);
+        let input = MoverInput { walk: 2.0, ..MoverInput::default() };
+        mover.update(&mut world, input, dt);
+    }
+    (mover.position.x, world.body(body).unwrap().position_f64().x)
+}
+
 #[test]
 fn pushing_is_bounded_by_force() {
-    let dt = 1.0 / 60.0;
-    let push = |mass: f32| {
-        let mut world = World::new(Vec2::new(0.0, -10.0));
-        let floor = Shape::rect(40.0, 0.5).unwrap();
-        world.add_body(RigidBody::fixed().position(Vec2::new(0.0, -0.5)).shape(floor)).unwrap();
-        let shape = ShapeDef::new(Shape::rect(0.5, 0.5).unwrap()).friction(0.5);
-        let body = RigidBody::dynamic().position(Vec2::new(2.0, 0.5)).shape(shape).mass(mass);
-        let body = world.add_body(body.lock_rotation()).unwrap();
-        let mut mover = CharacterMover::new(Vec2::new(0.0, 1.0), 1.8, 0.3);
-        for _ in 0..180 {
-            world.step(dt);
-            let input = MoverInput { walk: 2.0, ..MoverInput::default() };
-            mover.update(&mut world, input, dt);
+    let (light, heavy) = (push(20.0, 60).1, push(400.0, 60).1);
+    assert!(light > 6.6, "a light crate moves: {light}");
+    assert!((heavy - 2.0).abs() < 0.02, "a heavy one does not: {heavy}");
+}
+
+#[test]
+fn pushing_does_not_depend_on_the_step() {
+    // Where 500 N of push and half the weight of friction bring a crate to 2 m/s, it falls back by v^2 / 2a.
+    for mass in [20.0, 70.0] {
+        let [slow, usual, fast] = [30, 60, 120].map(|hertz| push(mass, hertz));
+        let places = format!("{mass} kg: {slow:?} {usual:?} {fast:?}");
+        for other in [slow, fast] {
+            let (hero, body) = ((usual.0 - other.0).abs(), (usual.1 - other.1).abs());
+            assert!(hero < 0.01 && body < 0.01, "{places}");
         }
-        world.body(body).unwrap().position().x - 2.0
-    };
-    let (light, heavy) = (push(20.0), push(400.0));
-    assert!(light > 1.5, "a light crate moves: {light}");
-    assert!(heavy.abs() < 0.02, "a heavy one does not: {heavy}");
+        let acceleration = (500.0 - 0.5 * f64::from(mass) * 10.0) / f64::from(mass);
+        let expected = 6.0 - 4.0 / (2.0 * acceleration);
+        assert!((usual.0 - expected).abs() < 0.02, "{places}, expected {expected}");
+    }
 }
 
 #[test]

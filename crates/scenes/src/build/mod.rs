@@ -1,6 +1,7 @@
 //! Builders of the scenes, one file a family.
 
 pub(crate) mod benchmark;
+pub(crate) mod course;
 pub(crate) mod features;
 pub(crate) mod joints;
 pub(crate) mod level;

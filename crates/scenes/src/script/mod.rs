@@ -1,6 +1,7 @@
 //! What happens to a scene from outside while it runs: plain data in the scene file, played on any
 //! [`Host`].
 
+mod character;
 mod deed;
 mod queries;
 mod rain;
@@ -9,6 +10,7 @@ mod timeline;
 mod wake;
 mod walkers;
 
+pub use character::{Character, Key, Leg, Ride};
 pub use deed::{Deed, Pull, lead_progress};
 pub use queries::Queries;
 pub use rain::Rain;
@@ -39,6 +41,8 @@ pub enum Script {
     Queries(Queries),
     /// Things are done at their times, and a character walks.
     Timeline(Timeline),
+    /// A character walks through the scene.
+    Character(Character),
 }
 
 impl Script {
@@ -52,6 +56,7 @@ impl Script {
             Self::Terrain(terrain) => terrain.check(bodies).map_err(|e| e.under("terrain")),
             Self::Queries(queries) => queries.check(bodies).map_err(|e| e.under("queries")),
             Self::Timeline(line) => line.check(bodies).map_err(|e| e.under("timeline")),
+            Self::Character(character) => character.check(bodies).map_err(|e| e.under("character")),
         }
     }
 
@@ -64,6 +69,7 @@ impl Script {
             Self::Terrain(terrain) => Running::Terrain(terrain.start(bodies)),
             Self::Queries(queries) => Running::Queries(queries.start(bodies)),
             Self::Timeline(timeline) => Running::Timeline(timeline.start(bodies, dt)),
+            Self::Character(character) => Running::Character(character.start(bodies, dt)),
         }
     }
 }
@@ -77,6 +83,7 @@ pub(crate) enum Running {
     Terrain(terrain::Streaming),
     Queries(queries::Asking),
     Timeline(timeline::Happening),
+    Character(character::Walking),
 }
 
 impl Running {
@@ -89,6 +96,7 @@ impl Running {
             Self::Terrain(terrain) => terrain.before_step(host, step),
             Self::Queries(queries) => queries.before_step(host),
             Self::Timeline(timeline) => timeline.before_step(host, step),
+            Self::Character(character) => character.before_step(host, step),
         }
     }
 }

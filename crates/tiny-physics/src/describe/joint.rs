@@ -38,7 +38,8 @@ pub struct Limits {
     pub upper: f32,
 }
 
-/// Load at which a joint breaks: it is removed and an event says so.
+/// Load at which a joint breaks: one that bears more in any substep is removed after the step, and an
+/// event says so.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

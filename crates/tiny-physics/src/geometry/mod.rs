@@ -13,6 +13,7 @@ mod hull;
 pub(crate) mod manifold;
 mod mass;
 mod part;
+mod pieces;
 mod point;
 mod polygon;
 mod ray;

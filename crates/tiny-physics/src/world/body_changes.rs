@@ -2,7 +2,7 @@
 
 use super::World;
 use super::bodies::{Body, BodyMut};
-use super::ids::JointId;
+use super::ids::{BodyId, JointId};
 use crate::describe::{BodyKind, Locks};
 use crate::dynamics::NULL;
 use crate::error::Error;
@@ -225,10 +225,18 @@ impl World {
     /// Handles of the bodies whose pose the last step changed, those that fell asleep in it included. What the
     /// user placed, and what stood still, is not among them. In index order but for bodies that woke in the
     /// step, which come last.
-    pub fn moved_bodies(&self) -> impl Iterator<Item = super::BodyId> + '_ {
-        let asleep = self.events.fell_asleep.iter().copied();
-        let asleep = asleep.filter(|&id| self.body(id).is_some_and(|body| !body.is_awake()));
-        let moved = |&&i: &&u32| self.bodies.poses[i as usize] != self.bodies.previous[i as usize];
-        self.bodies.awake.iter().filter(moved).map(|&i| self.body_id(i)).chain(asleep)
+    ///
+    /// The list is made when it is first asked for after a step, and stays until the next one: a step costs
+    /// nothing more where nobody asks. What was removed before is not in it; handles of what is removed
+    /// later are stale.
+    pub fn moved_bodies(&self) -> &[BodyId] {
+        self.moved.get_or_init(|| {
+            let asleep = self.events.fell_asleep.iter().copied();
+            let asleep = asleep.filter(|&id| self.body(id).is_some_and(|body| !body.is_awake()));
+            let bodies = &self.bodies;
+            let moved = |&&i: &&u32| bodies.poses[i as usize] != bodies.previous[i as usize];
+            let awake = bodies.awake.iter().filter(moved).map(|&i| self.body_id(i));
+            awake.chain(asleep).collect()
+        })
     }
 }

@@ -103,13 +103,32 @@ impl World {
     /// The handle is stale, or the points make no chain. Nothing has been added then.
     pub fn add_chain(&mut self, body: BodyId, chain: &ChainDef) -> Result<Vec<ShapeId>, Error> {
         let index = self.body_index(body)?;
-        let shapes = chain.shapes()?;
+        self.insert_shapes(index, &chain.shapes()?)
+    }
+
+    /// Adds all shapes to a body, or none.
+    fn insert_shapes(&mut self, body: u32, shapes: &[ShapeDef]) -> Result<Vec<ShapeId>, Error> {
         shapes.iter().try_for_each(check_shape)?;
-        self.wake_index(index);
-        let ids: Vec<u32> = shapes.iter().map(|shape| self.insert_shape(index, shape)).collect();
-        self.update_mass(index);
-        self.create_proxies(index);
+        self.wake_index(body);
+        let ids: Vec<u32> = shapes.iter().map(|shape| self.insert_shape(body, shape)).collect();
+        self.update_mass(body);
+        self.create_proxies(body);
         Ok(ids.into_iter().map(|id| self.shape_id(id)).collect())
+    }
+
+    /// Adds the convex pieces of an outline, which may be concave, to a body as copies of a shape: see
+    /// [`ShapeDef::pieces`]. Gives their handles.
+    ///
+    /// # Errors
+    /// The handle is stale, or the points make no outline. Nothing has been added then.
+    pub fn add_outline(
+        &mut self,
+        body: BodyId,
+        outline: &[Vec2],
+        like: &ShapeDef,
+    ) -> Result<Vec<ShapeId>, Error> {
+        let index = self.body_index(body)?;
+        self.insert_shapes(index, &like.pieces(outline)?)
     }
 
     /// Removes a shape from its body; mass and inertia follow. What rested on it wakes.

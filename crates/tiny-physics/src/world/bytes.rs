@@ -10,6 +10,7 @@ use crate::codec::{Data, Reader, Sink, Writer, bad};
 use crate::error::Error;
 use crate::simd::SimdLevel;
 use crate::threads::Pool;
+use std::sync::OnceLock;
 
 /// The first bytes of a frame.
 const MAGIC: [u8; 4] = *b"tpw1";
@@ -114,6 +115,7 @@ impl Data for World {
             sensors,
             hooks: _,
             events,
+            moved: _,
             step_count,
             inv_h,
             level: _,
@@ -152,6 +154,7 @@ impl Data for World {
             sensors: Data::load(reader)?,
             hooks: Hooks::default(),
             events: Data::load(reader)?,
+            moved: OnceLock::new(),
             step_count: Data::load(reader)?,
             inv_h: Data::load(reader)?,
             level: SimdLevel::detect(),

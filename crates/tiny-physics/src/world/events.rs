@@ -61,9 +61,9 @@ pub struct SensorEnd {
 pub struct JointBreak {
     /// Its handle, now stale.
     pub joint: JointId,
-    /// Force on body B when it broke, newtons.
+    /// Greatest force on body B in a substep of the step in which it broke, newtons.
     pub force: Vec2,
-    /// Torque on body B when it broke, newton metres.
+    /// Greatest torque on body B, newton metres.
     pub torque: f32,
     /// The user's number.
     pub user_data: u64,

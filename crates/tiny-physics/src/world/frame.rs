@@ -1,6 +1,7 @@
 //! Frames: copies of a world to go back to.
 
 use super::{Scratch, Stats, World};
+use std::sync::OnceLock;
 
 /// A copy has the same future, bit for bit. It shares the threads of the original; statistics start
 /// anew.
@@ -42,6 +43,7 @@ impl Clone for World {
             sensors: self.sensors.clone(),
             hooks: self.hooks.clone(),
             events: self.events.clone(),
+            moved: OnceLock::new(),
             step_count: self.step_count,
             inv_h: self.inv_h,
             level: self.level,
@@ -66,6 +68,7 @@ impl Clone for World {
             sensors,
             hooks,
             events,
+            moved,
             step_count,
             inv_h,
             level: _,
@@ -73,6 +76,7 @@ impl Clone for World {
             stats: _,
             scratch: _,
         } = self;
+        moved.take();
         *gravity = source.gravity;
         *settings = source.settings;
         *step_count = source.step_count;

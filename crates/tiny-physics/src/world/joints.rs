@@ -157,14 +157,18 @@ impl World {
         }
     }
 
+    /// Notes the joints of a pace that bear more than they can in this substep.
+    pub(super) fn note_broken_joints(&mut self, pace: usize) {
+        let broken = &mut self.scratch.broken_joints;
+        joint_solver::note_broken(&self.joint_graph, &self.joints, pace, self.inv_h, broken);
+    }
+
     /// Removes the joints that bore more than they can, and says so.
     pub(super) fn break_joints(&mut self) {
         let mut broken = core::mem::take(&mut self.scratch.broken_joints);
-        broken.clear();
-        joint_solver::broken(&self.joint_graph, &self.joints, self.inv_h, &mut broken);
-        for &index in &broken {
+        broken.sort_unstable_by_key(|&(index, _)| index);
+        for (index, load) in broken.drain(..) {
             let joint = self.joint_id(index);
-            let load = joint_solver::load(&self.joint_graph, &self.joints, index, self.inv_h);
             let user_data = self.joints.records[index as usize].def.user_data;
             let (force, torque) = (load.force, load.torque);
             self.events.joint_breaks.push(JointBreak { joint, force, torque, user_data });

@@ -42,8 +42,8 @@ pub use stats::{Stage, Stats};
 use crate::broad_phase::BroadPhase;
 use crate::describe::{BodyKind, Settings};
 use crate::dynamics::{
-    Bodies, COLOURS, Contacts, Graph, JointGraph, Joints, Overlap, PACES, PLAIN, REFINEMENT,
-    Sensors, Shapes, colour_at,
+    Bodies, COLOURS, Contacts, Graph, JointGraph, JointLoad, Joints, Overlap, PACES, PLAIN,
+    REFINEMENT, Sensors, Shapes, colour_at,
 };
 use crate::error::Error;
 use crate::geometry::manifold::PairClass;
@@ -59,6 +59,7 @@ use crate::stages::{
 };
 use crate::threads::{Pool, SharedRows, Team};
 use stats::Stopwatch;
+use std::sync::OnceLock;
 
 /// Metres; multiplied by [`Settings::length_unit`]. Points this far apart are contacts already.
 const SPECULATIVE_DISTANCE: f32 = 0.02;
@@ -115,6 +116,8 @@ pub struct World {
     sensors: Sensors,
     hooks: hooks::Hooks,
     events: Events,
+    /// Which bodies the last step moved, once somebody has asked.
+    moved: OnceLock<Vec<BodyId>>,
     step_count: u64,
     /// 1 / substep length of the last step, at the plain pace.
     inv_h: f32,
@@ -142,9 +145,9 @@ struct Scratch {
     occupied: Vec<(usize, PairClass)>,
     overlaps: Vec<Overlap>,
     found_overlaps: Vec<Vec<Overlap>>,
-    broken_joints: Vec<u32>,
     touching: Vec<hooks::At>,
     answers: Vec<Vec<ContactRules>>,
+    broken_joints: Vec<(u32, JointLoad)>,
 }
 
 /// Numbers of one step.
@@ -186,6 +189,7 @@ impl World {
             sensors: Sensors::default(),
             hooks: hooks::Hooks::default(),
             events: Events::default(),
+            moved: OnceLock::new(),
             step_count: 0,
             inv_h: 0.0,
             level: SimdLevel::detect(),
@@ -220,6 +224,7 @@ impl World {
     fn run_stages(&mut self, team: &Team, lengths: StepLengths) {
         let mut watch = Stopwatch::start();
         self.events.clear();
+        self.moved.take();
         self.bodies.sort_awake();
         self.refresh_surfaces();
 
@@ -399,6 +404,7 @@ impl World {
             integrate::positions(team, listed, &mut self.bodies, lengths.h, max_speed);
             joints(self, joint_solver::Pass::Relax);
             self.solve_contacts(team, Pass::Relax, &parameters);
+            self.note_broken_joints(pace);
         }
         joints(self, joint_solver::Pass::Finish);
     }

@@ -100,6 +100,8 @@ pub struct CharacterMover {
     drift: f32,
     /// Ignores one-way platforms in this update.
     dropping: bool,
+    /// What it pushed in the last update.
+    pushed: Option<Push>,
 }
 
 /// The first obstacle on a way.
@@ -112,6 +114,16 @@ struct Obstacle {
     shape: u32,
 }
 
+/// What a character pushed in an update, and what came of it.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct Push {
+    body: BodyId,
+    /// Speed of its centre that was expected after the next step, metres a second.
+    expected: f32,
+    /// Force that holds it back: friction, or what it pushes in turn; newtons.
+    resistance: f32,
+}
+
 /// Numbers of one update.
 #[derive(Clone, Copy)]
 struct Frame {
@@ -119,6 +131,8 @@ struct Frame {
     right: Vec2,
     gravity: Vec2,
     dt: f32,
+    /// The push of the update before.
+    pushed: Option<Push>,
 }
 
 impl CharacterMover {
@@ -140,6 +154,7 @@ impl CharacterMover {
             ground: None,
             drift: 0.0,
             dropping: false,
+            pushed: None,
         }
     }
 
@@ -162,7 +177,8 @@ impl CharacterMover {
         let (down, strength) = world.gravity.direction_and_length();
         let up = if strength > 0.0 { -down } else { Vec2::Y };
         let gravity = world.gravity * self.gravity_scale;
-        let frame = Frame { up, right: Vec2::new(up.y, 0.0 - up.x), gravity, dt };
+        let right = Vec2::new(up.y, 0.0 - up.x);
+        let frame = Frame { up, right, gravity, dt, pushed: self.pushed.take() };
         self.dropping = input.drop;
 
         self.ride(world, frame);
@@ -177,6 +193,7 @@ impl CharacterMover {
         }
         if self.ground.is_some() && !input.drop {
             self.walk(world, frame, input.walk, dt);
+            self.push_ahead(world, frame, input.walk);
         } else {
             if self.ground.take().is_some() {
                 self.velocity = Vec2::ZERO;
@@ -238,10 +255,8 @@ impl CharacterMover {
             if way == 0.0 {
                 break;
             }
-            let walkable = self.is_walkable(ground.normal, up);
-            let normal = if walkable { ground.normal } else { up };
-            let along = Vec2::new(normal.y, 0.0 - normal.x);
-            let motion = along * (way / along.dot(right));
+            let normal = self.floor(ground.normal, up);
+            let motion = along(normal, right, way);
             let Some(hit) = self.cast(world, frame, motion, None) else {
                 self.position += motion;
                 break;
@@ -250,10 +265,8 @@ impl CharacterMover {
             way *= 1.0 - hit.fraction;
             if self.is_walkable(hit.normal, up) && hit.normal.dot(normal) < 1.0 - 1.0e-6 {
                 self.stand(world, &hit);
-            } else if !self.step_up(world, frame, way) {
-                self.push(world, frame, &hit, speed);
-                break;
             } else {
+                self.step_up(world, frame, way);
                 break;
             }
         }
@@ -304,7 +317,7 @@ impl CharacterMover {
 
     /// Falls along the parabola, with a motion on top; walks on for the rest of the time where it lands.
     fn fall(&mut self, world: &mut World, frame: Frame, speed: f32, extra: Vec2) {
-        let Frame { up, right, gravity, dt: time } = frame;
+        let Frame { up, right, gravity, dt: time, .. } = frame;
         let vertical = up * self.velocity.dot(up) + right * (speed + self.drift);
         let mut velocity = vertical + gravity * time;
         let mut rest = vertical * time + gravity * (0.5 * time * time) + extra;
@@ -329,7 +342,7 @@ impl CharacterMover {
             if into < 0.0 {
                 velocity -= hit.normal * into;
             }
-            self.push(world, frame, &hit, speed);
+            self.push(world, frame, &hit, (right * speed).dot(-hit.normal), 1.0);
         }
         self.velocity = velocity;
     }
@@ -379,19 +392,80 @@ impl CharacterMover {
         if cosine > 0.1 { sine / cosine } else { 10.0 }
     }
 
-    /// Pushes a dynamic body that is in the way, up to its own speed and with bounded force.
-    fn push(&self, world: &mut World, frame: Frame, hit: &Obstacle, speed: f32) {
-        let body = world.body_id(world.shapes.records[hit.shape as usize].body);
-        let Some(mut body) = world.body_mut(body) else { return };
-        let view = body.as_ref();
-        let own = (frame.right * speed).dot(-hit.normal);
-        let missing = own - view.velocity_at(hit.point).dot(-hit.normal);
-        if view.kind() != BodyKind::Dynamic || missing <= 0.0 {
+    /// The normal along which it walks: up where it stands on an edge.
+    fn floor(&self, normal: Vec2, up: Vec2) -> Vec2 {
+        if self.is_walkable(normal, up) { normal } else { up }
+    }
+
+    /// Pushes what it would walk into in the next update, so that its way is free then: the body moves
+    /// during the step in between, as far as the character is going to come.
+    fn push_ahead(&mut self, world: &mut World, frame: Frame, speed: f32) {
+        let Some(ground) = self.ground else { return };
+        let Frame { up, right, dt, .. } = frame;
+        let motion = along(self.floor(ground.normal, up), right, speed * dt);
+        let Some(hit) = self.cast(world, frame, motion, None) else { return };
+        let body = world.shapes.records[hit.shape as usize].body;
+        if !world.bodies.is_dynamic(body) || self.is_walkable(hit.normal, up) {
             return;
         }
-        let (wanted, most) = (missing * view.mass(), self.push_force * frame.dt);
-        let impulse = if wanted < most { wanted } else { most };
-        body.apply_impulse(-hit.normal * impulse, hit.point);
+        let left = 1.0 - hit.fraction;
+        let start = self.position;
+        self.position += motion * hit.fraction;
+        let climbs = self.step_up(world, frame, speed * dt * left);
+        self.position = start;
+        if !climbs {
+            self.push(world, frame, &hit, motion.dot(-hit.normal) * left / dt, left);
+        }
+    }
+
+    /// Pushes a dynamic body so that it has a speed (away from the character) in the next step, with bounded
+    /// force, for a part of the step.
+    ///
+    /// What held it back in the last step is a steady force. What its speed lacks would take the character's
+    /// whole force for a time: the faster that goes, the more of it is an impulse at once, so that the body
+    /// comes as far as under that force.
+    fn push(&mut self, world: &mut World, frame: Frame, hit: &Obstacle, speed: f32, part: f32) {
+        let Frame { dt, pushed, .. } = frame;
+        let id = world.body_id(world.shapes.records[hit.shape as usize].body);
+        let Some(mut body) = world.body_mut(id) else { return };
+        let (view, way) = (body.as_ref(), -hit.normal);
+        let point = self.hand(frame, hit, view.center());
+        let (mass, now) = (view.mass(), view.velocity().dot(way));
+        if view.kind() != BodyKind::Dynamic || speed <= 0.0 || mass <= 0.0 {
+            return;
+        }
+        let lacking = mass * (speed - view.velocity_at(point).dot(way));
+        let held_back = |push: Push| push.resistance + mass * (push.expected - now) / dt;
+        let resistance = pushed.filter(|push| push.body == id).map_or(0.0, held_back);
+        let resistance = smaller(if resistance > 0.0 { resistance } else { 0.0 }, self.push_force);
+        let (wanted, most) = (lacking + resistance * dt, self.push_force * part * dt);
+        let total = smaller(wanted, most);
+        if total <= 0.0 {
+            return;
+        }
+        let quick = lacking > 0.0 && wanted < most;
+        let impulse =
+            if quick { lacking * ((most - wanted) / (most - resistance * dt)) } else { 0.0 };
+        body.apply_impulse(way * impulse, point);
+        body.apply_force(way * ((total - impulse) / dt), point);
+        let expected = now + (total - resistance * dt) / mass;
+        self.pushed = Some(Push { body: id, expected, resistance });
+    }
+
+    /// Where it pushes: where its side lies against an obstacle, as near to a centre of mass as that reaches.
+    fn hand(&self, frame: Frame, hit: &Obstacle, center: DVec2) -> DVec2 {
+        let half = frame.up * (0.5 * self.height - self.radius);
+        let ends = [half, -half].map(|end| (self.position + end).relative_to(hit.point));
+        let heights = ends.map(|end| end.dot(hit.normal));
+        if (heights[0] - heights[1]).abs() > self.skin {
+            return hit.point;
+        }
+        let along = hit.normal.perp();
+        let (a, b) = (ends[0].dot(along), ends[1].dot(along));
+        let (low, high) = if a < b { (a, b) } else { (b, a) };
+        let wanted = center.relative_to(hit.point).dot(along);
+        let above = if wanted > low { wanted } else { low };
+        hit.point + along * smaller(above, high)
     }
 
     /// Weighs on a dynamic body that it stands on.
@@ -400,7 +474,7 @@ impl CharacterMover {
         if let Some(mut body) = world.body_mut(ground.body)
             && body.as_ref().kind() == BodyKind::Dynamic
         {
-            body.apply_impulse(frame.gravity * (self.mass * frame.dt), ground.point);
+            body.apply_force(frame.gravity * self.mass, ground.point);
         }
     }
 
@@ -515,6 +589,16 @@ impl CharacterMover {
         let gap = distance(&record.shape, &self.capsule(frame.up, 0.0), pose.relative_to(place));
         gap.separation >= -0.5 * self.skin && place.q.rotate(gap.normal).dot(way) > 0.3
     }
+}
+
+/// The way along a floor that goes so far to the right.
+fn along(normal: Vec2, right: Vec2, way: f32) -> Vec2 {
+    let along = Vec2::new(normal.y, 0.0 - normal.x);
+    along * (way / along.dot(right))
+}
+
+fn smaller(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
 }
 
 fn placed(world: &World, index: u32) -> (&ShapeRecord, Pose) {

@@ -2,7 +2,7 @@
 //!
 //! Each step [`describe`] writes what follows from new or changed descriptions, [`prepare`] what
 //! follows from the poses. Each substep runs the passes: warm start, solve, relax. [`Pass::Finish`]
-//! ends the step, before positions are taken over; then [`load`] and [`broken`] read the joints back.
+//! ends the step, before positions are taken over; then [`load`] reads the joints back. [`note_broken`] looks at every substep.
 //!
 //! What a joint holds rigid is a soft constraint of high frequency (see
 //! [`Softness`](super::contact_solver::Softness)) in the solve pass and exact in the relax pass. With
@@ -247,13 +247,34 @@ pub(crate) fn load(graph: &JointGraph, joints: &Joints, index: u32, inv_h: f32) 
     JointLoad { force: force * inv_h, torque: torque * inv_h }
 }
 
-/// Lists the joints whose load is beyond what they bear, ascending.
-pub(crate) fn broken(graph: &JointGraph, joints: &Joints, inv_h: f32, found: &mut Vec<u32>) {
+/// Notes the joints of a pace whose load in this substep is beyond what they bear; of several substeps the greatest
+/// force and the greatest torque stay.
+pub(crate) fn note_broken(
+    graph: &JointGraph,
+    joints: &Joints,
+    pace: usize,
+    inv_h: f32,
+    found: &mut Vec<(u32, JointLoad)>,
+) {
     for &index in &joints.breakable {
-        let Some(limit) = joints.records[index as usize].def.break_at else { continue };
+        let record = &joints.records[index as usize];
+        let Some(limit) = record.def.break_at.filter(|_| graph.pace_of(record) == pace) else {
+            continue;
+        };
         let load = load(graph, joints, index, inv_h);
-        if load.force.length() > limit.force || load.torque.abs() > limit.torque {
-            found.push(index);
+        if load.force.length() <= limit.force && load.torque.abs() <= limit.torque {
+            continue;
+        }
+        match found.iter_mut().find(|(known, _)| *known == index) {
+            None => found.push((index, load)),
+            Some((_, most)) => {
+                if load.force.length_sq() > most.force.length_sq() {
+                    most.force = load.force;
+                }
+                if load.torque.abs() > most.torque.abs() {
+                    most.torque = load.torque;
+                }
+            }
         }
     }
 }

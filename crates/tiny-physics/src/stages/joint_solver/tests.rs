@@ -509,8 +509,13 @@ fn joints_break_at_their_threshold() {
         .collect();
     rig.run(1.0);
     let mut found = Vec::new();
-    broken(&rig.graph, &rig.joints, rig.inv_h(), &mut found);
-    assert_eq!(found, expected);
+    note_broken(&rig.graph, &rig.joints, PLAIN, rig.inv_h(), &mut found);
+    let indices: Vec<u32> = found.iter().map(|(index, _)| *index).collect();
+    assert_eq!(indices, expected);
+    for (_, load) in found {
+        assert_near("force", load.force.length().into(), G.into(), 0.01);
+        assert_near("torque", load.torque.into(), (2.0 * G).into(), 0.01);
+    }
 }
 
 /// Far from the origin, with a bounded force.

@@ -1,4 +1,5 @@
 use super::*;
+use crate::describe::JointDef;
 
 #[test]
 fn a_hit_tells_the_speed_of_the_fall() {
@@ -140,18 +141,18 @@ fn bodies_tell_when_they_move_fall_asleep_and_wake() {
     let ball = add(&mut world, 0.0, 0.6, circle(0.5));
     let mut asleep = Vec::new();
     world.step(DT);
-    assert_eq!(world.moved_bodies().collect::<Vec<_>>(), [ball]);
+    assert_eq!(world.moved_bodies(), [ball]);
     for _ in 0..200 {
         world.step(DT);
         asleep.extend_from_slice(world.events().fell_asleep());
     }
     assert_eq!(asleep, [ball]);
-    assert_eq!(world.moved_bodies().count(), 0);
+    assert!(world.moved_bodies().is_empty());
     world.body_mut(ball).unwrap().apply_impulse_to_center(Vec2::new(0.0, 1.0));
     assert!(world.events().woke().is_empty());
     world.step(DT);
     assert_eq!(world.events().woke(), [ball]);
-    assert_eq!(world.moved_bodies().collect::<Vec<_>>(), [ball]);
+    assert_eq!(world.moved_bodies(), [ball]);
     let _ = ground;
 }
 
@@ -178,3 +179,43 @@ fn interpolated_poses_lie_between_the_steps() {
 }
 
 use crate::math::Pose;
+
+/// A mass on a rope that falls until the rope is taut: force at the end of each step, or until it breaks.
+fn jerk(slack: f32, break_at: f32, substeps: u32) -> (Vec<f32>, Option<JointBreak>) {
+    let mut world = World::new(Vec2::new(0.0, -10.0));
+    world.settings.substeps = substeps;
+    let anchor = world.add_body(RigidBody::fixed()).unwrap();
+    let start = Vec2::new(0.0, slack - 2.0);
+    let ball = RigidBody::dynamic().position(start).shape(circle(0.2)).mass(1.0);
+    let ball = world.add_body(ball).unwrap();
+    let rope = JointDef::rope(2.0).break_at(break_at, f32::MAX);
+    let rope = world.add_joint(anchor, ball, rope).unwrap();
+    let dt = substeps as f32 / 240.0;
+    let mut forces = Vec::new();
+    for _ in 0..240 / substeps {
+        world.step(dt);
+        if let Some(broken) = world.events().joint_breaks().first() {
+            assert!(world.joint(rope).is_none() && world.joint_count() == 0);
+            return (forces, Some(*broken));
+        }
+        forces.push(world.joint(rope).unwrap().force().length());
+    }
+    (forces, None)
+}
+
+#[test]
+fn a_joint_breaks_by_a_peak_within_a_step() {
+    let peak = |forces: &[f32]| forces.iter().copied().fold(0.0, f32::max);
+    let mut hidden = 0;
+    for i in 0..12 {
+        let slack = 0.5 + 0.02 * i as f32;
+        let most = peak(&jerk(slack, f32::MAX, 1).0);
+        let seen = peak(&jerk(slack, f32::MAX, 4).0);
+        hidden += usize::from(seen < 0.9 * most);
+        let (_, broken) = jerk(slack, 0.9 * most, 4);
+        let force = broken.expect("the rope breaks").force.length();
+        assert!((force - most).abs() < 0.05 * most, "{force} N of {most} N");
+        assert_eq!(jerk(slack, 1.1 * most, 4).1, None);
+    }
+    assert!(hidden > 0, "some peaks are over at the end of their step");
+}
