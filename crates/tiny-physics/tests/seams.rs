@@ -133,12 +133,60 @@ fn several_bodies_of_several_boxes_that_differ() {
 }
 
 #[test]
+fn a_kinematic_floor_of_many_boxes() {
+    // At rest, and on its way along, up and back.
+    for velocity in [Vec2::ZERO, Vec2::new(-3.0, 0.0), Vec2::new(2.0, 0.5), Vec2::new(2.0, -0.5)] {
+        let mut floor = RigidBody::kinematic().velocity(velocity);
+        for x in -TILES / 2..2 * TILES {
+            floor = floor.shape(tile().offset(Vec2::new(x as f32 + 0.5, -0.5)));
+        }
+        let mut world = world();
+        let floor = world.add_body(floor).unwrap();
+        if velocity.y == 0.0 {
+            check("kinematic", &world);
+        }
+        for (mover, shape, height) in movers() {
+            let mut world = world.clone();
+            let start = Vec2::new(2.25, height);
+            let def = ShapeDef::new(shape).friction(0.0);
+            let body = RigidBody::dynamic().position(start).velocity(Vec2::new(SPEED, velocity.y));
+            let body = world.add_body(body.shape(def)).unwrap();
+            for _ in 0..300 {
+                world.step(1.0 / 60.0);
+                let over =
+                    world.body(body).unwrap().position() - world.body(floor).unwrap().position();
+                let off = over.y - height;
+                assert!((-0.007..0.001).contains(&off), "{mover} on {velocity:?}: {off} m");
+            }
+            let kept = world.body(body).unwrap().velocity().x / SPEED;
+            assert!(kept > 0.999, "{mover} on {velocity:?}: keeps {kept}");
+        }
+    }
+}
+
+#[test]
 fn a_chain() {
     let points: Vec<Vec2> = (0..=TILES).rev().map(|x| Vec2::new(x as f32, 0.0)).collect();
     let mut world = world();
     let ground = world.add_body(RigidBody::fixed()).unwrap();
     world.add_chain(ground, &ChainDef::open(&points).friction(0.0)).unwrap();
     check("chain", &world);
+}
+
+#[test]
+fn a_closed_chain() {
+    // An island, anticlockwise, and a room, clockwise, whose floor is the same line.
+    let floor: Vec<Vec2> = (0..=TILES).map(|x| Vec2::new(x as f32, 0.0)).collect();
+    let far = [Vec2::new(-9.0, 40.0), Vec2::new(TILES as f32 + 9.0, 40.0)];
+    let room: Vec<Vec2> = far.into_iter().chain(floor.iter().rev().copied()).collect();
+    let deep = [Vec2::new(-9.0, -9.0), Vec2::new(TILES as f32 + 9.0, -9.0)];
+    let island: Vec<Vec2> = deep.into_iter().chain(floor.into_iter().rev()).collect();
+    for (name, points) in [("room", room), ("island", island)] {
+        let mut world = world();
+        let ground = world.add_body(RigidBody::fixed()).unwrap();
+        world.add_chain(ground, &ChainDef::closed(&points).friction(0.0)).unwrap();
+        check(name, &world);
+    }
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! Tile maps: smooth seams, slopes, edits while running, queries, other bodies beside them.
 
 use tiny_physics::{
-    QueryFilter, RigidBody, Shape, ShapeDef, Tile, TileForm, TileGrid, Vec2, World,
+    Filter, Material, QueryFilter, RigidBody, Shape, ShapeDef, Tile, TileForm, TileGrid, Vec2,
+    World,
 };
 
 const SPEED: f32 = 10.0;
@@ -129,6 +130,19 @@ fn rays_see_tiles() {
     let hit = world.ray_cast(Vec2::new(-5.0, 1.5), Vec2::new(10.0, 0.0), &all).unwrap();
     assert!((hit.point.x - 2.0).abs() < 1e-5 && hit.normal == -Vec2::X);
     assert_eq!(world.tiles_of(hit.body), Some(tiles));
+    let other =
+        world.add_tiles(TileGrid::parse(1.0, &["#"]).unwrap().position(Vec2::new(9.0, 0.0)));
+    let floor = world.add_body(RigidBody::fixed()).unwrap();
+    let hit = world.ray_cast(Vec2::new(9.5, 5.0), Vec2::new(0.0, -10.0), &all).unwrap();
+    assert_eq!((world.tiles_of(hit.body), world.tiles_of(floor)), (other.ok(), None));
+    let frame = World::from_bytes(&world.to_bytes()).unwrap();
+    assert_eq!(frame.tiles_of(hit.body), world.tiles_of(hit.body));
+    // A block whose body was removed gets another one at the next edit.
+    world.remove_body(hit.body).unwrap();
+    let other = world.tiles_of(hit.body).unwrap();
+    world.set_tile(other, 0, 0, 2).unwrap();
+    let again = world.ray_cast(Vec2::new(9.5, 5.0), Vec2::new(0.0, -10.0), &all).unwrap();
+    assert_eq!((world.tiles_of(hit.body), world.tiles_of(again.body)), (None, Some(other)));
     let hit = world.ray_cast(Vec2::new(0.5, 5.0), Vec2::new(0.0, -10.0), &all).unwrap();
     assert!((hit.point.y - 0.5).abs() < 1e-5 && (hit.normal.x + hit.normal.y).abs() < 1e-5);
 }
@@ -168,4 +182,53 @@ fn slopes_are_smooth() {
         println!("lost {lost}");
         assert!(lost.abs() < 0.01, "{lost}");
     }
+}
+
+#[test]
+fn one_way_tiles_let_pass_from_below_and_hold_from_above() {
+    let mut world = world();
+    world.add_tiles(TileGrid::parse(1.0, &["-----", ".....", ".....", "#####"]).unwrap()).unwrap();
+    for (x, half) in [(1.5, 0.4), (3.0, 0.3)] {
+        let shape = if half == 0.4 { Shape::rect(half, half) } else { Shape::circle(half) };
+        let body = RigidBody::dynamic().position(Vec2::new(x, 1.5)).velocity(Vec2::new(0.0, 9.0));
+        let body = world.add_body(body.shape(shape.unwrap()).lock_rotation()).unwrap();
+        let mut highest = f32::MIN;
+        for _ in 0..180 {
+            world.step(1.0 / 60.0);
+            highest = highest.max(world.body(body).unwrap().position().y);
+        }
+        assert!((highest - 5.55).abs() < 0.1, "passes: {highest}");
+        let y = world.body(body).unwrap().position().y;
+        assert!((y - 4.0 - half).abs() < 0.01, "comes to rest on the platform: {y}");
+    }
+}
+
+#[test]
+fn every_tile_has_its_own_material_and_filter() {
+    let ice = Tile {
+        material: Material { friction: 0.0, ..Material::default() },
+        ..Tile::new(TileForm::Full)
+    };
+    let rough = Tile { material: Material { friction: 1.0, ..Material::default() }, ..ice };
+    let ghost = Tile { filter: Filter { category: 2, ..Filter::default() }, ..rough };
+    let mut grid = TileGrid::new(1.0, 60, 1, vec![ice, rough, ghost]);
+    for x in 0..60 {
+        grid.set(x, 0, 1 + x as u16 / 20).unwrap();
+    }
+    let mut world = world();
+    world.add_tiles(grid).unwrap();
+    let shape = ShapeDef::new(Shape::rect(0.4, 0.4).unwrap()).friction(1.0);
+    let shape = shape.filter(Filter { mask: 1, ..Filter::default() });
+    let slide = |world: &mut World, x: f32, speed: f32| {
+        let body = RigidBody::dynamic().position(Vec2::new(x, 1.4)).shape(shape.clone());
+        let body = body.velocity(Vec2::new(speed, 0.0)).lock_rotation();
+        let body = world.add_body(body).unwrap();
+        (0..120).for_each(|_| world.step(1.0 / 60.0));
+        world.body(body).unwrap().position()
+    };
+    // 2 s on ice; v^2 / 2 mu g on rough ground; through the last third.
+    let [on_ice, on_rock] = [slide(&mut world, 2.0, 4.0), slide(&mut world, 24.0, 8.0)];
+    assert!((on_ice.x - 10.0).abs() < 0.02, "{on_ice:?}");
+    assert!((on_rock.x - 24.0 - 3.2).abs() < 0.1, "{on_rock:?}");
+    assert!(slide(&mut world, 50.0, 0.0).y < -5.0);
 }

@@ -154,8 +154,8 @@ pub enum JointKind {
         #[cfg_attr(feature = "serde", serde(default))]
         max_spring_torque: f32,
     },
-    /// Pulls anchor B to a point of the world, as when dragged by a mouse. A feels nothing: it may be
-    /// any static body.
+    /// Pulls anchor B to a point of the world, as when dragged by a mouse, and slows its turning a little
+    /// (by 2 1/s). A feels nothing: it may be any static body.
     Mouse {
         /// Where to, metres in the world.
         target: DVec2,
@@ -178,8 +178,8 @@ pub enum JointKind {
         /// How much faster A's end runs than B's, above 0: 2 is a block and tackle on B.
         ratio: f32,
     },
-    /// Couples motions of two bodies against the world: `change of A + ratio * change of B = 0`, from
-    /// the moment on in which the joint is added. A change is that of the angle (radians) or, where a
+    /// Couples motions of two bodies against the world (not against a carrier that turns):
+    /// `change of A + ratio * change of B = 0`, from the moment on in which the joint is added. A change is that of the angle (radians) or, where a
     /// direction is given, of the anchor's place along it (metres). The bodies keep their own hinges
     /// and sliders.
     Gear {

@@ -102,7 +102,7 @@ pub(crate) struct Shapes {
     pub(crate) fat: Vec<Aabb>,
     /// Which contacts are looked at again: see [`guard`].
     pub(crate) guards: Vec<u32>,
-    /// Boxes in which static shapes came, went or moved since guards were last found.
+    /// Boxes in which static or kinematic shapes came, went or were moved since guards were last found.
     pub(crate) changed_ground: Vec<Aabb>,
     pub(crate) free: Vec<u32>,
     pub(crate) count: usize,
@@ -131,7 +131,7 @@ impl Shapes {
         index
     }
 
-    /// Notes which faces and corners of a static shape others touch, and which they do not.
+    /// Notes which faces and corners of a shape others touch, and which they do not.
     pub(crate) fn set_touched(&mut self, index: u32, touched: u32) {
         self.guards[index as usize] = guard::of(&self.records[index as usize]) | touched;
         self.mark_row(index);

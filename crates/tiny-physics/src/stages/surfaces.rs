@@ -2,8 +2,8 @@
 //!
 //! Two boxes side by side make one floor, but each box knows only itself: something that slides over them
 //! catches on the side of the next one, which is inside the floor. So static shapes are *guarded* where
-//! others touch them (tile beside tile, across bodies too), and so are segments of a chain and one-way
-//! platforms. After the kernels, a contact with a guarded shape is looked at again:
+//! others touch them (tile beside tile, across bodies too), and so are shapes of one kinematic body, segments
+//! of a chain and one-way platforms. After the kernels, a contact with a guarded shape is looked at again:
 //!
 //! - a normal out of a face is a ghost if another static shape covers the face there;
 //! - a normal from a corner is a ghost if another static shape goes on in its direction: it is then not
@@ -224,17 +224,18 @@ impl<'a> Seams<'a> {
         boxed_pose(self.ground.poses, self.record)
     }
 
-    /// Visits the cores of the static shapes near some points, in this frame and no fixed order.
+    /// Visits the cores of the shapes near some points that make one surface with this one, in this frame
+    /// and no fixed order.
     fn each_neighbour(&self, points: &[Vec2], mut visit: impl FnMut(&Core)) {
         let Ground { shapes, poses, broad_phase, length_unit, .. } = self.ground;
         let pose = self.own_pose();
         let bounds = world_box(pose, points, TOLERANCE * length_unit);
-        let any_way = self.record.one_way.is_some();
-        broad_phase.tree(ProxyKind::Static).query(&bounds, u64::MAX, |proxy| {
+        let Some(kind) = broad_phase.kind(ProxyId(self.record.proxy)) else { return };
+        broad_phase.tree(kind).query(&bounds, u64::MAX, |proxy| {
             if let Some(index) = broad_phase.user(ProxyId(proxy)) {
                 let neighbour = &shapes[index as usize];
                 if index != self.own
-                    && is_ground(neighbour, any_way)
+                    && is_ground(neighbour, self.record, kind)
                     && neighbour.body != self.other.body
                     && neighbour.filter.collides(&self.other.filter)
                 {
@@ -365,9 +366,12 @@ impl<'a> View<'a> {
     }
 }
 
-/// Can a shape of a static body cover another?
-fn is_ground(record: &ShapeRecord, any_way: bool) -> bool {
-    !record.sensor && record.link.is_none() && (any_way || record.one_way.is_none())
+/// Can a shape cover another, `own`, of the same kind of body? What moves makes a surface only with the
+/// rest of its body.
+fn is_ground(record: &ShapeRecord, own: &ShapeRecord, kind: ProxyKind) -> bool {
+    let solid = !record.sensor && record.link.is_none();
+    let together = kind == ProxyKind::Static || record.body == own.body;
+    solid && together && (own.one_way.is_some() || record.one_way.is_none())
 }
 
 /// The core in the frame of the shape's rounded box.
@@ -394,8 +398,8 @@ fn world_box(pose: Pose, points: &[Vec2], margin: f32) -> Aabb {
     bounds.grown(margin)
 }
 
-/// Finds anew which faces and corners of static shapes others touch, around the places where static
-/// shapes have changed.
+/// Finds anew which faces and corners of static and kinematic shapes others touch, around the places where
+/// such shapes have changed.
 pub(crate) fn refresh(
     shapes: &mut Shapes,
     bodies: &Bodies,
@@ -408,13 +412,15 @@ pub(crate) fn refresh(
     let changed = core::mem::take(&mut shapes.changed_ground);
     // A bit a shape: much less than a sorted list where a large level is built.
     let mut near = vec![0_u64; shapes.records.len().div_ceil(64)];
-    for bounds in &changed {
-        broad_phase.tree(ProxyKind::Static).query(bounds, u64::MAX, |proxy| {
-            if let Some(index) = broad_phase.user(ProxyId(proxy)) {
-                near[index as usize / 64] |= 1 << (index % 64);
-            }
-            ControlFlow::Continue(())
-        });
+    for kind in [ProxyKind::Static, ProxyKind::Kinematic] {
+        for bounds in &changed {
+            broad_phase.tree(kind).query(bounds, u64::MAX, |proxy| {
+                if let Some(index) = broad_phase.user(ProxyId(proxy)) {
+                    near[index as usize / 64] |= 1 << (index % 64);
+                }
+                ControlFlow::Continue(())
+            });
+        }
     }
     for (word, mut bits) in near.into_iter().enumerate() {
         while bits != 0 {
@@ -426,7 +432,7 @@ pub(crate) fn refresh(
     }
 }
 
-/// Faces and corners of a static shape that other static shapes touch, as bits.
+/// Faces and corners of a shape that others touch with which it makes one surface, as bits.
 fn touched_features(
     index: u32,
     shapes: &Shapes,
@@ -436,18 +442,22 @@ fn touched_features(
 ) -> u32 {
     let record = &shapes.records[index as usize];
     let core = boxed_core(record);
-    let is_static = bodies.infos[record.body as usize].kind == BodyKind::Static;
-    if !is_static || record.sensor || record.link.is_some() || core.radius > 0.0 {
+    let kind = match bodies.infos[record.body as usize].kind {
+        BodyKind::Static => ProxyKind::Static,
+        BodyKind::Kinematic => ProxyKind::Kinematic,
+        BodyKind::Dynamic => return 0,
+    };
+    if record.sensor || record.link.is_some() || core.radius > 0.0 {
         return 0;
     }
     let tolerance = TOLERANCE * length_unit;
     let pose = boxed_pose(&bodies.poses, record);
     let bounds = world_box(pose, core.points(), tolerance);
     let mut bits = 0;
-    broad_phase.tree(ProxyKind::Static).query(&bounds, u64::MAX, |proxy| {
+    broad_phase.tree(kind).query(&bounds, u64::MAX, |proxy| {
         if let Some(other) = broad_phase.user(ProxyId(proxy)).filter(|&other| other != index) {
             let neighbour = &shapes.records[other as usize];
-            if is_ground(neighbour, record.one_way.is_some()) {
+            if is_ground(neighbour, record, kind) {
                 let place = boxed_pose(&bodies.poses, neighbour).relative_to(pose);
                 bits |= touched_by(&core, &boxed_core(neighbour).transformed(place), tolerance);
             }

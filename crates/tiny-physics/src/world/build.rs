@@ -312,9 +312,7 @@ impl World {
             let proxy = self.broad_phase.create_proxy(def, tight);
             self.shapes.records[shape as usize].proxy = proxy.0;
             self.shapes.fat[shape as usize] = self.broad_phase.fat_aabb(proxy).unwrap_or(tight);
-            if kind == ProxyKind::Static {
-                self.note_ground(shape);
-            }
+            self.note_ground(shape);
         }
     }
 
@@ -322,7 +320,7 @@ impl World {
     pub(super) fn note_ground(&mut self, shape: u32) {
         let body = self.shapes.records[shape as usize].body;
         let fat = self.broad_phase.fat_aabb(self.shapes.proxy(shape));
-        if self.bodies.infos[body as usize].kind == BodyKind::Static {
+        if self.bodies.infos[body as usize].kind != BodyKind::Dynamic {
             self.shapes.changed_ground.extend(fat);
         }
     }

@@ -11,11 +11,29 @@ use crate::error::Error;
 #[derive(Debug, Default)]
 pub(super) struct TileGrids {
     slots: Vec<Slot>,
+    /// The slot of every block's body, ascending by body.
+    owners: Vec<(BodyId, u32)>,
     serial: Serial,
 }
 
-clone_by_field!(TileGrids { slots, serial });
-data!(TileGrids { slots, serial });
+clone_by_field!(TileGrids { slots, owners, serial });
+data!(TileGrids { slots, owners, serial });
+
+impl TileGrids {
+    fn place_of(&self, body: BodyId) -> Result<usize, usize> {
+        self.owners.binary_search_by_key(&body, |&(owned, _)| owned)
+    }
+
+    /// A block has this body instead of the one that it had.
+    fn change_owner(&mut self, slot: u32, old: Option<BodyId>, new: BodyId) {
+        if let Some(at) = old.and_then(|old| self.place_of(old).ok()) {
+            self.owners.remove(at);
+        }
+        if let Err(at) = self.place_of(new) {
+            self.owners.insert(at, (new, slot));
+        }
+    }
+}
 
 #[derive(Debug)]
 struct Slot {
@@ -112,8 +130,8 @@ impl World {
             // The user may have removed it.
             let _ = self.remove_body(body);
         }
-        let slot = &mut self.tiles.slots[id.index()];
-        slot.grid = None;
+        self.tiles.owners.retain(|&(_, slot)| slot != id.index);
+        self.tiles.slots[id.index()].grid = None;
         Ok(())
     }
 
@@ -131,10 +149,9 @@ impl World {
     /// The tile map that a body belongs to: for contacts and hits, together with
     /// [`TileGrid::cell_at`].
     pub fn tiles_of(&self, body: BodyId) -> Option<TileGridId> {
-        self.tile_grid_ids().find(|id| {
-            self.placed(*id)
-                .is_ok_and(|placed| placed.blocks.iter().any(|block| block.body == Some(body)))
-        })
+        let (_, index) = self.tiles.owners[self.tiles.place_of(body).ok()?];
+        let slot = self.tiles.slots.get(index as usize)?;
+        slot.grid.is_some().then(|| TileGridId::new(index, slot.generation))
     }
 
     /// Sets a cell (0 empties it, `k` is entry `k - 1` of the palette). The time does not depend on the
@@ -179,7 +196,11 @@ impl World {
         if !shapes.is_empty() {
             let body = match alive {
                 Some(body) => body,
-                None => self.add_body(body_def)?,
+                None => {
+                    let body = self.add_body(body_def)?;
+                    self.tiles.change_owner(id.index, block.body, body);
+                    body
+                }
             };
             block.body = Some(body);
             for (piece, shape) in new.into_iter().zip(shapes) {

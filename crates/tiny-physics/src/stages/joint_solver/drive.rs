@@ -6,7 +6,7 @@
 //! ```
 //!
 //! A mouse joint has a point of the world in the place of A: its lanes name body 0 and the gap is
-//! taken from the point in 64 bits.
+//! taken from the point in 64 bits. Its angular part is a damper without a spring.
 
 use super::JointKernel;
 use super::parts::{Pair, Soft, Start, Stride, Symmetric, add, dot, scale, sub};
@@ -17,6 +17,9 @@ use crate::dynamics::DriveBlock;
 use crate::math::{DVec2, Pose, Vec2};
 use crate::simd::Lanes;
 use crate::threads::SharedRows;
+
+/// What a mouse joint drags loses its turning at this rate, 1/s: it hangs and swings, but not for long.
+const MOUSE_TURN_DAMPING: f32 = 2.0;
 
 /// An impulse shortened to a length.
 #[inline(always)]
@@ -142,11 +145,16 @@ impl JointKernel for DriveBlock {
             }
             JointKind::Mouse { target, spring, max_force } => {
                 self.describe_springs(lane, rates, Some(spring), None);
+                // w' = w / (1 + damping h)
+                let lost = MOUSE_TURN_DAMPING * rates.h;
+                self.angular.mass_scale[lane] = lost / (1.0 + lost);
+                self.angular.impulse_scale[lane] = 1.0 / (1.0 + lost);
                 self.describe_mouse(lane, target);
                 let drive = &mut self.drive;
                 drive.velocity_max[lane] = 0.0;
+                drive.angular_velocity[lane] = 0.0;
                 drive.angular_max[lane] = 0.0;
-                drive.twist_max[lane] = 0.0;
+                drive.twist_max[lane] = f32::MAX;
                 drive.spring_max[lane] = max_force * rates.h;
             }
             _ => {}

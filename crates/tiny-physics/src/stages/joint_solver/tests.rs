@@ -518,6 +518,57 @@ fn joints_break_at_their_threshold() {
     }
 }
 
+/// The springs of drives and mice, and the angular spring of a weld.
+#[test]
+fn drives_mice_and_welds_swing_at_their_frequency() {
+    for (hertz, zeta) in [(1.0, 0.0), (2.0, 0.3), (5.0, 0.2)] {
+        let both = Some(Spring { hertz, damping_ratio: zeta });
+        let mut drive = JointDef::drive();
+        if let JointKind::Motor {
+            linear_spring,
+            max_spring_force,
+            angular_spring,
+            max_spring_torque,
+            ..
+        } = &mut drive.kind
+        {
+            (*linear_spring, *angular_spring) = (both, both);
+            (*max_spring_force, *max_spring_torque) = (1e6, 1e6);
+        }
+        let mouse = JointDef::mouse(DVec2::ZERO, 1e6).spring(hertz, zeta);
+        let weld = JointDef::weld().spring(hertz, zeta);
+        for (def, slot) in [(drive, Slot::VX), (drive, Slot::W), (mouse, Slot::VX), (weld, Slot::W)]
+        {
+            let mut rig = swing(4, 0.0, def);
+            rig.bodies.rows[1][slot] = 1.0;
+            let extremes = rig.extremes(swings(zeta) / hertz, |rig| {
+                if slot == Slot::W { rig.angle(1).into() } else { rig.position(1).x }
+            });
+            check_swing(&format!("{def:?} {slot}"), &extremes, 0.0, (hertz, zeta), 2e-3);
+        }
+    }
+}
+
+/// What is dragged turns by `w' = -2 w`, about its middle and under a force elsewhere alike.
+#[test]
+fn mice_slow_the_turning() {
+    let mut rig = swing(4, 0.0, JointDef::mouse(DVec2::ZERO, 100.0));
+    rig.bodies.rows[1][Slot::W] = 3.0;
+    rig.run(1.0);
+    assert_near("spin", rig.bodies.angular_velocity(1).into(), 3.0 * (-2.0_f64).exp(), 0.005);
+    let mut rig = swing(4, 0.0, JointDef::mouse(DVec2::ZERO, 0.0));
+    rig.bodies.rows[1][Slot::VX] = 1.0;
+    rig.run(1.0);
+    assert_near("no force", rig.bodies.velocity(1).x.into(), 1.0, 1e-5);
+    // A plank that is held at its end comes to hang straight down.
+    let mut rig = Rig::new();
+    let plank = rig.body(1.0, 0.0, 1.0, 1.0 / 3.0);
+    let hold = Vec2::new(-1.0, 0.0);
+    rig.joint(0, plank, JointDef::mouse(DVec2::ZERO, 1000.0).anchors(Vec2::ZERO, hold));
+    rig.run(20.0);
+    assert_near("angle", rig.angle(plank).into(), -TAU / 4.0, 0.01);
+}
+
 /// Far from the origin, with a bounded force.
 #[test]
 fn mice_drag_to_their_target() {
@@ -573,6 +624,12 @@ fn all_kinds(rig: &mut Rig) -> Vec<u32> {
         (0.0, 0.0, JointDef::wheel(y).limits(0.0, 1.0).motor(0.0, 1.0)),
         (1.0, 0.0, side(JointDef::revolute().motor(0.0, 1000.0))),
         (0.0, 0.0, JointDef::friction(100.0, 10.0)),
+        (0.0, 0.0, JointDef::mouse(DVec2::ZERO, 1000.0)),
+        (0.0, -1.0, JointDef::distance(1.0).spring(3.0, 1.0)),
+        (0.0, 0.0, JointDef::weld().spring(3.0, 1.0)),
+        (0.0, 0.0, JointDef::prismatic(y).spring(3.0, 1.0)),
+        (0.0, 0.0, JointDef::wheel(y).spring(3.0, 1.0)),
+        (1.0, 0.0, side(JointDef::revolute().spring(3.0, 1.0))),
     ] {
         let body = rig.cube(x, height);
         rig.joint(0, body, def);
@@ -592,7 +649,7 @@ fn all_kinds(rig: &mut Rig) -> Vec<u32> {
 fn nothing_drifts_at_rest() {
     let mut rig = Rig::new();
     let bodies = all_kinds(&mut rig);
-    rig.run(1.0);
+    rig.run(2.0);
     let start: Vec<DVec2> = bodies.iter().map(|&body| rig.position(body)).collect();
     rig.run(60.0);
     for (&body, start) in bodies.iter().zip(start) {

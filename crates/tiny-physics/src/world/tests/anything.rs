@@ -1,7 +1,7 @@
 //! Random changes of every kind between steps: invariants hold, every end has its begin.
 
 use super::*;
-use crate::describe::{Filter, JointDef, Material};
+use crate::describe::{Filter, JointDef, Material, TileGrid};
 use std::collections::BTreeSet;
 
 struct Random(u64);
@@ -37,6 +37,23 @@ impl Random {
         shape
     }
 
+    fn joint(&mut self) -> JointDef {
+        let def = match self.below(11) {
+            0 => JointDef::distance(1.0),
+            1 => JointDef::rope(2.0),
+            2 => JointDef::prismatic(Vec2::X).limits(-1.0, 1.0),
+            3 => JointDef::weld().spring(4.0, 0.5),
+            4 => JointDef::wheel(Vec2::Y).spring(4.0, 0.5).motor(3.0, 5.0),
+            5 => JointDef::friction(10.0, 5.0),
+            6 => JointDef::mouse(self.vec(3.0), 200.0),
+            7 => JointDef::filter(),
+            8 => JointDef::pulley(self.vec(5.0), self.vec(5.0), 6.0),
+            9 => JointDef::gear(2.0),
+            _ => JointDef::revolute(),
+        };
+        def.break_at(500.0, 500.0)
+    }
+
     fn kind(&mut self) -> BodyKind {
         [BodyKind::Static, BodyKind::Kinematic, BodyKind::Dynamic, BodyKind::Dynamic][self.below(4)]
     }
@@ -52,7 +69,7 @@ fn change(world: &mut World, random: &mut Random) {
     let shapes: Vec<ShapeId> = world.shape_ids().collect();
     let joints: Vec<JointId> = world.joint_ids().collect();
     let (body, shape) = (random.pick(&bodies), random.pick(&shapes));
-    let choice = random.below(24);
+    let choice = random.below(27);
     match (choice, body, shape) {
         (0..5, _, _) if bodies.len() < 60 => {
             let kind = random.kind();
@@ -74,12 +91,7 @@ fn change(world: &mut World, random: &mut Random) {
         (8, Some(a), _) => {
             let b = random.pick(&bodies).unwrap();
             if a != b {
-                let def = if random.below(2) == 0 {
-                    JointDef::revolute()
-                } else {
-                    JointDef::distance(1.0)
-                };
-                world.add_joint(a, b, def.break_at(500.0, 500.0)).unwrap();
+                world.add_joint(a, b, random.joint()).unwrap();
             }
         }
         (9, ..) => {
@@ -133,6 +145,22 @@ fn change(world: &mut World, random: &mut Random) {
             };
             world.explode(&blast, &QueryFilter::new());
         }
+        (24, ..) => {
+            if let Some(joint) = random.pick(&joints) {
+                world.set_joint(joint, random.joint()).unwrap();
+            }
+        }
+        (25, ..) => {
+            if let Some(tiles) = world.tile_grid_ids().next() {
+                let (x, y) = (random.below(8) as u32, random.below(4) as u32);
+                world.set_tile(tiles, x, y, random.below(13) as u16).unwrap();
+            }
+        }
+        (26, ..) if random.below(10) == 0 => {
+            if let Some(tiles) = world.tile_grid_ids().next() {
+                world.remove_tiles(tiles).unwrap();
+            }
+        }
         (22, Some(body), _) => world.body_mut(body).unwrap().set_target(at(0.0, 0.0), DT),
         (23, Some(body), _) => {
             world.body_mut(body).unwrap().set_mass(Some(random.between(0.1, 5.0))).unwrap();
@@ -184,6 +212,11 @@ impl Model {
         for hit in events.hits() {
             assert!(hit.speed >= world.settings.hit_event_threshold);
         }
+        for broken in events.joint_breaks() {
+            assert!(world.joint(broken.joint).is_none(), "{broken:?} is still there");
+            let load = broken.force.length().max(broken.torque.abs());
+            assert!(load > 500.0, "{broken:?}");
+        }
         for body in events.woke().iter().chain(events.fell_asleep()) {
             assert!(world.body(*body).is_some() || body.index() < 1 << 16);
         }
@@ -224,6 +257,8 @@ fn play(seed: u64, threads: usize) -> u64 {
     let mut world = world();
     world.set_threads(threads);
     add_ground(&mut world);
+    let tiles = TileGrid::parse(1.0, &["........", "/##\\_\"--", "########", "########"]).unwrap();
+    world.add_tiles(tiles.position(Vec2::new(-4.0, 0.0))).unwrap();
     let mut model = Model::default();
     let mut all = 0_u64;
     for _ in 0..200 {

@@ -204,3 +204,60 @@ fn a_sleep_setting_keeps_a_body_awake() {
     world.body_mut(ball).unwrap().set_can_sleep(false);
     assert!(world.body(ball).unwrap().is_awake());
 }
+
+/// A body that hangs asleep: any change to its joint wakes it, and acts.
+#[test]
+fn a_joint_that_changes_wakes_what_it_holds() {
+    let changes: [fn(JointDef) -> JointDef; 5] = [
+        |def| def.motor(1.0, 100.0),
+        |def| def.limits(-0.1, 0.1),
+        |def| def.spring(2.0, 0.5),
+        |def| def.anchors(Vec2::ZERO, Vec2::new(0.0, 1.5)),
+        |def| def.break_at(1.0, 1.0),
+    ];
+    let hinge = JointDef::revolute().anchors(Vec2::ZERO, Vec2::new(0.0, 1.0));
+    for (i, change) in changes.into_iter().enumerate() {
+        let mut world = world();
+        let hook = world.add_body(RigidBody::fixed()).unwrap();
+        let a = add(&mut world, 0.0, -1.0, circle(0.2));
+        let b = add(&mut world, 0.0, -2.0, circle(0.2));
+        world.add_joint(hook, a, hinge).unwrap();
+        let joint = world.add_joint(a, b, hinge).unwrap();
+        run(&mut world, 120);
+        assert_eq!(world.awake_body_count(), 0, "change {i}");
+        world.set_joint(joint, change(hinge)).unwrap();
+        assert_eq!(world.awake_body_count(), 2, "change {i}");
+        run(&mut world, 1);
+        let mut woke = world.events().woke().to_vec();
+        woke.sort_unstable();
+        assert_eq!(woke, [a, b], "change {i}");
+        assert_eq!(world.joint(joint).is_none(), i == 4, "change {i}");
+    }
+}
+
+#[test]
+fn forces_and_velocities_act_at_their_points() {
+    let mut world = World::new(Vec2::ZERO);
+    let body = add(&mut world, 1.0, 2.0, rect(0.5, 0.5).density(2.0));
+    let inertia = 2.0 / 6.0;
+    let mut view = world.body_mut(body).unwrap();
+    view.apply_impulse(Vec2::new(0.0, 3.0), Vec2::new(1.5, 2.0));
+    let view = world.body(body).unwrap();
+    let spin = 0.5 * 3.0 / inertia;
+    assert!((view.velocity() - Vec2::new(0.0, 1.5)).length() < 1e-6);
+    assert!((view.angular_velocity() - spin).abs() < 1e-4);
+    let at_corner = view.velocity_at(Vec2::new(1.5, 2.5));
+    assert!((at_corner - Vec2::new(-0.5 * spin, 1.5 + 0.5 * spin)).length() < 1e-4);
+    // A force over a step is an impulse; it is gone after it.
+    let mut other = World::new(Vec2::ZERO);
+    let body = add(&mut other, 1.0, 2.0, rect(0.5, 0.5).density(2.0));
+    let mut view = other.body_mut(body).unwrap();
+    view.apply_force(Vec2::new(0.0, 3.0 / DT), Vec2::new(1.5, 2.0));
+    run(&mut other, 1);
+    let after = other.body(body).unwrap();
+    assert!((after.velocity() - Vec2::new(0.0, 1.5)).length() < 1e-4);
+    assert!((after.angular_velocity() - spin).abs() < 1e-3, "{}", after.angular_velocity());
+    let before = after.velocity();
+    run(&mut other, 1);
+    assert!((other.body(body).unwrap().velocity() - before).length() < 1e-6);
+}

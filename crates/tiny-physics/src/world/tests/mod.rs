@@ -2,6 +2,7 @@
 
 mod anything;
 mod changes;
+mod compounds;
 mod events;
 mod forces;
 mod hooks;
