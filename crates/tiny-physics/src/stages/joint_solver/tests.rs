@@ -1,7 +1,7 @@
 //! Every joint against its formula.
 
 use super::*;
-use crate::describe::{BodyKind, JointKind};
+use crate::describe::{BodyKind, JointKind, Spring};
 use crate::dynamics::{Bodies, BodyInfo, JointRecord, Slot};
 use crate::math::{DVec2, Rot};
 use crate::stages::integrate;
@@ -566,7 +566,7 @@ fn mice_slow_the_turning() {
     let hold = Vec2::new(-1.0, 0.0);
     rig.joint(0, plank, JointDef::mouse(DVec2::ZERO, 1000.0).anchors(Vec2::ZERO, hold));
     rig.run(20.0);
-    assert_near("angle", rig.angle(plank).into(), -TAU / 4.0, 0.01);
+    assert_near("angle", rig.angle(plank).into(), -TAU / 4.0, 0.03);
 }
 
 /// Far from the origin, with a bounded force.

@@ -151,13 +151,15 @@ fn change(world: &mut World, random: &mut Random) {
             }
         }
         (25, ..) => {
-            if let Some(tiles) = world.tile_grid_ids().next() {
+            let tiles = world.tile_grid_ids().next();
+            if let Some(tiles) = tiles {
                 let (x, y) = (random.below(8) as u32, random.below(4) as u32);
                 world.set_tile(tiles, x, y, random.below(13) as u16).unwrap();
             }
         }
         (26, ..) if random.below(10) == 0 => {
-            if let Some(tiles) = world.tile_grid_ids().next() {
+            let tiles = world.tile_grid_ids().next();
+            if let Some(tiles) = tiles {
                 world.remove_tiles(tiles).unwrap();
             }
         }

@@ -38,18 +38,19 @@ fn hundreds_of_shapes_fall_and_lie_on_their_lowest() {
     let mut world = world();
     add_ground(&mut world);
     let id = world.add_body(sieve().position(Vec2::new(0.0, 2.5))).unwrap();
-    let mut most = 0;
+    let (mut most, mut contacts) = (0, 0);
     for _ in 0..180 {
         world.step(DT);
         most = most.max(world.stats().candidate_pairs);
+        contacts = contacts.max(world.contact_count());
+        assert!(world.contacts().all(|contact| contact.body_a != contact.body_b));
     }
     world.validate().unwrap();
     // Shapes of one body are no pairs: only those near the ground are.
     assert!(most <= 3 * SIDE, "{most} new pairs in a step");
-    assert!((SIDE..=2 * SIDE).contains(&world.contact_count()), "{}", world.contact_count());
-    assert!(world.contacts().all(|contact| contact.body_a != contact.body_b));
+    assert!((SIDE..=2 * SIDE).contains(&contacts), "{contacts} contacts");
     let body = world.body(id).unwrap();
-    // The lowest cells reach from 0.15 to 0.05 m over the square's edge.
+    // The lowest cells reach 1.95 m under the middle.
     assert!((y(&world, id) - 1.95).abs() < 0.005, "{}", y(&world, id));
     assert!(body.angle().abs() < 1e-3 && !body.is_awake());
     world.step(DT);
@@ -73,7 +74,7 @@ fn questions_find_the_right_one_of_hundreds() {
         let near = world.closest_point(middle + toward, 1.0, &all).unwrap();
         assert_eq!(near.shape, shape.id());
     }
-    let bounds = Aabb::new(Vec2::new(-9.0, -9.0), Vec2::new(9.0, 9.0));
+    let bounds = Aabb::new(Vec2::splat(-20.0), Vec2::splat(20.0));
     assert_eq!(world.overlap_aabb(bounds, &all).len(), SIDE * SIDE);
 }
 
@@ -84,10 +85,12 @@ fn hundreds_of_shapes_go_one_by_one() {
     let id = world.add_body(sieve().position(Vec2::new(0.0, 1.95)).can_sleep(false)).unwrap();
     let (mut begun, mut ended) = (0, 0);
     let mut left = SIDE * SIDE;
-    for round in 0..20 {
-        run(&mut world, 2);
-        begun += world.events().contact_begin().len();
-        ended += world.events().contact_end().len();
+    for round in 0..10 {
+        for _ in 0..2 {
+            run(&mut world, 1);
+            begun += world.events().contact_begin().len();
+            ended += world.events().contact_end().len();
+        }
         let shapes: Vec<ShapeId> = world.body(id).unwrap().shapes().collect();
         for shape in shapes.into_iter().skip(round % 3).step_by(3) {
             world.remove_shape(shape).unwrap();
@@ -98,7 +101,7 @@ fn hundreds_of_shapes_go_one_by_one() {
         assert_eq!(body.shapes().count(), left);
         assert!((body.mass() - left as f32).abs() < 1e-3 * left as f32 + 1e-3);
     }
-    assert!(left < 5 && begun >= SIDE && ended > 0, "{left} {begun} {ended}");
+    assert!(left < 15 && begun >= SIDE && ended > 0, "{left} {begun} {ended}");
     let more: Vec<ShapeId> =
         sieve().shapes.into_iter().map(|shape| world.add_shape(id, shape).unwrap()).collect();
     run(&mut world, 2);
@@ -117,6 +120,7 @@ fn a_static_body_of_many_shapes_costs_what_is_near() {
         floor = floor.shape(rect(0.5, 0.5).offset(Vec2::new(i as f32, -0.5)));
     }
     world.add_body(floor).unwrap();
+    run(&mut world, 1);
     let ball = add(&mut world, 300.0, 1.0, circle(0.4));
     for _ in 0..120 {
         world.step(DT);
