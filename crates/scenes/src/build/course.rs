@@ -87,8 +87,12 @@ fn keys() -> Vec<Key> {
 fn rides(lift: usize, shuttle: usize, plate: usize) -> Vec<Ride> {
     let there_and_back = |body, period, [a, b, c, d]: [f32; 4], velocity, angular_velocity| {
         let out = Leg { from: a, to: b, velocity, angular_velocity };
-        let back =
-            Leg { from: c, to: d, velocity: -velocity, angular_velocity: 0.0 - angular_velocity };
+        let back = Leg {
+            from: c,
+            to: d,
+            velocity: Vec2::ZERO - velocity,
+            angular_velocity: 0.0 - angular_velocity,
+        };
         Ride { body, period, legs: vec![out, back] }
     };
     vec![
