@@ -69,7 +69,7 @@ impl Script {
             Self::Terrain(terrain) => Running::Terrain(terrain.start(bodies)),
             Self::Queries(queries) => Running::Queries(queries.start(bodies)),
             Self::Timeline(timeline) => Running::Timeline(timeline.start(bodies, dt)),
-            Self::Character(character) => Running::Character(character.start(bodies, dt)),
+            Self::Character(character) => Running::Character(Box::new(character.start(bodies, dt))),
         }
     }
 }
@@ -83,7 +83,7 @@ pub(crate) enum Running {
     Terrain(terrain::Streaming),
     Queries(queries::Asking),
     Timeline(timeline::Happening),
-    Character(character::Walking),
+    Character(Box<character::Walking>),
 }
 
 impl Running {

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::describe::{BodyKind, JointKind, Spring};
-use crate::dynamics::{Bodies, BodyInfo, JointRecord, Slot};
+use crate::dynamics::{Bodies, BodyInfo, JointRecord, PLAIN, Slot};
 use crate::math::{DVec2, Rot};
 use crate::stages::integrate;
 use crate::threads::Team;
