@@ -22,7 +22,7 @@ pub fn main() -> Result<(), Error> {
         world.step(1.0 / 60.0);
         begins += world.events().contact_begin().len();
         passed += world.events().sensor_begin().iter().filter(|event| event.sensor == gate).count();
-        moved += world.moved_bodies().count();
+        moved += world.moved_bodies().len();
         slept += world.events().fell_asleep().len();
         // The slices stay as they are while the world changes; a copy lets us change it.
         for hit in world.events().hits().to_vec() {
@@ -42,6 +42,6 @@ pub fn main() -> Result<(), Error> {
     assert_eq!(burst, 1, "only the highest comes down faster than 13 m/s");
     assert_eq!(slept, 3);
     assert!(begins > 4 && moved > 200);
-    assert_eq!(world.moved_bodies().count(), 0);
+    assert_eq!(world.moved_bodies().len(), 0);
     Ok(())
 }

@@ -144,9 +144,9 @@ struct Scratch {
     occupied: Vec<(usize, PairClass)>,
     overlaps: Vec<Overlap>,
     found_overlaps: Vec<Vec<Overlap>>,
-    broken_joints: Vec<(u32, JointLoad)>,
     touching: Vec<hooks::At>,
     answers: Vec<Vec<ContactRules>>,
+    broken_joints: Vec<(u32, JointLoad)>,
 }
 
 /// Numbers of one step.
