@@ -79,8 +79,12 @@ impl RoughSocket {
     fn deliver(&mut self) {
         let (now, socket) = (Instant::now(), &self.socket);
         self.waiting.retain(|(due, address, bytes)| {
-            // A packet that the system refuses is a lost one, which the session survives.
-            *due > now || socket.send_to(bytes, address).is_err() && false
+            let waits = *due > now;
+            if !waits {
+                // A packet that the system refuses is a lost one, which the session survives.
+                let _ = socket.send_to(bytes, address);
+            }
+            waits
         });
     }
 }
