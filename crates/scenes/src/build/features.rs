@@ -294,9 +294,10 @@ pub(crate) fn sorting(options: Options) -> Scene {
         put(5.0, 7.0 - 2.3 * i as f32, belt(4.0, speed).filter(holds));
     }
     // Where the belts end, a box for each kind.
-    for i in 0..4 {
+    for i in 0..3 {
         put(9.6 + 2.4 * i as f32, 0.8, ShapeDef::new(shapes::rect(0.1, 1.3)));
     }
+    put(16.8, 3.5, ShapeDef::new(shapes::rect(0.1, 4.0)));
     put(13.2, -0.5, ShapeDef::new(shapes::rect(3.8, 0.2)));
     put(5.0, -0.5, ShapeDef::new(shapes::rect(4.5, 0.2)));
     scene.body(plant);

@@ -4,7 +4,7 @@ use super::{Options, ground};
 use crate::scene::Scene;
 use crate::shapes;
 use core::f32::consts::PI;
-use tiny_physics::{Filter, JointDef, JointKind, RigidBody, Shape, ShapeDef, Spring, Vec2};
+use tiny_physics::{Filter, JointDef, JointKind, RigidBody, Rot, Shape, ShapeDef, Spring, Vec2};
 
 /// A body of one shape of density 1.
 fn body(x: f32, y: f32, shape: impl Into<ShapeDef>) -> RigidBody {
@@ -158,7 +158,11 @@ pub(crate) fn breaking_bridge(options: Options) -> Scene {
     let mut scene =
         Scene::new("breaking_bridge", "A bridge whose joints break where crates hit too hard.");
     scene.gravity = Vec2::new(0.0, -10.0);
-    let half = 0.5 * planks as f32;
+    // The planks hang in an arc, each a chord of it: stretched straight, they would bear nothing.
+    let (turn, end) = (0.8 / planks as f32, Rot::from_angle(0.4));
+    let chord = Rot::from_angle(0.5 * turn);
+    let radius = 0.5 / chord.s;
+    let half = radius * end.s;
     let bank = |side: f32| {
         ShapeDef::new(shapes::rect(4.0, 4.0)).offset(Vec2::new(side * (half + 4.0), -3.9))
     };
@@ -168,17 +172,20 @@ pub(crate) fn breaking_bridge(options: Options) -> Scene {
     for i in 0..=planks {
         let (next, anchor) = if i < planks {
             let plank = ShapeDef::new(shapes::rect(0.48, 0.1)).density(2.0);
-            let plank = body(i as f32 + 0.5 - half, 0.0, plank).damping(0.0, 0.5);
+            let angle = (i as f32 + 0.5) * turn - 0.4;
+            let middle = Rot::from_angle(angle);
+            let (out, low) = (chord.c * middle.s, chord.c * middle.c - end.c);
+            let plank = body(radius * out, -radius * low, plank).angle(angle).damping(0.0, 0.5);
             (scene.body(plank), Vec2::new(-0.5, 0.0))
         } else {
             (banks, Vec2::new(half, 0.0))
         };
-        let joint = JointDef::revolute().anchors(last.1, anchor).break_at(1000.0, f32::MAX);
+        let joint = JointDef::revolute().anchors(last.1, anchor).break_at(4000.0, f32::MAX);
         scene.joint(last.0, next, joint);
         last = (next, Vec2::new(0.5, 0.0));
     }
     for i in 0..planks / 2 {
-        let x = 2.0 * ((i * 3) % (planks / 2)) as f32 + 1.0 - half;
+        let x = 2.0 * ((i * 3) % (planks / 2)) as f32 + 1.0 - 0.5 * planks as f32;
         let load = if i % 2 == 0 { shapes::rect(0.45, 0.45) } else { shapes::circle(0.45) };
         scene.body(body(x, 1.0 + 2.0 * i as f32, ShapeDef::new(load).density(4.0)));
     }

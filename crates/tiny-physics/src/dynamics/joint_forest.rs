@@ -257,8 +257,9 @@ impl JointForest {
         let mut walk = core::mem::take(&mut self.walk);
         walk.places.resize(bodies.infos.len(), NULL);
         let mut moves = Moves::default();
+        let mut found = core::mem::take(&mut walk.found);
         for &body in &dirty {
-            let found = walk.collect(bodies, joints, body);
+            walk.collect(bodies, joints, body, &mut found);
             found.joints.iter().for_each(|&joint| self.dissolve(joint));
             let tree = plant(bodies, joints, &found, &walk.places).unwrap_or_default();
             let in_trees = tree.pace * JOINT_PLACES + JOINT_TREES;
@@ -277,6 +278,7 @@ impl JointForest {
                 }
             }
         }
+        walk.found = found;
         walk.forget();
         self.walk = walk;
         dirty.clear();
@@ -309,6 +311,9 @@ struct Walk {
     /// Place of each body that has been met among those of its component, else NULL.
     places: Vec<u32>,
     met: Vec<u32>,
+    /// The component at hand, and bodies that are still to be visited.
+    found: Component,
+    waiting: Vec<u32>,
 }
 
 impl Clone for Walk {
@@ -320,7 +325,7 @@ impl Clone for Walk {
 }
 
 /// What hangs together through joints of rigid kinds: they are ascending.
-#[derive(Default)]
+#[derive(Debug, Default)]
 struct Component {
     bodies: Vec<u32>,
     joints: Vec<u32>,
@@ -328,10 +333,11 @@ struct Component {
 
 impl Walk {
     /// The component of a body; empty where that has been done before.
-    fn collect(&mut self, bodies: &Bodies, joints: &Joints, body: u32) -> Component {
-        let mut found = Component::default();
-        let mut waiting = vec![body];
-        while let Some(body) = waiting.pop() {
+    fn collect(&mut self, bodies: &Bodies, joints: &Joints, body: u32, found: &mut Component) {
+        found.bodies.clear();
+        found.joints.clear();
+        self.waiting.push(body);
+        while let Some(body) = self.waiting.pop() {
             if !bodies.is_dynamic(body) || self.places[body as usize] != NULL {
                 continue;
             }
@@ -342,13 +348,12 @@ impl Walk {
                 let record = &joints.records[joint as usize];
                 if record.place != JointPlace::Asleep && is_rigid(&record.def) {
                     found.joints.push(joint);
-                    waiting.push(if side == 0 { record.body_b } else { record.body_a });
+                    self.waiting.push(if side == 0 { record.body_b } else { record.body_a });
                 }
             }
         }
         found.joints.sort_unstable();
         found.joints.dedup();
-        found
     }
 
     fn forget(&mut self) {

@@ -120,7 +120,7 @@ fn finalize_body(body: FinalBody<'_>, scene: Scene<'_>, options: Options, found:
     row[Slot::DA] = 0.0;
     let start = *pose;
     *pose = Pose::new(start.p + motion, start.q.integrate(turn));
-    time_rest(row, info, options.dt);
+    time_rest(row, [motion.length(), turn], info, options.dt);
     info.force = Vec2::ZERO;
     info.torque = 0.0;
     let reach = motion.length() + turn.abs() * info.max_extent;
@@ -141,12 +141,14 @@ fn finalize_body(body: FinalBody<'_>, scene: Scene<'_>, options: Options, found:
     }
 }
 
-/// Counts the time that a body has been slower than its sleep speed.
+/// Counts the time that a body has been slower than its sleep speed, by its velocity and by how far it went:
+/// what is being pushed out of something has no velocity left at the end of a step.
 #[inline]
-fn time_rest(row: &Row, info: &mut BodyInfo, dt: f32) {
-    let speed = Vec2::new(row[Slot::VX], row[Slot::VY]).length();
-    let surface_speed = row[Slot::W].abs() * info.max_extent;
-    let fastest = if speed > surface_speed { speed } else { surface_speed };
+fn time_rest(row: &Row, [way, turn]: [f32; 2], info: &mut BodyInfo, dt: f32) {
+    let larger = |a: f32, b: f32| if a > b { a } else { b };
+    let speed = larger(Vec2::new(row[Slot::VX], row[Slot::VY]).length(), way / dt);
+    let spin = larger(row[Slot::W].abs(), turn.abs() / dt);
+    let fastest = larger(speed, spin * info.max_extent);
     // A platform that creeps must not stop.
     let limit = if info.kind == BodyKind::Dynamic { info.sleep_speed } else { 0.0 };
     if info.can_sleep && fastest <= limit {

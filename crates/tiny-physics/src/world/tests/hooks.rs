@@ -20,7 +20,7 @@ fn a_pair_filter_lets_friends_pass() {
     assert!(world.body(bullet).unwrap().position().x > 3.0);
     world.remove_body(bullet).unwrap();
     world.clear_pair_filter();
-    run(&mut world, 60);
+    run(&mut world, 240);
     let (a, b) = (world.body(low).unwrap().position(), world.body(friend).unwrap().position());
     assert!((a - b).length() > 0.95);
     world.set_pair_filter(|_| false);

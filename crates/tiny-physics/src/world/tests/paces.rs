@@ -32,6 +32,7 @@ fn steps(world: &mut World, count: usize) {
 fn heavy_on_light(refine_up_to: u32) -> (usize, f32) {
     let mut world = floored();
     world.settings.refine_up_to = refine_up_to;
+    world.settings.sleep = false;
     let light = world.add_body(crate_at(0.0, 0.5, 1.0)).unwrap();
     world.add_body(crate_at(0.0, 1.5, 100.0)).unwrap();
     steps(&mut world, 60);
