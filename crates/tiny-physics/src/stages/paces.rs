@@ -10,7 +10,8 @@
 
 use super::islands::{Islands, Stores};
 use crate::dynamics::{
-    Bodies, Bucket, Graph, IDLE, JointPlace, NULL, PACES, PLAIN, Place, REFINEMENT, pace_at,
+    Bodies, Bucket, Graph, IDLE, JointPlace, NULL, PACES, PLAIN, Place, PointLanes, REFINEMENT,
+    pace_at,
 };
 use crate::math::Vec2;
 use crate::simd::BLOCK;
@@ -21,8 +22,10 @@ const INTERVAL: u64 = 8;
 const MANY_NEWS: usize = 16;
 /// Sink at the plain pace from which an island gets each pace, metres a length unit.
 const VISIBLE: [f32; PACES] = [0.0, 0.0008, 0.02];
-/// Speed below which a body counts as settled, length units a second.
+/// Speed below which the contacts of a body carry what they will go on carrying, length units a second.
 const SETTLED: f32 = 0.05;
+/// Speed of a body above which its island does not become finer.
+const LIVELY: f32 = 0.5;
 /// Bodies that an island of the finest pace may have.
 const MOST_AT_FINEST: usize = 128;
 /// What all refined islands may cost together: bodies times additional refinement, for each body that one of
@@ -98,20 +101,25 @@ fn is_due(stores: &Stores<'_>, rules: Rules) -> bool {
     graph.mixed
         || joint_graph.mixed
         || many
-        || look && (news > 0 || any_refined(bodies) || is_any_strained(graph, rules))
+        || look && (news > 0 || any_refined(bodies) || is_any_strained(bodies, graph, rules))
 }
 
-/// Would a point of the plain pace sink visibly?
-fn is_any_strained(graph: &Graph, rules: Rules) -> bool {
+/// Would a point between two moving bodies of the plain pace sink visibly?
+fn is_any_strained(bodies: &Bodies, graph: &Graph, rules: Rules) -> bool {
     let least = VISIBLE[1] * rules.length_unit * rules.omega_squared / rules.inv_h;
     let plain = graph.buckets[..IDLE].iter().enumerate().filter(|&(at, _)| pace_at(at) == PLAIN);
-    let mut points = plain
-        .flat_map(|(_, buckets)| buckets)
-        .flat_map(|bucket| &bucket.constraints)
-        .flat_map(|block| &block.points);
-    points.any(|lanes| {
-        let lanes = lanes.normal_impulse.iter().zip(&lanes.normal_mass);
-        lanes.fold(false, |any, (impulse, mass)| any | (*impulse > least * mass))
+    let mut blocks = plain.flat_map(|(_, buckets)| buckets).flat_map(|bucket| &bucket.constraints);
+    blocks.any(|block| {
+        let strained = |lane: usize| {
+            let over =
+                |point: &PointLanes| point.normal_impulse[lane] > least * point.normal_mass[lane];
+            over(&block.points[0]) | over(&block.points[1])
+        };
+        let any = (0..BLOCK).fold(false, |any, lane| any | strained(lane));
+        let moves = |lane: usize| {
+            bodies.is_dynamic(block.body_a[lane]) && bodies.is_dynamic(block.body_b[lane])
+        };
+        any && (0..BLOCK).any(|lane| strained(lane) && moves(lane))
     })
 }
 
@@ -123,14 +131,17 @@ struct Island {
     pace: u8,
     /// Greatest sink that its contacts would have at the plain pace, metres.
     strain: f32,
+    /// Is one of its bodies so fast that loads say nothing?
+    lively: bool,
 }
 
 impl Island {
     /// Chooses the pace: the finest that the strain calls for and the bounds allow.
     fn grant(&mut self, rules: Rules, budget: &mut usize) {
         let wanted = (1..PACES).rev().find(|&pace| {
-            let keep = if pace <= usize::from(self.pace) { 0.5 } else { 1.0 };
-            self.strain > keep * VISIBLE[pace] * rules.length_unit
+            let keeps = pace <= usize::from(self.pace);
+            let least = if keeps { 0.5 } else { 1.0 } * VISIBLE[pace] * rules.length_unit;
+            self.strain > least && (keeps || !self.lively)
         });
         let most = [usize::MAX, rules.most_bodies, rules.most_bodies.min(MOST_AT_FINEST)];
         let cost = |pace: usize| self.bodies * (REFINEMENT[pace] as usize - 1);
@@ -153,15 +164,17 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         let island = &mut found[islands.root(body) as usize];
         island.bodies += 1;
         island.pace = island.pace.max(bodies.infos[body as usize].pace);
+        island.lively |= !is_slower(bodies, body, LIVELY * rules.length_unit);
     }
     for (at, buckets) in graph.buckets[..IDLE].iter().enumerate() {
         let refinement = REFINEMENT[pace_at(at)] as f32;
         let scale = refinement * rules.inv_h / rules.omega_squared;
+        let settled = SETTLED * rules.length_unit;
         for bucket in buckets {
             for slot in 0..bucket.contacts.len() {
                 let (a, b) = bucket.bodies(slot);
                 let both = bodies.is_dynamic(a) && bodies.is_dynamic(b);
-                if both && rests(bodies, a, rules) && rests(bodies, b, rules) {
+                if both && is_slower(bodies, a, settled) && is_slower(bodies, b, settled) {
                     let sink = scale * greatest_load(bucket, slot);
                     let island = &mut found[islands.root(a) as usize];
                     island.strain = island.strain.max(sink);
@@ -172,9 +185,8 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
     foresee(stores, rules, memory);
 }
 
-/// Is a body slow enough for its contacts to carry what they will go on carrying?
-fn rests(bodies: &Bodies, body: u32, rules: Rules) -> bool {
-    let limit = SETTLED * rules.length_unit;
+/// Is a body slower than this, metres a second?
+fn is_slower(bodies: &Bodies, body: u32, limit: f32) -> bool {
     let velocity = bodies.velocity(body);
     velocity.dot(velocity) < limit * limit
 }
