@@ -2,7 +2,7 @@
 
 use tiny_physics::{BodyId, Error, JointDef, RigidBody, Shape, ShapeDef, Vec2, World};
 
-/// What a player holds down: bits of [`LEFT`], [`RIGHT`], [`JUMP`] and [`THROW`].
+/// What a player holds down: bits of `LEFT`, `RIGHT`, `JUMP` and `THROW`.
 pub type Input = u8;
 
 /// Runs to the left.
