@@ -86,6 +86,7 @@ impl World {
             let moves = info.alive && info.enabled && info.kind != BodyKind::Static;
             ensure(!info.awake || moves, "a body that cannot move is awake")?;
             ensure(pose.is_finite(), "a body is nowhere")?;
+            ensure(usize::from(info.pace) < PACES, "a body has no pace")?;
             let next = info.island_next;
             let sleeps = |i: u32| {
                 bodies.infos.get(i as usize).is_some_and(|info| {

@@ -123,3 +123,13 @@ fn a_kinematic_body_serves_all_paces() {
         assert!((at(body).x - start - 0.6_f32).abs() < 2.0e-3, "{:?}", at(body));
     }
 }
+
+#[test]
+fn a_saved_world_with_an_unknown_pace_is_refused() {
+    let mut world = floored();
+    let body = world.add_body(crate_at(0.0, 0.5, 1.0)).unwrap();
+    let index = world.body_index(body).unwrap();
+    world.bodies.infos[index as usize].pace = PACES as u8;
+    let error = World::from_bytes(&world.to_bytes()).unwrap_err();
+    assert!(error.to_string().contains("pace"), "{error}");
+}
