@@ -22,9 +22,10 @@ const INTERVAL: u64 = 8;
 const MANY_NEWS: usize = 16;
 /// Sink at the plain pace from which an island gets each pace, metres a length unit.
 const VISIBLE: [f32; PACES] = [0.0, 0.0008, 0.02];
-/// Speed below which the contacts of a body carry what they will go on carrying, length units a second.
+/// Speed between two bodies below which their contact carries what it will go on carrying, length units a
+/// second.
 const SETTLED: f32 = 0.05;
-/// Speed of a body above which its island does not become finer.
+/// Speed between two touching bodies above which their island does not become finer.
 const LIVELY: f32 = 0.5;
 /// Bodies that an island of the finest pace may have.
 const MOST_AT_FINEST: usize = 128;
@@ -131,7 +132,7 @@ struct Island {
     pace: u8,
     /// Greatest sink that its contacts would have at the plain pace, metres.
     strain: f32,
-    /// Is one of its bodies so fast that loads say nothing?
+    /// Do two of its bodies that touch pass each other so fast that loads say nothing?
     lively: bool,
 }
 
@@ -164,31 +165,26 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         let island = &mut found[islands.root(body) as usize];
         island.bodies += 1;
         island.pace = island.pace.max(bodies.infos[body as usize].pace);
-        island.lively |= !is_slower(bodies, body, LIVELY * rules.length_unit);
     }
     for (at, buckets) in graph.buckets[..IDLE].iter().enumerate() {
         let refinement = REFINEMENT[pace_at(at)] as f32;
         let scale = refinement * rules.inv_h / rules.omega_squared;
-        let settled = SETTLED * rules.length_unit;
         for bucket in buckets {
             for slot in 0..bucket.contacts.len() {
                 let (a, b) = bucket.bodies(slot);
-                let both = bodies.is_dynamic(a) && bodies.is_dynamic(b);
-                if both && is_slower(bodies, a, settled) && is_slower(bodies, b, settled) {
-                    let sink = scale * greatest_load(bucket, slot);
-                    let island = &mut found[islands.root(a) as usize];
-                    island.strain = island.strain.max(sink);
+                if !(bodies.is_dynamic(a) && bodies.is_dynamic(b)) {
+                    continue;
+                }
+                let island = &mut found[islands.root(a) as usize];
+                let speed = (bodies.velocity(b) - bodies.velocity(a)).length();
+                island.lively |= speed > LIVELY * rules.length_unit;
+                if speed < SETTLED * rules.length_unit {
+                    island.strain = island.strain.max(scale * greatest_load(bucket, slot));
                 }
             }
         }
     }
     foresee(stores, rules, memory);
-}
-
-/// Is a body slower than this, metres a second?
-fn is_slower(bodies: &Bodies, body: u32, limit: f32) -> bool {
-    let velocity = bodies.velocity(body);
-    velocity.dot(velocity) < limit * limit
 }
 
 /// Greatest impulse of a contact's points over their effective masses, metres a second.
