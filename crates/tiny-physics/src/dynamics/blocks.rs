@@ -23,12 +23,15 @@ macro_rules! lane_block {
             pub(crate) const NULL: Self = Self { $($field: [$null; BLOCK],)* };
 
             /// Copies one lane.
+            #[allow(dead_code, reason = "not every block is packed")]
             pub(crate) fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
                 $(self.$field[to] = source.$field[from];)*
             }
         }
     };
 }
+
+pub(crate) use lane_block;
 
 lane_block! {
     /// What the narrow phase keeps of a contact from step to step.
@@ -114,15 +117,9 @@ lane_block! {
         /// Normal velocity of the points at the start of the step, negative when approaching.
         approach_1: f32 = 0.0,
         approach_2: f32 = 0.0,
-        /// Greatest normal impulse over the substeps.
+        /// Greatest normal impulse over the substeps, where hits are asked for.
         peak_1: f32 = 0.0,
         peak_2: f32 = 0.0,
-        /// Speed at which a point that hits is to leave; 0 for points that do not.
-        bounce_1: f32 = 0.0,
-        bounce_2: f32 = 0.0,
-        /// What made it leave, newton seconds.
-        bounce_impulse_1: f32 = 0.0,
-        bounce_impulse_2: f32 = 0.0,
     }
 }
 

@@ -56,10 +56,6 @@ data!(SurfaceBlock {
     approach_2,
     peak_1,
     peak_2,
-    bounce_1,
-    bounce_2,
-    bounce_impulse_1,
-    bounce_impulse_2
 });
 data!(ConstraintBlock { body_a, body_b, normal_x, normal_y, friction, points });
 data!(BlockHead { touching, flags, jointed_a, jointed_b });

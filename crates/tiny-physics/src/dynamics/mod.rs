@@ -20,7 +20,7 @@ mod shapes;
 mod waiting;
 
 pub(crate) use blocks::{
-    BlockHead, ConstraintBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags,
+    BlockHead, ConstraintBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags, lane_block,
 };
 pub(crate) use bodies::{Bodies, BodyInfo, Motion, NULL, Slot};
 pub(crate) use clone::{Serial, clone_by_field};

@@ -42,14 +42,14 @@ pub use stats::{Stage, Stats};
 use crate::broad_phase::BroadPhase;
 use crate::describe::{BodyKind, Settings};
 use crate::dynamics::{
-    Bodies, COLOURS, Contacts, Graph, JointGraph, JointLoad, Joints, Overlap, PACES, PLAIN,
-    REFINEMENT, Sensors, Shapes, Waiting, colour_at,
+    Bodies, Contacts, Graph, JointGraph, JointLoad, Joints, Overlap, PACES, PLAIN, REFINEMENT,
+    Sensors, Shapes, Waiting,
 };
 use crate::error::Error;
 use crate::geometry::manifold::PairClass;
 use crate::math::Vec2;
 use crate::simd::SimdLevel;
-use crate::stages::contact_solver::{self, Parameters, Pass, Softness};
+use crate::stages::contact_solver::{self, BounceMemory, Parameters, Pass, Softness};
 use crate::stages::finalize::{FastBody, Findings};
 use crate::stages::islands::Stores;
 use crate::stages::touching::Changes;
@@ -77,11 +77,6 @@ const CONTACT_RATE_FRACTION: f32 = 0.22;
 const FAST_APPROACH: f32 = 10.0;
 /// What is deeper in than its load accounts for is pushed out at this rate, 1 / second.
 const PUSH_RATE: f32 = 20.0;
-
-/// Rounds of bouncing in a step: an impulse runs through this many bodies at once.
-const BOUNCE_ROUNDS: usize = 8;
-/// Solver iterations in each of them, for points that hit at the same time.
-const BOUNCE_ITERATIONS: usize = 8;
 
 /// A world of bodies.
 ///
@@ -142,6 +137,7 @@ struct Scratch {
     hinges: Vec<u32>,
     listed: Vec<u32>,
     occupied: Vec<(usize, PairClass)>,
+    bounces: BounceMemory,
     overlaps: Vec<Overlap>,
     found_overlaps: Vec<Vec<Overlap>>,
     touching: Vec<hooks::At>,
@@ -395,7 +391,11 @@ impl World {
         self.prepare_joints(team, pace, lengths.h);
         integrate::prepare(team, listed, &mut self.bodies, self.gravity, lengths.h);
         let max_speed = self.settings.max_speed * self.settings.length_unit;
-        self.bounce(team, &parameters);
+        {
+            let Self { level, bodies, graph, scratch, .. } = self;
+            let (occupied, memory) = (&scratch.occupied, &mut scratch.bounces);
+            contact_solver::run_bounces(team, *level, &parameters, bodies, graph, occupied, memory);
+        }
         let joints = |world: &mut Self, pass| world.solve_joints(team, pace, pass, lengths.h);
         for substep in 0..lengths.substeps {
             let first = substep == 0;
@@ -413,26 +413,6 @@ impl World {
             self.note_broken_joints(pace);
         }
         joints(self, joint_solver::Pass::Finish);
-    }
-
-    /// Reflects what hits something bouncy, round by round: what is hit may hit the next.
-    fn bounce(&mut self, team: &Team, parameters: &Parameters) {
-        let mut parameters = *parameters;
-        let threshold = parameters.restitution_threshold;
-        for _ in 0..BOUNCE_ROUNDS {
-            self.solve_contacts(team, Pass::AimBounce, &parameters);
-            let Self { graph, scratch, .. } = self;
-            let bucket =
-                |&(place, class): &(usize, PairClass)| &graph.buckets[place][class as usize];
-            if !scratch.occupied.iter().map(bucket).any(contact_solver::any_bounce) {
-                return;
-            }
-            for _ in 0..BOUNCE_ITERATIONS {
-                self.solve_contacts(team, Pass::Bounce, &parameters);
-            }
-            // What is hit hands on less than it got.
-            parameters.restitution_threshold = 0.1 * threshold;
-        }
     }
 
     /// Stiffness of contacts for a substep length.
@@ -456,6 +436,7 @@ impl World {
             h: lengths.h,
             dt: lengths.dt,
             restitution_threshold: settings.restitution_threshold * settings.length_unit,
+            least_bounce: 0.0,
         }
     }
 
@@ -466,15 +447,7 @@ impl World {
         }
         let Self { bodies, graph, scratch, level, .. } = self;
         let rows = SharedRows::new(&mut bodies.rows);
-        for &(place, class) in &scratch.occupied {
-            let bucket = &mut graph.buckets[place][class as usize];
-            let points = class.max_points();
-            if colour_at(place) == COLOURS {
-                contact_solver::run_in_order(pass, parameters, rows, bucket, points);
-            } else {
-                contact_solver::run(team, *level, pass, parameters, rows, bucket, points);
-            }
-        }
+        contact_solver::run(team, *level, pass, parameters, rows, graph, &scratch.occupied);
     }
 
     /// Brings the joints' lanes in line with the poses.

@@ -1,0 +1,285 @@
+//! The contact solver: soft-step sequential impulses over blocks of one colour.
+//!
+//! A contact point resists approach along its normal with a soft constraint: at separation s <= 0
+//! it behaves as a damped spring of given hertz and damping ratio, implicitly integrated (softness
+//! after Catto, "Soft Constraints", 2011, and "Solver2D", 2024); at s > 0 it only keeps the gap from
+//! closing within the substep (speculative). With normal velocity vn, effective mass m and
+//! accumulated impulse p:
+//!
+//! ```text
+//! dp = -m * (mass_scale * (vn + bias)) - impulse_scale * p,   p' = max(p + dp, 0)
+//! ```
+//!
+//! Friction acts in the relax pass only, with |tangent impulse| <= friction * normal impulse. The
+//! separation follows the motion since the start of the step to first order: lever arms stay those
+//! of the start, so that a point is twenty floats and a pass is a straight line.
+//!
+//! Within a colour, order does not matter; colours go in order. The same functions serve as lanes
+//! and, one lane wide, for the overflow.
+
+mod bounce;
+mod friction;
+mod normals;
+mod pair;
+
+pub(crate) use bounce::{Memory as BounceMemory, run as run_bounces};
+
+use crate::dynamics::{
+    BlockHead, Bucket, COLOURS, ConstraintBlock, Graph, SurfaceBlock, colour_at, flags,
+};
+use crate::geometry::manifold::PairClass;
+use crate::math::Vec2;
+use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
+use crate::threads::{SharedRows, SharedSlice, Team};
+use friction::{roll, solve_friction, solve_rolling};
+use normals::solve_normals;
+use pair::{ALL_BODIES, Constants, Pair, Stride};
+
+/// Coefficients of a soft constraint for one substep length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Softness {
+    pub(crate) bias_rate: f32,
+    pub(crate) mass_scale: f32,
+    pub(crate) impulse_scale: f32,
+}
+
+impl Softness {
+    /// No spring at all: the constraint is solved exactly.
+    pub(crate) const RIGID: Self = Self { bias_rate: 0.0, mass_scale: 1.0, impulse_scale: 0.0 };
+
+    /// With omega = 2 pi hertz: a1 = 2 zeta + h omega, a2 = h omega a1, a3 = 1 / (1 + a2).
+    pub(crate) fn new(hertz: f32, damping_ratio: f32, h: f32) -> Self {
+        if hertz <= 0.0 {
+            return Self::RIGID;
+        }
+        let omega = 2.0 * core::f32::consts::PI * hertz;
+        let a1 = 2.0 * damping_ratio + h * omega;
+        let a2 = h * omega * a1;
+        let a3 = 1.0 / (1.0 + a2);
+        Self { bias_rate: omega / a1, mass_scale: a2 * a3, impulse_scale: a3 }
+    }
+}
+
+/// What all contacts of a step have in common.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Parameters {
+    /// 1 / substep length.
+    pub(crate) inv_h: f32,
+    /// Between moving bodies.
+    pub(crate) soft: Softness,
+    /// Against bodies that nothing moves.
+    pub(crate) static_soft: Softness,
+    /// Greatest push-out speed, metres a second.
+    pub(crate) push_speed: f32,
+    /// Rate at which overlap beyond what the load accounts for is pushed out, 1 / second.
+    pub(crate) push_rate: f32,
+    /// Overlaps that close in faster than this are solved without softness, metres a second.
+    pub(crate) fast_approach: f32,
+    /// What approaches more slowly does not bounce, metres a second.
+    pub(crate) restitution_threshold: f32,
+    /// What would leave more slowly does not bounce, metres a second.
+    pub(crate) least_bounce: f32,
+    /// Metres a second squared.
+    pub(crate) gravity: Vec2,
+    /// Lengths of substep and step, seconds.
+    pub(crate) h: f32,
+    pub(crate) dt: f32,
+}
+
+/// One of the passes of a substep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Pass {
+    /// In the first substep: impulses of the step before.
+    WarmStart,
+    /// In later substeps: impulses of the substep before, on bodies with joints alone; see
+    /// [`integrate::velocities`](super::integrate::velocities).
+    WarmStartJointed,
+    Solve,
+    Relax,
+}
+
+/// Blocks that one member of the team solves at a time.
+const CHUNK: usize = 8;
+
+/// Runs a pass over these buckets in their order: the overflow contact after contact, colours in lanes.
+pub(crate) fn run(
+    team: &Team,
+    level: SimdLevel,
+    pass: Pass,
+    parameters: &Parameters,
+    rows: SharedRows<'_>,
+    graph: &mut Graph,
+    places: &[(usize, PairClass)],
+) {
+    for &(place, class) in places {
+        let bucket = &mut graph.buckets[place][class as usize];
+        let points = class.max_points();
+        if colour_at(place) == COLOURS {
+            run_in_order(pass, parameters, rows, bucket, points);
+        } else {
+            run_colour(team, level, pass, parameters, rows, bucket, points);
+        }
+    }
+}
+
+/// Runs a pass over a bucket of one colour, in lanes. `points` is 1 for the classes that never have a
+/// second point.
+fn run_colour(
+    team: &Team,
+    level: SimdLevel,
+    pass: Pass,
+    parameters: &Parameters,
+    rows: SharedRows<'_>,
+    bucket: &mut Bucket,
+    points: usize,
+) {
+    let block_count = bucket.constraints.len();
+    let constraints = SharedSlice::new(&mut bucket.constraints);
+    let surfaces = SharedSlice::new(&mut bucket.surfaces);
+    let heads = &bucket.heads;
+    team.for_each_chunk(block_count, CHUNK, |range| {
+        let blocks = Blocks {
+            constraints: constraints.range(range.clone()),
+            surfaces: surfaces.range(range.clone()),
+            heads: &heads[range],
+        };
+        run_blocks(level, RunPass { pass, parameters, rows, blocks }, points);
+    });
+}
+
+/// Runs a pass over a bucket of the overflow: the one-lane instance, contact after contact.
+fn run_in_order(
+    pass: Pass,
+    parameters: &Parameters,
+    rows: SharedRows<'_>,
+    bucket: &mut Bucket,
+    points: usize,
+) {
+    let blocks = Blocks {
+        constraints: &mut bucket.constraints,
+        surfaces: &mut bucket.surfaces,
+        heads: &bucket.heads,
+    };
+    run_blocks(SimdLevel::Scalar, RunPass { pass, parameters, rows, blocks }, points);
+}
+
+fn run_blocks(level: SimdLevel, work: RunPass<'_>, points: usize) {
+    if points == 1 {
+        dispatch(level, Points::<1, _>(work));
+    } else {
+        dispatch(level, Points::<2, _>(work));
+    }
+}
+
+/// A run of blocks of one colour and class.
+struct Blocks<'a> {
+    constraints: &'a mut [ConstraintBlock],
+    surfaces: &'a mut [SurfaceBlock],
+    heads: &'a [BlockHead],
+}
+
+struct RunPass<'a> {
+    pass: Pass,
+    parameters: &'a Parameters,
+    rows: SharedRows<'a>,
+    blocks: Blocks<'a>,
+}
+
+struct Points<const POINTS: usize, W>(W);
+
+impl<const POINTS: usize> LaneKernel for Points<POINTS, RunPass<'_>> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, token: L::Token) {
+        let RunPass { pass, parameters, rows, blocks } = self.0;
+        let constants = Constants::<L>::new(token, parameters);
+        for (index, block) in blocks.constraints.iter_mut().enumerate() {
+            let head = blocks.heads[index];
+            let flags = head.flags;
+            if pass == Pass::WarmStartJointed && head.jointed_a | head.jointed_b == 0 {
+                continue;
+            }
+            let surface = &mut blocks.surfaces[index];
+            for at in (0..BLOCK).step_by(L::WIDTH) {
+                let stride = Stride { token, rows, at, constants: &constants };
+                match pass {
+                    Pass::WarmStart => {
+                        warm_start::<L, POINTS>(&stride, block, surface, flags, ALL_BODIES);
+                    }
+                    Pass::WarmStartJointed => {
+                        let jointed =
+                            (u32::from(head.jointed_a) >> at, u32::from(head.jointed_b) >> at);
+                        warm_start::<L, POINTS>(&stride, block, surface, flags, jointed);
+                    }
+                    Pass::Solve => solve::<L, POINTS>(&stride, block, surface, flags),
+                    Pass::Relax => relax::<L, POINTS>(&stride, block, surface, flags),
+                }
+            }
+        }
+    }
+}
+
+/// Applies the impulses of the substep before to the bodies of the lanes in `only`.
+#[inline(always)]
+fn warm_start<L: Lanes, const POINTS: usize>(
+    stride: &Stride<'_, L>,
+    block: &mut ConstraintBlock,
+    surface: &mut SurfaceBlock,
+    flags: u8,
+    only: (u32, u32),
+) {
+    let mut pair = Pair::load(stride, block);
+    for point in &block.points[..POINTS] {
+        let normal_arms = [stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b)];
+        let tangent_arms = [stride.load(&point.tangent_arm_a), stride.load(&point.tangent_arm_b)];
+        pair.push(stride.load(&point.normal_impulse), normal_arms[0], normal_arms[1]);
+        pair.rub(stride.load(&point.tangent_impulse), tangent_arms[0], tangent_arms[1]);
+    }
+    if flags & flags::ROLLING != 0 {
+        let impulse = stride.load(&surface.rolling_impulse);
+        roll(&mut pair, impulse);
+    }
+    pair.scatter(stride, [&block.body_a, &block.body_b], only);
+}
+
+/// Normal impulses with bias.
+#[inline(always)]
+fn solve<L: Lanes, const POINTS: usize>(
+    stride: &Stride<'_, L>,
+    block: &mut ConstraintBlock,
+    surface: &mut SurfaceBlock,
+    flags: u8,
+) {
+    let mut pair = Pair::load(stride, block);
+    let soft = pair.softness(stride.constants);
+    let impulses = solve_normals::<L, POINTS, true>(stride, &mut pair, block, soft);
+    if flags & flags::HIT != 0 {
+        let peaks = [&mut surface.peak_1, &mut surface.peak_2];
+        for (peak, impulse) in peaks.into_iter().zip(impulses).take(POINTS) {
+            stride.store(stride.load(peak).max(impulse), peak);
+        }
+    }
+    pair.store(stride, block);
+}
+
+/// Friction, rolling resistance, and normal impulses without bias.
+#[inline(always)]
+fn relax<L: Lanes, const POINTS: usize>(
+    stride: &Stride<'_, L>,
+    block: &mut ConstraintBlock,
+    surface: &mut SurfaceBlock,
+    flags: u8,
+) {
+    let mut pair = Pair::load(stride, block);
+    let friction = stride.load(&block.friction);
+    for point in &mut block.points[..POINTS] {
+        solve_friction(stride, &mut pair, point, friction, surface, flags);
+    }
+    if flags & flags::ROLLING != 0 {
+        solve_rolling::<L, POINTS>(stride, &mut pair, block, surface);
+    }
+    let soft = stride.constants.soft;
+    solve_normals::<L, POINTS, false>(stride, &mut pair, block, soft);
+    pair.store(stride, block);
+}

@@ -1,0 +1,180 @@
+//! What the kernels of contacts work on: the parameters in lanes, and the two bodies of each lane.
+
+use super::{Parameters, Softness};
+use crate::dynamics::{ConstraintBlock, Slot};
+use crate::simd::{BLOCK, Lanes};
+use crate::threads::SharedRows;
+
+/// The parameters in lanes.
+pub(super) struct Constants<L> {
+    pub(super) zero: L,
+    pub(super) inv_h: L,
+    pub(super) push: L,
+    pub(super) push_rate: L,
+    pub(super) fast: L,
+    pub(super) soft: [L; 3],
+    pub(super) static_soft: [L; 3],
+    pub(super) threshold: L,
+    pub(super) least_bounce: L,
+    pub(super) gravity: [L; 2],
+    pub(super) half_h: L,
+    pub(super) dt: L,
+}
+
+impl<L: Lanes> Constants<L> {
+    #[inline(always)]
+    pub(super) fn new(token: L::Token, parameters: &Parameters) -> Self {
+        let splat = |value| L::splat(token, value);
+        let soft = |s: Softness| {
+            [splat(s.bias_rate * s.mass_scale), splat(s.mass_scale), splat(s.impulse_scale)]
+        };
+        Self {
+            zero: splat(0.0),
+            inv_h: splat(parameters.inv_h),
+            push: splat(-parameters.push_speed),
+            push_rate: splat(parameters.push_rate),
+            fast: splat(-parameters.fast_approach),
+            soft: soft(parameters.soft),
+            static_soft: soft(parameters.static_soft),
+            threshold: splat(-parameters.restitution_threshold),
+            least_bounce: splat(-parameters.least_bounce),
+            gravity: [splat(parameters.gravity.x), splat(parameters.gravity.y)],
+            half_h: splat(0.5 * parameters.h),
+            dt: splat(parameters.dt),
+        }
+    }
+}
+
+/// Where in a block a kernel works, and on what rows.
+pub(super) struct Stride<'a, L: Lanes> {
+    pub(super) token: L::Token,
+    pub(super) rows: SharedRows<'a>,
+    pub(super) at: usize,
+    pub(super) constants: &'a Constants<L>,
+}
+
+impl<L: Lanes> Stride<'_, L> {
+    #[inline(always)]
+    pub(super) fn load(&self, lanes: &[f32; BLOCK]) -> L {
+        L::load(self.token, &lanes[self.at..])
+    }
+
+    #[inline(always)]
+    pub(super) fn store(&self, value: L, lanes: &mut [f32; BLOCK]) {
+        value.store(&mut lanes[self.at..]);
+    }
+}
+
+/// The two bodies of each lane's contact, and its normal.
+pub(super) struct Pair<L: Lanes> {
+    pub(super) a: [L; 8],
+    pub(super) b: [L; 8],
+    pub(super) normal: [L; 2],
+}
+
+impl<L: Lanes> Pair<L> {
+    #[inline(always)]
+    pub(super) fn load(stride: &Stride<'_, L>, block: &ConstraintBlock) -> Self {
+        Self::gather(stride, [&block.body_a, &block.body_b], [&block.normal_x, &block.normal_y])
+    }
+
+    #[inline(always)]
+    pub(super) fn gather(
+        stride: &Stride<'_, L>,
+        bodies: [&[u32; BLOCK]; 2],
+        normal: [&[f32; BLOCK]; 2],
+    ) -> Self {
+        // Closures of `map` would not be compiled for the kernel's instruction set.
+        Self {
+            a: L::gather(stride.token, stride.rows, &bodies[0][stride.at..]),
+            b: L::gather(stride.token, stride.rows, &bodies[1][stride.at..]),
+            normal: [stride.load(normal[0]), stride.load(normal[1])],
+        }
+    }
+
+    /// Writes the velocities back, except to bodies that nothing moves.
+    #[inline(always)]
+    pub(super) fn store(self, stride: &Stride<'_, L>, block: &ConstraintBlock) {
+        self.scatter(stride, [&block.body_a, &block.body_b], ALL_BODIES);
+    }
+
+    /// The same for the lanes in `only`.
+    #[inline(always)]
+    pub(super) fn scatter(
+        self,
+        stride: &Stride<'_, L>,
+        bodies: [&[u32; BLOCK]; 2],
+        only: (u32, u32),
+    ) {
+        let zero = stride.constants.zero;
+        let mask = |body: &[L; 8]| L::bits(zero.lt(body[Slot::INV_MASS] + body[Slot::INV_INERTIA]));
+        let (write_a, write_b) = (mask(&self.a) & only.0, mask(&self.b) & only.1);
+        let half = |body: [L; 8]| [body[0], body[1], body[2], body[3]];
+        L::scatter(half(self.a), stride.rows, &bodies[0][stride.at..], write_a);
+        L::scatter(half(self.b), stride.rows, &bodies[1][stride.at..], write_b);
+    }
+
+    /// Relative velocity of a point along the normal.
+    #[inline(always)]
+    pub(super) fn normal_velocity(&self, arm_a: L, arm_b: L) -> L {
+        let (a, b) = (&self.a, &self.b);
+        self.normal[0] * (b[Slot::VX] - a[Slot::VX])
+            + self.normal[1] * (b[Slot::VY] - a[Slot::VY])
+            + (arm_b * b[Slot::W] - arm_a * a[Slot::W])
+    }
+
+    /// Relative velocity of a point along the tangent: the normal turned clockwise.
+    #[inline(always)]
+    pub(super) fn tangent_velocity(&self, arm_a: L, arm_b: L) -> L {
+        let (a, b) = (&self.a, &self.b);
+        self.normal[1] * (b[Slot::VX] - a[Slot::VX]) - self.normal[0] * (b[Slot::VY] - a[Slot::VY])
+            + (arm_b * b[Slot::W] - arm_a * a[Slot::W])
+    }
+
+    /// Separation now: that of the step's start plus the motion since.
+    #[inline(always)]
+    pub(super) fn separation(&self, start: L, arm_a: L, arm_b: L) -> L {
+        let (a, b) = (&self.a, &self.b);
+        start
+            + (self.normal[0] * (b[Slot::DX] - a[Slot::DX])
+                + self.normal[1] * (b[Slot::DY] - a[Slot::DY]))
+            + (arm_b * b[Slot::DA] - arm_a * a[Slot::DA])
+    }
+
+    /// Applies an impulse along the normal.
+    #[inline(always)]
+    pub(super) fn push(&mut self, impulse: L, arm_a: L, arm_b: L) {
+        self.apply([self.normal[0] * impulse, self.normal[1] * impulse], impulse, arm_a, arm_b);
+    }
+
+    /// Applies an impulse along the tangent.
+    #[inline(always)]
+    pub(super) fn rub(&mut self, impulse: L, arm_a: L, arm_b: L) {
+        self.apply([self.normal[1] * impulse, -(self.normal[0] * impulse)], impulse, arm_a, arm_b);
+    }
+
+    #[inline(always)]
+    pub(super) fn apply(&mut self, linear: [L; 2], impulse: L, arm_a: L, arm_b: L) {
+        let (a, b) = (&mut self.a, &mut self.b);
+        a[Slot::VX] = a[Slot::VX] - a[Slot::INV_MASS] * linear[0];
+        a[Slot::VY] = a[Slot::VY] - a[Slot::INV_MASS] * linear[1];
+        a[Slot::W] = a[Slot::W] - a[Slot::INV_INERTIA] * (arm_a * impulse);
+        b[Slot::VX] = b[Slot::VX] + b[Slot::INV_MASS] * linear[0];
+        b[Slot::VY] = b[Slot::VY] + b[Slot::INV_MASS] * linear[1];
+        b[Slot::W] = b[Slot::W] + b[Slot::INV_INERTIA] * (arm_b * impulse);
+    }
+
+    /// Softness of each lane: that against static bodies where one of the two has no mass.
+    #[inline(always)]
+    pub(super) fn softness(&self, constants: &Constants<L>) -> [L; 3] {
+        let fixed = L::or(
+            self.a[Slot::INV_MASS].eq(constants.zero),
+            self.b[Slot::INV_MASS].eq(constants.zero),
+        );
+        let choose = |k: usize| L::select(fixed, constants.static_soft[k], constants.soft[k]);
+        [choose(0), choose(1), choose(2)]
+    }
+}
+
+/// Lanes whose bodies A and B are written: all that can move.
+pub(super) const ALL_BODIES: (u32, u32) = (u32::MAX, u32::MAX);
