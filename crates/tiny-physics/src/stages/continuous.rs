@@ -13,6 +13,7 @@ use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes};
 use crate::geometry::{Shape, Sweep, ToiState, distance, time_of_impact};
 use crate::math::{Aabb, Pose, Rot, Transform, Vec2};
+use crate::threads::Team;
 use core::ops::ControlFlow;
 
 /// What decides about pairs besides filters.
@@ -24,8 +25,12 @@ pub(crate) struct Rules<'a> {
     pub(crate) length_unit: f32,
 }
 
-/// Sweeps the fast bodies, bullets last: they see where all others have ended.
+/// Fast bodies that one member of the team sweeps at a time.
+const CHUNK: usize = 16;
+
+/// Sweeps the fast bodies, bullets last and one by one: they see where all others have ended.
 pub(crate) fn run(
+    team: &Team,
     fast: &mut [FastBody],
     bodies: &mut Bodies,
     shapes: &mut Shapes,
@@ -33,37 +38,37 @@ pub(crate) fn run(
     broad_phase: &mut BroadPhase,
     rules: Rules<'_>,
 ) {
-    for bullets in [false, true] {
-        for index in 0..fast.len() {
-            if bodies.infos[fast[index].body as usize].bullet == bullets {
-                fast[index].fraction =
-                    sweep(fast, index, bodies, shapes, joints, broad_phase, rules);
-            }
+    let is_bullet = |bodies: &Bodies, fast: &FastBody| bodies.infos[fast.body as usize].bullet;
+    let scene = Scene { bodies, shapes, joints, broad_phase, rules };
+    team.for_each_chunk_mut(fast, CHUNK, |_, fast| {
+        for fast in fast.iter_mut().filter(|fast| !is_bullet(scene.bodies, fast)) {
+            fast.fraction = Impact { fast, bullets: &[], index: 0, scene }.first_fraction();
+        }
+    });
+    for fast in &*fast {
+        if !is_bullet(bodies, fast) {
+            place(fast, bodies, shapes, broad_phase);
+        }
+    }
+    for index in 0..fast.len() {
+        if is_bullet(bodies, &fast[index]) {
+            let scene = Scene { bodies, shapes, joints, broad_phase, rules };
+            let impact = Impact { fast: &fast[index], bullets: fast, index, scene };
+            fast[index].fraction = impact.first_fraction();
+            place(&fast[index], bodies, shapes, broad_phase);
         }
     }
 }
 
-/// Sets one body back to its first impact, if it has one, and updates its boxes; the part of its motion
-/// that it may have.
-fn sweep(
-    all: &[FastBody],
-    index: usize,
-    bodies: &mut Bodies,
-    shapes: &mut Shapes,
-    joints: &Joints,
-    broad_phase: &mut BroadPhase,
-    rules: Rules<'_>,
-) -> f32 {
-    let fast = &all[index];
-    let fraction =
-        Impact { fast, all, index, bodies, shapes, joints, broad_phase, rules }.first_fraction();
+/// Sets a body back to its first impact, if it has one, and updates its boxes.
+fn place(fast: &FastBody, bodies: &mut Bodies, shapes: &mut Shapes, broad_phase: &mut BroadPhase) {
+    let fraction = fast.fraction;
     if fraction < 1.0 {
         let position = fast.start.p + fast.motion * fraction;
         let rotation = fast.start.q.integrate(fast.turn * fraction);
         bodies.poses[fast.body as usize] = Pose::new(position, rotation);
     }
     update_boxes(bodies, shapes, broad_phase, fast.body, fast.motion * fraction);
-    fraction
 }
 
 /// A disk about the middle of a shape, half as thick as it. What a shape touches already at the start of
@@ -82,6 +87,9 @@ impl Inner {
     }
 
     fn first_fraction(&self, other: &Shape, fixed: &Sweep, first: f32) -> f32 {
+        if self.misses(other, fixed) {
+            return first;
+        }
         let toi = time_of_impact(&self.disk, &self.sweep, other, fixed, first);
         match toi.state {
             ToiState::Hit | ToiState::Limit => toi.fraction,
@@ -90,14 +98,20 @@ impl Inner {
             ToiState::Separated | ToiState::Touching => first,
         }
     }
+
+    /// Do the disk's way and that of the other's reach lie apart? What slides along something says so at once.
+    fn misses(&self, other: &Shape, motion: &Sweep) -> bool {
+        let way = |shape: &Shape, motion: &Sweep| {
+            let at = |fraction| shape.aabb(motion.at(fraction));
+            at(0.0).union(&at(1.0))
+        };
+        motion.angle == 0.0 && !way(&self.disk, &self.sweep).overlaps(&way(other, motion))
+    }
 }
 
-/// The search for the first impact of a body.
-struct Impact<'a> {
-    fast: &'a FastBody,
-    /// All fast bodies by body, of which it is the one at `index`.
-    all: &'a [FastBody],
-    index: usize,
+/// Where the search for impacts looks.
+#[derive(Clone, Copy)]
+struct Scene<'a> {
     bodies: &'a Bodies,
     shapes: &'a Shapes,
     joints: &'a Joints,
@@ -105,18 +119,27 @@ struct Impact<'a> {
     rules: Rules<'a>,
 }
 
+/// The search for the first impact of a body.
+struct Impact<'a> {
+    fast: &'a FastBody,
+    /// For a bullet, all fast bodies by body, of which it is the one at `index`.
+    bullets: &'a [FastBody],
+    index: usize,
+    scene: Scene<'a>,
+}
+
 impl Impact<'_> {
     /// The part of the step for which the body touches nothing new, 0 to 1.
     fn first_fraction(&self) -> f32 {
         let fast = self.fast;
-        let info = &self.bodies.infos[fast.body as usize];
+        let info = &self.scene.bodies.infos[fast.body as usize];
         // All geometry is relative to where the centre of mass was: 32 bits are enough.
         let frame = Transform::new(Vec2::ZERO, fast.start.q);
         let sweep = Sweep::new(frame, Vec2::ZERO, fast.motion, fast.turn);
         let path = self.path_box(info.max_extent);
         let mut first = 1.0;
-        for shape in self.shapes.of_body(info.first_shape) {
-            let record = &self.shapes.records[shape as usize];
+        for shape in self.scene.shapes.of_body(info.first_shape) {
+            let record = &self.scene.shapes.records[shape as usize];
             if record.sensor {
                 continue;
             }
@@ -125,8 +148,10 @@ impl Impact<'_> {
                 if kind == ProxyKind::Dynamic && !info.bullet {
                     continue;
                 }
-                self.broad_phase.tree(kind).query(&path, record.filter.reach().1, |proxy| {
-                    if let Some(other) = self.broad_phase.user(crate::broad_phase::ProxyId(proxy)) {
+                self.scene.broad_phase.tree(kind).query(&path, record.filter.reach().1, |proxy| {
+                    if let Some(other) =
+                        self.scene.broad_phase.user(crate::broad_phase::ProxyId(proxy))
+                    {
                         first = self.impact((shape, record), (&sweep, &moving), other, first);
                     }
                     ControlFlow::Continue(())
@@ -152,12 +177,13 @@ impl Impact<'_> {
         index: u32,
         first: f32,
     ) -> f32 {
-        let other = &self.shapes.records[index as usize];
-        let forbids = |rule: &dyn PairRule| !rule.allows(self.bodies, self.shapes, shape, index);
-        if !self.may_collide(record, other) || self.rules.custom.is_some_and(forbids) {
+        let other = &self.scene.shapes.records[index as usize];
+        let forbids =
+            |rule: &dyn PairRule| !rule.allows(self.scene.bodies, self.scene.shapes, shape, index);
+        if !self.may_collide(record, other) || self.scene.rules.custom.is_some_and(forbids) {
             return first;
         }
-        let pose = self.bodies.poses[other.body as usize];
+        let pose = self.scene.bodies.poses[other.body as usize];
         let at = self.place(pose).compose(other.central);
         let center = self.fast.start.q.rotate(record.central.p);
         if surfaces::lets_pass(other, at, pose.q, center, self.fast.motion) {
@@ -202,13 +228,14 @@ impl Impact<'_> {
 
     /// Does a shape at this place (in the other's frame) only hit a seam between static shapes?
     fn is_ghost(&self, record: &ShapeRecord, other: u32, place: Transform) -> bool {
-        if self.shapes.guards[other as usize] == 0 {
+        if self.scene.shapes.guards[other as usize] == 0 {
             return false;
         }
-        let Self { broad_phase, rules, .. } = *self;
+        let Scene { broad_phase, rules, .. } = self.scene;
         let length_unit = rules.length_unit;
-        let (shapes, guards) = (&self.shapes.records, &self.shapes.guards);
-        let ground = Ground { shapes, guards, poses: &self.bodies.poses, broad_phase, length_unit };
+        let (shapes, guards) = (&self.scene.shapes.records, &self.scene.shapes.guards);
+        let ground =
+            Ground { shapes, guards, poses: &self.scene.bodies.poses, broad_phase, length_unit };
         let hit = &shapes[other as usize];
         let gap = distance(&hit.shape, &record.shape, place);
         let point = hit.box_frame.unapply(gap.point_a);
@@ -223,14 +250,14 @@ impl Impact<'_> {
 
     /// Where in the list of fast bodies another one is, if it is a bullet among them.
     fn bullet(&self, body: u32) -> Option<usize> {
-        let index = self.all.binary_search_by_key(&body, |fast| fast.body).ok()?;
-        let both = [self.fast.body, body].map(|body| self.bodies.infos[body as usize].bullet);
+        let index = self.bullets.binary_search_by_key(&body, |fast| fast.body).ok()?;
+        let both = [self.fast.body, body].map(|body| self.scene.bodies.infos[body as usize].bullet);
         (both == [true, true]).then_some(index)
     }
 
     /// The motion of a shape of a fast body, as far as it is allowed by now.
     fn motion(&self, index: usize, shape: &ShapeRecord) -> Sweep {
-        let fast = &self.all[index];
+        let fast = &self.bullets[index];
         let (motion, turn) = (fast.motion * fast.fraction, fast.turn * fast.fraction);
         Sweep::new(self.place(fast.start), Vec2::ZERO, motion, turn).child(shape.central)
     }
@@ -239,6 +266,6 @@ impl Impact<'_> {
         other.body != record.body
             && !other.sensor
             && record.filter.collides(&other.filter)
-            && self.joints.may_collide(self.bodies, record.body, other.body)
+            && self.scene.joints.may_collide(self.scene.bodies, record.body, other.body)
     }
 }

@@ -28,7 +28,7 @@ pub(crate) struct Options {
     pub(crate) continuous: bool,
 }
 
-/// Bodies that move less than this fraction of their smallest half width in a step cannot jump.
+/// Bodies whose outline moves less than this fraction of their smallest half width in a step cannot jump.
 const SAFE_FRACTION: f32 = 0.5;
 
 /// Bodies that one member of the team finalises at a time.
@@ -123,7 +123,7 @@ fn finalize_body(body: FinalBody<'_>, scene: Scene<'_>, options: Options, found:
     time_rest(row, [motion.length(), turn], info, options.dt);
     info.force = Vec2::ZERO;
     info.torque = 0.0;
-    let reach = motion.length() + turn.abs() * info.max_extent;
+    let reach = motion.length() + turned_reach(turn, info);
     let moving = info.kind == BodyKind::Dynamic;
     if options.continuous && moving && reach > SAFE_FRACTION * info.min_extent {
         found.fast.push(FastBody { body: index, start, motion, turn, fraction: 1.0 });
@@ -139,6 +139,14 @@ fn finalize_body(body: FinalBody<'_>, scene: Scene<'_>, options: Options, found:
             found.moved.push((shape, fat));
         }
     }
+}
+
+/// How far turning takes the outline of a body into what was free before, metres: no further than its points
+/// go, nor than they stick out of the disk that it has in any case.
+#[inline]
+fn turned_reach(turn: f32, info: &BodyInfo) -> f32 {
+    let (way, rim) = (turn.abs() * info.max_extent, info.max_extent - info.min_extent);
+    if way < rim { way } else { rim }
 }
 
 /// Counts the time that a body has been slower than its sleep speed, by its velocity and by how far it went:

@@ -235,7 +235,7 @@ impl World {
         watch.lap(&mut self.stats, Stage::Solve);
         self.finalize(team, lengths);
         watch.lap(&mut self.stats, Stage::Finalize);
-        self.sweep_fast_bodies();
+        self.sweep_fast_bodies(team);
         watch.lap(&mut self.stats, Stage::Continuous);
         self.update_sensors(team);
         self.put_resting_islands_to_sleep();
@@ -502,11 +502,11 @@ impl World {
     }
 
     /// Stops fast bodies where they would have gone through something.
-    fn sweep_fast_bodies(&mut self) {
+    fn sweep_fast_bodies(&mut self, team: &Team) {
         let Self { bodies, shapes, broad_phase, joints, hooks, scratch, settings, .. } = self;
         let rules =
             continuous::Rules { custom: hooks.pair_filter(), length_unit: settings.length_unit };
-        continuous::run(&mut scratch.fast, bodies, shapes, joints, broad_phase, rules);
+        continuous::run(team, &mut scratch.fast, bodies, shapes, joints, broad_phase, rules);
     }
 
     /// Looks for islands at rest now and then, and lets them sleep.

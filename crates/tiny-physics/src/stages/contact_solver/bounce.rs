@@ -211,6 +211,9 @@ impl Batch {
         for (index, &(class, slot)) in self.sources.iter().enumerate() {
             let bucket = &mut graph.buckets[self.place][class as usize];
             let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
+            if bucket.heads[block].flags & flags::HIT == 0 {
+                continue;
+            }
             let surface = &mut bucket.surfaces[block];
             let impulses = self.points[index / BLOCK].each_ref().map(|p| p.impulse[index % BLOCK]);
             for (peak, impulse) in
