@@ -10,9 +10,17 @@
 //! dp = -m * (mass_scale * (vn + bias)) - impulse_scale * p,   p' = max(p + dp, 0)
 //! ```
 //!
+//! The bias pushes out at `bias_rate * s`, but no faster than `push_speed` or `push_rate * |s|`, beyond what
+//! the accumulated impulse accounts for: a load sinks as its spring says, and what was put in deep comes out
+//! slowly. What closes in faster than `fast_approach` is solved without softness, which would let a part of
+//! that speed pass.
+//!
 //! Friction acts in the relax pass only, with |tangent impulse| <= friction * normal impulse. The
 //! separation follows the motion since the start of the step to first order: lever arms stay those
 //! of the start, so that a point is twenty floats and a pass is a straight line.
+//!
+//! The files: `normals` has normal impulses, `friction` friction and rolling, `bounce` what bodies with
+//! restitution do before the substeps, `pair` the two bodies of a lane that all of them work on.
 //!
 //! Within a colour, order does not matter; colours go in order. The same functions serve as lanes
 //! and, one lane wide, for the overflow.
