@@ -67,6 +67,9 @@ lane_block! {
         /// Impulses of the last substep, newton seconds.
         normal_impulse: f32 = 0.0,
         tangent_impulse: f32 = 0.0,
+        /// The normal impulse after the last relax pass: what friction goes by. That of a solve pass has the
+        /// push that takes overlaps apart in it, which relaxing takes out again.
+        load: f32 = 0.0,
     }
 }
 
@@ -105,7 +108,7 @@ impl ConstraintBlock {
     }
 }
 
-const _: () = assert!(size_of::<ConstraintBlock>() == 23 * BLOCK * 4);
+const _: () = assert!(size_of::<ConstraintBlock>() == 25 * BLOCK * 4);
 
 lane_block! {
     /// The rarer properties of a contact, read only in blocks whose [`flags`] ask for them.

@@ -45,7 +45,8 @@ data!(PointLanes {
     normal_mass,
     tangent_mass,
     normal_impulse,
-    tangent_impulse
+    tangent_impulse,
+    load
 });
 data!(SurfaceBlock {
     restitution,

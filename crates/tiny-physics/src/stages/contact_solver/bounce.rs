@@ -33,6 +33,8 @@ lane_block! {
         normal_x: f32 = 0.0,
         normal_y: f32 = 0.0,
         restitution: f32 = 0.0,
+        friction: f32 = 0.0,
+        tangent_speed: f32 = 0.0,
     }
 }
 
@@ -40,13 +42,18 @@ lane_block! {
     /// One of their points; see [`PointLanes`].
     struct BouncePoint {
         separation: f32 = 0.0,
-        arm_a: f32 = 0.0,
-        arm_b: f32 = 0.0,
-        mass: f32 = 0.0,
+        normal_arm_a: f32 = 0.0,
+        normal_arm_b: f32 = 0.0,
+        tangent_arm_a: f32 = 0.0,
+        tangent_arm_b: f32 = 0.0,
+        normal_mass: f32 = 0.0,
+        tangent_mass: f32 = 0.0,
         /// Speed at which it is to leave; 0 if it does not hit.
         target: f32 = 0.0,
         /// What makes it leave, newton seconds.
-        impulse: f32 = 0.0,
+        normal_impulse: f32 = 0.0,
+        /// What rubs it meanwhile.
+        tangent_impulse: f32 = 0.0,
     }
 }
 
@@ -189,6 +196,8 @@ impl Batch {
             block.normal_x[lane] = constraint.normal_x[at];
             block.normal_y[lane] = constraint.normal_y[at];
             block.restitution[lane] = surface.restitution[at];
+            block.friction[lane] = constraint.friction[at];
+            block.tangent_speed[lane] = surface.tangent_speed[at];
             for (to, from) in points.iter_mut().zip(&constraint.points) {
                 to.copy_from(lane, from, at);
             }
@@ -215,7 +224,8 @@ impl Batch {
                 continue;
             }
             let surface = &mut bucket.surfaces[block];
-            let impulses = self.points[index / BLOCK].each_ref().map(|p| p.impulse[index % BLOCK]);
+            let impulses =
+                self.points[index / BLOCK].each_ref().map(|p| p.normal_impulse[index % BLOCK]);
             for (peak, impulse) in
                 [&mut surface.peak_1, &mut surface.peak_2].into_iter().zip(impulses)
             {
@@ -266,11 +276,12 @@ impl Batch {
 impl BouncePoint {
     fn copy_from(&mut self, lane: usize, from: &PointLanes, at: usize) {
         self.separation[lane] = from.separation[at];
-        self.arm_a[lane] = from.normal_arm_a[at];
-        self.arm_b[lane] = from.normal_arm_b[at];
-        self.mass[lane] = from.normal_mass[at];
-        self.target[lane] = 0.0;
-        self.impulse[lane] = 0.0;
+        self.normal_arm_a[lane] = from.normal_arm_a[at];
+        self.normal_arm_b[lane] = from.normal_arm_b[at];
+        self.tangent_arm_a[lane] = from.tangent_arm_a[at];
+        self.tangent_arm_b[lane] = from.tangent_arm_b[at];
+        self.normal_mass[lane] = from.normal_mass[at];
+        self.tangent_mass[lane] = from.tangent_mass[at];
     }
 }
 
@@ -334,14 +345,15 @@ fn aim<L: Lanes>(stride: &Stride<'_, L>, block: &BounceBlock, points: &mut [Boun
     let late = closing * constants.half_h;
     for point in points {
         let s = stride.load(&point.separation);
-        let velocity = pair.normal_velocity(stride.load(&point.arm_a), stride.load(&point.arm_b));
+        let arms = [stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b)];
+        let velocity = pair.normal_velocity(arms[0], arms[1]);
         let fall = (closing + closing) * s;
         let fast = L::and(
             velocity.lt(constants.threshold),
             (bounce * velocity).lt(constants.least_bounce),
         );
         let meets = (s + velocity * constants.dt).lt(zero);
-        let hit = L::and(L::and(fast, meets), zero.lt(stride.load(&point.mass)));
+        let hit = L::and(L::and(fast, meets), zero.lt(stride.load(&point.normal_mass)));
         let approach = late - velocity;
         let meet = (approach * approach + fall).max(zero);
         let target = (bounce * bounce * meet - fall).max(zero).sqrt() + late;
@@ -349,20 +361,32 @@ fn aim<L: Lanes>(stride: &Stride<'_, L>, block: &BounceBlock, points: &mut [Boun
     }
 }
 
-/// Lets the points found by [`aim`] leave at their speeds.
+/// Lets the points found by [`aim`] leave at their speeds, rubbed by what that takes.
 #[inline(always)]
 fn leave<L: Lanes>(stride: &Stride<'_, L>, block: &BounceBlock, points: &mut [BouncePoint; 2]) {
     let zero = stride.constants.zero;
     let mut pair = block.pair(stride);
+    let friction = stride.load(&block.friction);
+    let surface_speed = stride.load(&block.tangent_speed);
     for point in points {
-        let (arm_a, arm_b) = (stride.load(&point.arm_a), stride.load(&point.arm_b));
+        let (arm_a, arm_b) = (stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b));
         let target = stride.load(&point.target);
-        let old = stride.load(&point.impulse);
+        let hits = zero.lt(target);
+        let old = stride.load(&point.normal_impulse);
         let missing = target - pair.normal_velocity(arm_a, arm_b);
-        let impulse = (old + stride.load(&point.mass) * missing).max(zero);
-        let impulse = L::select(zero.lt(target), impulse, old);
-        stride.store(impulse, &mut point.impulse);
+        let impulse = (old + stride.load(&point.normal_mass) * missing).max(zero);
+        let impulse = L::select(hits, impulse, old);
+        stride.store(impulse, &mut point.normal_impulse);
         pair.push(impulse - old, arm_a, arm_b);
+
+        let (arm_a, arm_b) = (stride.load(&point.tangent_arm_a), stride.load(&point.tangent_arm_b));
+        let old = stride.load(&point.tangent_impulse);
+        let slip = pair.tangent_velocity(arm_a, arm_b) + surface_speed;
+        let limit = friction * impulse;
+        let rubbed = (old - stride.load(&point.tangent_mass) * slip).clamp(-limit, limit);
+        let rubbed = L::select(hits, rubbed, old);
+        stride.store(rubbed, &mut point.tangent_impulse);
+        pair.rub(rubbed - old, arm_a, arm_b);
     }
     pair.scatter(stride, [&block.body_a, &block.body_b], ALL_BODIES);
 }

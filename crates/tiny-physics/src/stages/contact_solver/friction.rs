@@ -20,7 +20,7 @@ pub(super) fn solve_friction<L: Lanes>(
     if flags & flags::TANGENT_SPEED != 0 {
         velocity = velocity + stride.load(&surface.tangent_speed);
     }
-    let limit = friction * stride.load(&point.normal_impulse);
+    let limit = friction * stride.load(&point.load);
     let impulse = (old - stride.load(&point.tangent_mass) * velocity).clamp(-limit, limit);
     stride.store(impulse, &mut point.tangent_impulse);
     pair.rub(impulse - old, arm_a, arm_b);
@@ -37,7 +37,7 @@ pub(super) fn solve_rolling<L: Lanes, const POINTS: usize>(
     let zero = stride.constants.zero;
     let mut normal = zero;
     for point in &block.points[..POINTS] {
-        normal = normal + stride.load(&point.normal_impulse);
+        normal = normal + stride.load(&point.load);
     }
     let inverse = pair.a[Slot::INV_INERTIA] + pair.b[Slot::INV_INERTIA];
     let one = L::splat(stride.token, 1.0);

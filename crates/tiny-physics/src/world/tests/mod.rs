@@ -1,6 +1,7 @@
 //! Tests of what the world offers: events, changes, hooks, platforms, forces.
 
 mod anything;
+mod bounces;
 mod changes;
 mod compounds;
 mod events;

@@ -1,0 +1,65 @@
+//! Bounces and what rubs meanwhile, against formulas.
+
+use super::*;
+
+const RADIUS: f32 = 0.5;
+
+/// A world without gravity whose floor has its top at 0.
+fn floored(friction: f32, restitution: f32) -> World {
+    let mut world = World::new(Vec2::ZERO);
+    let floor = rect(50.0, 1.0).friction(friction).restitution(restitution);
+    world.add_body(RigidBody::fixed().shape(floor).position(Vec2::new(0.0, -1.0))).unwrap();
+    world
+}
+
+/// A ball with a gap below it.
+fn drop(world: &mut World, x: f32, gap: f32, velocity: Vec2, rubs: f32, bounces: f32) -> BodyId {
+    let shape = circle(RADIUS).friction(rubs).restitution(bounces);
+    let ball = RigidBody::dynamic().shape(shape).position(Vec2::new(x, RADIUS + gap));
+    world.add_body(ball.velocity(velocity)).unwrap()
+}
+
+/// A disk that comes in at (3, -4) with restitution e leaves upwards at 4 e. While it slips, the floor takes
+/// friction (1 + e) 4 off its speed along it; where that would turn the slip round, the disk leaves rolling,
+/// at two thirds of that speed.
+#[test]
+fn a_disk_that_bounces_obliquely_is_rubbed() {
+    for (friction, along) in [(0.0, 3.0), (0.1, 2.4), (1.0, 2.0)] {
+        let mut world = floored(friction, 0.5);
+        let ball = drop(&mut world, 0.0, 0.5, Vec2::new(3.0, -4.0), friction, 0.5);
+        run(&mut world, 30);
+        let body = world.body(ball).unwrap();
+        let off = body.velocity() - Vec2::new(along, 2.0);
+        assert!(off.length() < 1.0e-3, "{friction}: {:?}", body.velocity());
+        // The moment of inertia is m r^2 / 2.
+        let spin = -(3.0 - along) / (0.5 * RADIUS);
+        assert!((body.angular_velocity() - spin).abs() < 1.0e-3, "{}", body.angular_velocity());
+    }
+}
+
+/// What is slower than the threshold does not bounce because something far away does.
+#[test]
+fn bounces_are_local() {
+    let mut world = floored(0.0, 1.0);
+    let fast = drop(&mut world, -20.0, 0.1, Vec2::new(0.0, -5.0), 0.0, 1.0);
+    let slow = drop(&mut world, 20.0, 0.025, Vec2::new(0.0, -0.9), 0.0, 1.0);
+    // Both hit in the second step.
+    run(&mut world, 2);
+    let up = |body| world.body(body).unwrap().velocity().y;
+    assert!((up(fast) - 5.0).abs() < 1.0e-3, "{}", up(fast));
+    run(&mut world, 8);
+    assert!(up(slow).abs() < 1.0e-3, "{}", up(slow));
+}
+
+/// A crate that is pushed out of the floor while it slides is slowed by friction times its weight alone.
+#[test]
+fn being_pushed_out_does_not_rub() {
+    let mut world = floored(0.5, 0.0);
+    world.gravity = Vec2::new(0.0, -10.0);
+    let start = RigidBody::dynamic().shape(rect(0.5, 0.5).friction(0.5)).position(Vec2::new(0.0, 0.3));
+    let body = world.add_body(start.velocity(Vec2::new(6.0, 0.0))).unwrap();
+    run(&mut world, 60);
+    let body = world.body(body).unwrap();
+    assert!((body.velocity().x - 1.0).abs() < 0.1, "{:?}", body.velocity());
+    assert!((body.position().y - 0.5).abs() < 0.01, "{:?}", body.position());
+}
