@@ -8,6 +8,7 @@ mod bodies;
 mod clone;
 mod contacts;
 mod data;
+mod disjoint_sets;
 mod graph;
 mod joint_blocks;
 mod joint_forest;
@@ -25,6 +26,7 @@ pub(crate) use blocks::{
 pub(crate) use bodies::{Bodies, BodyInfo, Motion, NULL, Slot};
 pub(crate) use clone::{Serial, clone_by_field};
 pub(crate) use contacts::{Contact, Contacts, Place, SavedPoint};
+pub(crate) use disjoint_sets::DisjointSets;
 pub(crate) use graph::{Bucket, COLOURS, Graph, IDLE, colour_at, pace_at};
 pub(crate) use joint_blocks::*;
 pub(crate) use joint_forest::{JointTree, TreeLink, TreeNode, TreeRow};
