@@ -11,7 +11,7 @@
 use super::islands::{Islands, Stores};
 use crate::dynamics::{
     Bodies, Bucket, Graph, IDLE, JointPlace, NULL, PACES, PLAIN, Place, PointLanes, REFINEMENT,
-    pace_at,
+    next_edge, pace_at,
 };
 use crate::math::Vec2;
 use crate::simd::BLOCK;
@@ -60,7 +60,6 @@ pub(crate) struct Memory {
     changed: Vec<(u32, u8)>,
     moved_contacts: Vec<(u32, usize)>,
     moved_joints: Vec<(u32, usize)>,
-    of_body: Vec<u32>,
 }
 
 /// Is any body refined?
@@ -243,29 +242,28 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
 /// Moves bodies to other paces, and what hangs on them.
 fn change(stores: &mut Stores<'_>, memory: &mut Memory) {
     let Stores { bodies, contacts, graph, joints, joint_graph } = stores;
-    let Memory { changed, moved_contacts, moved_joints, of_body, .. } = memory;
+    let Memory { changed, moved_contacts, moved_joints, .. } = memory;
     moved_contacts.clear();
     moved_joints.clear();
     for &(body, _) in changed.iter() {
         let mut edge = bodies.infos[body as usize].first_contact;
         while edge != NULL {
             let contact = &contacts.records[edge as usize / 2];
-            let next = contact.links[edge as usize % 2].1;
             if let (true, Place::Graph { colour, .. }) = (contact.touching, contact.place) {
                 graph.remove(bodies, contacts, edge / 2);
                 moved_contacts.push((edge / 2, pace_at(colour.into())));
             }
-            edge = next;
+            edge = next_edge(&contacts.records, edge);
         }
-        let joined = joints.of_body(bodies.infos[body as usize].first_joint);
-        of_body.clear();
-        of_body.extend(joined.map(|(index, _)| index));
-        for &index in of_body.iter() {
-            if let JointPlace::Graph { .. } = joints.records[index as usize].place {
-                let pace = joint_graph.pace_of(&joints.records[index as usize]);
-                joint_graph.remove(bodies, joints, index);
-                moved_joints.push((index, pace));
+        let mut edge = bodies.infos[body as usize].first_joint;
+        while edge != NULL {
+            let joint = &joints.records[edge as usize / 2];
+            if let JointPlace::Graph { .. } = joint.place {
+                let pace = joint_graph.pace_of(joint);
+                joint_graph.remove(bodies, joints, edge / 2);
+                moved_joints.push((edge / 2, pace));
             }
+            edge = next_edge(&joints.records, edge);
         }
     }
     for &(body, pace) in changed.iter() {
