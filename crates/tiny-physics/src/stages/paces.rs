@@ -9,6 +9,7 @@
 //! what it did before. An island keeps its pace until its strain has fallen to half of what called for it.
 
 use super::islands::{Islands, Stores};
+use crate::describe::BodyKind;
 use crate::dynamics::{
     Bodies, Bucket, Graph, IDLE, JointPlace, NULL, PACES, PLAIN, Place, PointLanes, REFINEMENT,
     next_edge, pace_at,
@@ -62,9 +63,14 @@ pub(crate) struct Memory {
     moved_joints: Vec<(u32, usize)>,
 }
 
-/// Is any body refined?
-pub(crate) fn any_refined(bodies: &Bodies) -> bool {
-    bodies.awake.iter().any(|&i| usize::from(bodies.infos[i as usize].pace) != PLAIN)
+/// Lists the awake bodies that are integrated at a pace: what is not dynamic is at every one.
+pub(crate) fn list_bodies(bodies: &Bodies, pace: usize, listed: &mut Vec<u32>) {
+    let concerns = |&&i: &&u32| {
+        let info = &bodies.infos[i as usize];
+        info.kind != BodyKind::Dynamic || usize::from(info.pace) == pace
+    };
+    listed.clear();
+    listed.extend(bodies.awake.iter().filter(concerns));
 }
 
 /// Gives every island its pace, where that is due.
@@ -101,7 +107,7 @@ fn is_due(stores: &Stores<'_>, rules: Rules) -> bool {
     graph.mixed
         || joint_graph.mixed
         || many
-        || look && (news > 0 || any_refined(bodies) || is_any_strained(bodies, graph, rules))
+        || look && (news > 0 || bodies.any_refined() || is_any_strained(bodies, graph, rules))
 }
 
 /// Would a point between two moving bodies of the plain pace sink visibly?
@@ -267,7 +273,7 @@ fn change(stores: &mut Stores<'_>, memory: &mut Memory) {
         }
     }
     for &(body, pace) in changed.iter() {
-        bodies.infos[body as usize].pace = pace;
+        bodies.set_pace(body, pace);
     }
     moved_contacts.sort_unstable();
     for &(index, old) in moved_contacts.iter() {
