@@ -1,8 +1,7 @@
 //! Bodies: hot rows for the solver, poses, and everything else.
 
-use super::clone::{Serial, clone_by_field};
+use super::clone::{Serial, cloned_data};
 use super::pace::PLAIN;
-use crate::codec::data;
 use crate::describe::{BodyKind, Locks};
 use crate::math::{DVec2, Pose, Rot, Vec2};
 use crate::simd::Row;
@@ -154,21 +153,7 @@ pub(crate) struct Bodies {
     serial: Serial,
 }
 
-clone_by_field!(Bodies {
-    rows,
-    poses,
-    previous,
-    motions,
-    starts,
-    infos,
-    awake,
-    awake_unsorted,
-    free,
-    count,
-    refined,
-    serial
-});
-data!(Bodies {
+cloned_data!(Bodies {
     rows,
     poses,
     previous,

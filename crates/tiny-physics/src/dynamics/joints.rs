@@ -1,10 +1,9 @@
 //! Joint records: what the user asked for, and where the solver's copy of it is.
 
 use super::bodies::{Bodies, NULL};
-use super::clone::{Serial, clone_by_field};
+use super::clone::{Serial, cloned_data};
 use super::edges::{self, edges};
 use super::joint_blocks::{Impulses, JointClass};
-use crate::codec::data;
 use crate::describe::JointDef;
 use crate::math::Vec2;
 
@@ -80,8 +79,7 @@ pub(crate) struct Joints {
     serial: Serial,
 }
 
-clone_by_field!(Joints { records, breakable, free, count, serial });
-data!(Joints { records, breakable, free, count, serial });
+cloned_data!(Joints { records, breakable, free, count, serial });
 
 impl Joints {
     /// Joints alive.
