@@ -298,11 +298,4 @@ impl Host for WorldHost {
         };
         body.shapes().any(|shape| self.world.sensor_overlaps(shape).next().is_some())
     }
-
-    fn walk(&mut self, hero: &mut CharacterMover, body: usize, input: MoverInput, dt: f32) {
-        hero.update(&mut self.world, input, dt);
-        if let Some(mut body) = self.body_mut(body) {
-            body.set_position(hero.position);
-        }
-    }
 }

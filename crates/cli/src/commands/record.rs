@@ -21,7 +21,9 @@ pub fn record(args: &RecordArgs) -> Outcome {
     let world = World::with_settings(scene.gravity, scene.settings);
     let mut player = ScenePlayer::new(&scene, RecordingHost::new(world));
     let steps = args.steps.unwrap_or(scene.steps);
-    (0..steps).for_each(|_| player.step());
+    while player.steps_done() < steps && player.host().error.is_none() {
+        player.step();
+    }
     let host = player.into_host();
     if let Some(error) = host.error {
         return Err(error.into());
@@ -151,6 +153,15 @@ impl Host for RecordingHost {
         self.apply(Command::SetVelocity(id, velocity, spin));
     }
 
+    fn set_angular_velocity(&mut self, body: usize, radians_per_second: f32) {
+        let Some(id) = self.body(body) else { return };
+        let Some(body) = self.recorder.world().body(id) else { return };
+        if body.angular_velocity() != radians_per_second {
+            let velocity = body.velocity();
+            self.apply(Command::SetVelocity(id, velocity, radians_per_second));
+        }
+    }
+
     fn is_awake(&self, body: usize) -> bool {
         let body = self.body(body).and_then(|id| self.recorder.world().body(id));
         body.is_some_and(|body| body.is_awake())
@@ -171,7 +182,7 @@ impl Host for RecordingHost {
         self.error.get_or_insert(Error::Unsupported { reason });
     }
 
-    fn walk(&mut self, _: &mut CharacterMover, _: usize, _: MoverInput, _: f32) {
+    fn move_character(&mut self, _: &mut CharacterMover, _: MoverInput, _: f32) {
         let reason = "a recording holds no character";
         self.error.get_or_insert(Error::Unsupported { reason });
     }

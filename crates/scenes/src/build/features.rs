@@ -1,13 +1,13 @@
 //! Scenes that show one ability of the engine each.
 
-use super::{Options, crate_at, ground};
+use super::{Options, course, crate_at, ground};
 use crate::scene::Scene;
-use crate::script::{Act, Deed, Hero, Pull, Script, Timeline, Walk, When};
+use crate::script::{Act, Character, Deed, Key, Leg, Pull, Ride, Script, Timeline, When};
 use crate::shapes;
 use core::f32::consts::TAU;
 use tiny_physics::math::{cos, sin};
 use tiny_physics::{
-    BodyKind, ChainDef, Filter, Material, RigidBody, Shape, ShapeDef, TileGrid, Vec2,
+    BodyKind, ChainDef, DVec2, Filter, Material, RigidBody, Shape, ShapeDef, TileGrid, Vec2,
 };
 
 const GRAVITY: Vec2 = Vec2::new(0.0, -10.0);
@@ -25,7 +25,7 @@ fn act(when: When, deed: Deed) -> Act {
 }
 
 fn timeline(acts: Vec<Act>) -> Option<Script> {
-    Some(Script::Timeline(Timeline { acts, hero: None }))
+    Some(Script::Timeline(Timeline { acts }))
 }
 
 /// Shapes of every kind fall into a bowl that is a closed chain; the size is their number.
@@ -373,30 +373,28 @@ pub(crate) fn hero(options: Options) -> Scene {
     for block in map.bodies() {
         scene.body(block);
     }
-    let (from, to) = (Vec2::new(19.2, 1.85), Vec2::new(21.8, 2.85));
-    let shuttle = RigidBody::kinematic().position(from).shape(shapes::rect(1.2, 0.15));
-    let shuttle = scene.body(shuttle);
+    let shuttle = RigidBody::kinematic().position(Vec2::new(19.2, 1.85));
+    let shuttle = scene.body(shuttle.shape(shapes::rect(1.2, 0.15)));
     for i in 0..crates {
         let load = ShapeDef::new(shapes::rect(0.4, 0.4)).density(0.5);
         scene.body(body(27.9, 5.4 + 0.8 * i as f32, load));
     }
-    let (height, radius) = (1.8, 0.35);
-    let (a, b) = (Vec2::new(0.0, -0.55), Vec2::new(0.0, 0.55));
-    let look = ShapeDef::new(Shape::Capsule { a, b, radius }).sensor();
-    let look = RigidBody::kinematic().position(Vec2::new(2.0, 2.0)).shape(look);
-    let body = scene.body(look);
-    let walk = |from: u32, walk: f32, jump: f32| Walk { from, walk, jump };
-    let plan = vec![
-        walk(30, 4.0, 0.0),
-        walk(150, 0.0, 8.0),
-        walk(240, 4.0, 0.0),
-        // On the shuttle while it is on the left, off it on the right.
-        walk(378, 0.0, 0.0),
-        walk(535, 4.0, 0.0),
+    let (position, height, radius) = (DVec2::new(2.0, 2.0), 1.8, 0.35);
+    let body = scene.body(course::marker(position, height, radius));
+    let key = |from: f32, walk: f32, jump: f32| Key { from, walk, jump, drop: false };
+    let keys = vec![
+        key(0.5, 4.0, 0.0),
+        key(2.5, 0.0, 8.0),
+        key(4.0, 4.0, 0.0),
+        // On the shuttle while it stands on the left, off it on the right.
+        key(6.3, 0.0, 0.0),
+        key(9.0, 4.0, 0.0),
     ];
-    let lead = Deed::Lead { body: shuttle, from, to, turn: 0.0, period: 6.0 };
-    let acts = vec![act(When::Always, lead)];
-    let hero = Some(Hero { body, height, radius, plan });
-    scene.script = Some(Script::Timeline(Timeline { acts, hero }));
+    let over = Vec2::new(1.04, 0.4);
+    let leg = |from: f32, velocity: Vec2| Leg { from, to: from + 2.5, velocity, ..Leg::default() };
+    let legs = vec![leg(0.5, over), leg(3.5, Vec2::ZERO - over)];
+    let rides = vec![Ride { body: shuttle, period: 6.0, legs }];
+    scene.script =
+        Some(Script::Character(Character { position, height, radius, body, keys, rides }));
     scene
 }
