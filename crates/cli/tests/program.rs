@@ -274,6 +274,11 @@ fn recordings_are_played_again_compared_and_refused() {
     assert!(bad(&["diff", &a, &b]).contains("differ from step 1"));
     assert!(bad(&["diff", &a, &c]).contains("before step 41"));
 
+    let unsaid = |scene: &str| bad(&["record", scene, "--steps", "5", "-o", &path("no.tpr")]);
+    assert!(unsaid("character").contains("holds no character"));
+    assert!(unsaid("harbour").contains("holds no deeds"));
+    assert!(!scratch("no.tpr").exists());
+
     let bytes = std::fs::read(&a).unwrap();
     let refusal = |at: usize| {
         let mut other = bytes.clone();

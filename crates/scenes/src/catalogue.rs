@@ -108,7 +108,7 @@ static ENTRIES: &[Entry] = &[
     entry("harbour", "Things float or sink, and a boat sails", 900, SHOW, features::harbour),
     entry("blast", "Three explosions in a town of crates", 600, SHOW, features::blast),
     entry("orbits", "Stones circle two planets", 600, SHOW, features::orbits),
-    entry("sorting", "Belts and gates sort parcels by their filters", 1200, SHOW, features::sorting),
+    entry("sorting", "Belts and gates sort parcels by their filters", 1500, SHOW, features::sorting),
     entry("sensor_door", "A ball opens a door by a sensor", 600, SHOW, features::sensor_door),
     entry("hero", "A character walks, climbs, jumps and rides", 900, SHOW, features::hero),
 ];

@@ -64,9 +64,6 @@ pub trait Host {
     fn is_entered(&mut self, _body: usize) -> bool {
         false
     }
-
-    /// Moves a character on by `dt` seconds, and the body that shows it along.
-    fn walk(&mut self, _hero: &mut CharacterMover, _body: usize, _input: MoverInput, _dt: f32) {}
 }
 
 /// A scene that runs on a host.

@@ -37,7 +37,7 @@ pub use golden::{Golden, golden, run_hash};
 pub use host::{Host, Player};
 pub use scene::{Counts, Scene, SceneJoint, VERSION};
 pub use script::{
-    Act, Character, Deed, Hero, Key, Leg, Pull, Queries, Rain, Ride, Script, Terrain, Timeline,
-    WakeSleepers, Walk, Walkers, When, lead_progress,
+    Act, Character, Deed, Key, Leg, Pull, Queries, Rain, Ride, Script, Terrain, Timeline,
+    WakeSleepers, Walkers, When, lead_progress,
 };
 pub use world_host::{Run, WorldHost};

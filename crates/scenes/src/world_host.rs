@@ -4,9 +4,9 @@ use crate::host::{Host, Player};
 use crate::scene::Scene;
 use crate::script::{Deed, Pull, lead_progress};
 use tiny_physics::{
-    Aabb, BodyId, BodyMut, CharacterMover, DVec2, Error, Explosion, ForceZone, JointDef, JointId,
-    MoverInput, Pose, QueryFilter, RigidBody, Rot, Settings, Shape, ShapeId, Transform, Vec2,
-    Water, Wind, World, ZoneForce,
+    Aabb, Body, BodyId, BodyMut, CharacterMover, DVec2, Error, Explosion, ForceZone, JointDef,
+    JointId, MoverInput, Pose, QueryFilter, RigidBody, Rot, Settings, Shape, ShapeId, Transform,
+    Vec2, Water, Wind, World, ZoneForce,
 };
 
 /// A scene that runs in a [`World`].
@@ -91,6 +91,10 @@ impl WorldHost {
         self.error.as_ref()
     }
 
+    fn body(&self, body: usize) -> Option<Body<'_>> {
+        self.body_id(body).and_then(|id| self.world.body(id))
+    }
+
     fn body_mut(&mut self, body: usize) -> Option<BodyMut<'_>> {
         self.body_id(body).and_then(|id| self.world.body_mut(id))
     }
@@ -171,7 +175,7 @@ impl WorldHost {
 
     /// The shapes of a body in the order in which it was described.
     fn shapes_of(&self, body: usize) -> Vec<ShapeId> {
-        let body = self.body_id(body).and_then(|id| self.world.body(id));
+        let body = self.body(body);
         let mut shapes: Vec<ShapeId> = body.map_or(Vec::new(), |body| body.shapes().collect());
         shapes.sort_unstable_by_key(|id| id.index());
         shapes
@@ -220,23 +224,21 @@ impl Host for WorldHost {
     }
 
     fn position(&self, body: usize) -> DVec2 {
-        let body = self.body_id(body).and_then(|id| self.world.body(id));
-        body.map_or(DVec2::ZERO, |body| body.position_f64())
+        self.body(body).map_or(DVec2::ZERO, |body| body.position_f64())
     }
 
     fn velocity(&self, body: usize) -> Vec2 {
-        let body = self.body_id(body).and_then(|id| self.world.body(id));
-        body.map_or(Vec2::ZERO, |body| body.velocity())
+        self.body(body).map_or(Vec2::ZERO, |body| body.velocity())
     }
 
     fn set_velocity(&mut self, body: usize, velocity: Vec2) {
-        if let Some(mut body) = self.body_id(body).and_then(|id| self.world.body_mut(id)) {
+        if let Some(mut body) = self.body_mut(body) {
             body.set_velocity(velocity);
         }
     }
 
     fn set_angular_velocity(&mut self, body: usize, radians_per_second: f32) {
-        if let Some(mut body) = self.body_id(body).and_then(|id| self.world.body_mut(id))
+        if let Some(mut body) = self.body_mut(body)
             && body.as_ref().angular_velocity() != radians_per_second
         {
             body.set_angular_velocity(radians_per_second);
@@ -248,12 +250,11 @@ impl Host for WorldHost {
     }
 
     fn is_awake(&self, body: usize) -> bool {
-        let body = self.body_id(body).and_then(|id| self.world.body(id));
-        body.is_some_and(|body| body.is_awake())
+        self.body(body).is_some_and(|body| body.is_awake())
     }
 
     fn wake(&mut self, body: usize) {
-        if let Some(mut body) = self.body_id(body).and_then(|id| self.world.body_mut(id)) {
+        if let Some(mut body) = self.body_mut(body) {
             body.wake();
         }
     }
@@ -293,16 +294,9 @@ impl Host for WorldHost {
     }
 
     fn is_entered(&mut self, body: usize) -> bool {
-        let Some(body) = self.body_id(body).and_then(|id| self.world.body(id)) else {
+        let Some(body) = self.body(body) else {
             return false;
         };
         body.shapes().any(|shape| self.world.sensor_overlaps(shape).next().is_some())
-    }
-
-    fn walk(&mut self, hero: &mut CharacterMover, body: usize, input: MoverInput, dt: f32) {
-        hero.update(&mut self.world, input, dt);
-        if let Some(mut body) = self.body_mut(body) {
-            body.set_position(hero.position);
-        }
     }
 }

@@ -1,5 +1,5 @@
 //! Reads the engine's sources and checks the rules of the house: no layer knows an upper one, `unsafe` is
-//! in `threads` alone, and nothing is computed in a way that platforms differ in.
+//! in `threads` alone, and nothing is computed in a way that platforms or runs differ in.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,6 +19,12 @@ const LAYERS: [&[&str]; 9] = [
 
 /// The one module that may say `unsafe`.
 const UNSAFE_MODULE: &str = "threads";
+
+/// Their order is another in every run.
+const HASHED: [&str; 2] = ["HashMap", "HashSet"];
+
+/// The one file that may name them: it asks what is in them, for checks, and never goes through them.
+const HASHED_FILE: &str = "world/validate.rs";
 
 /// Methods whose last bits differ between platforms, or between a function and its fused twin.
 const INEXACT: [&str; 29] = [
@@ -81,6 +87,7 @@ impl Source {
         found.extend(self.upward_imports());
         found.extend(self.unsafe_code());
         found.extend(self.inexact_methods());
+        found.extend(self.hashed());
         found.iter().map(|what| format!("{}: {what}", self.path)).collect()
     }
 
@@ -137,6 +144,12 @@ impl Source {
         // `trig::sin` and its like are our own.
         let foreign = calls.filter(|t| t[0] == "." || self.calls_on_primitive(t[1]));
         foreign.map(|t| format!("calls `{}`, whose bits depend on the platform", t[1])).collect()
+    }
+
+    fn hashed(&self) -> Option<String> {
+        let named = tokens(&self.code).iter().any(|token| HASHED.contains(token));
+        let what = "names a hash map, whose order differs from run to run";
+        (named && self.path != HASHED_FILE).then(|| what.to_owned())
     }
 
     fn calls_on_primitive(&self, method: &str) -> bool {
@@ -380,6 +393,13 @@ fn methods_that_differ_between_platforms_are_found() {
     ] {
         assert_eq!(Source::new("math/trig.rs", code).violations().len(), 1, "{code}");
     }
+}
+
+#[test]
+fn hash_maps_are_found() {
+    let code = "use std::collections::{BTreeMap, HashMap};";
+    assert_eq!(Source::new("stages/pairs.rs", code).violations().len(), 1);
+    assert_eq!(Source::new(HASHED_FILE, code).violations().len(), 0);
 }
 
 #[test]

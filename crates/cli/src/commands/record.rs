@@ -8,7 +8,8 @@ use std::io::{Write, stdout};
 use std::path::Path;
 use tiny_physics::record::{Command, Made, Player, Recorder, Recording};
 use tiny_physics::{
-    BodyId, CharacterMover, DVec2, Error, JointDef, JointId, MoverInput, RigidBody, Vec2, World,
+    Body, BodyId, CharacterMover, DVec2, Error, JointDef, JointId, MoverInput, RigidBody, Vec2,
+    World,
 };
 use tiny_physics_scenes::{Deed, Host, Player as ScenePlayer};
 
@@ -21,7 +22,9 @@ pub fn record(args: &RecordArgs) -> Outcome {
     let world = World::with_settings(scene.gravity, scene.settings);
     let mut player = ScenePlayer::new(&scene, RecordingHost::new(world));
     let steps = args.steps.unwrap_or(scene.steps);
-    (0..steps).for_each(|_| player.step());
+    while player.steps_done() < steps && player.host().error.is_none() {
+        player.step();
+    }
     let host = player.into_host();
     if let Some(error) = host.error {
         return Err(error.into());
@@ -93,8 +96,12 @@ impl RecordingHost {
         Self { recorder: Recorder::new(world), bodies: Vec::new(), joints: Vec::new(), error: None }
     }
 
-    fn body(&self, body: usize) -> Option<BodyId> {
+    fn id(&self, body: usize) -> Option<BodyId> {
         self.bodies.get(body).copied().flatten()
+    }
+
+    fn body(&self, body: usize) -> Option<Body<'_>> {
+        self.id(body).and_then(|id| self.recorder.world().body(id))
     }
 
     /// Does it, and keeps the first error.
@@ -114,14 +121,14 @@ impl Host for RecordingHost {
     }
 
     fn remove_body(&mut self, body: usize) {
-        if let Some(id) = self.body(body) {
+        if let Some(id) = self.id(body) {
             self.apply(Command::RemoveBody(id));
             self.bodies[body] = None;
         }
     }
 
     fn add_joint(&mut self, a: usize, b: usize, def: &JointDef) -> usize {
-        let made = match (self.body(a), self.body(b)) {
+        let made = match (self.id(a), self.id(b)) {
             (Some(a), Some(b)) => self.apply(Command::AddJoint(a, b, *def)),
             _ => Made::Nothing,
         };
@@ -136,28 +143,34 @@ impl Host for RecordingHost {
     }
 
     fn position(&self, body: usize) -> DVec2 {
-        let body = self.body(body).and_then(|id| self.recorder.world().body(id));
-        body.map_or(DVec2::ZERO, |body| body.position_f64())
+        self.body(body).map_or(DVec2::ZERO, |body| body.position_f64())
     }
 
     fn velocity(&self, body: usize) -> Vec2 {
-        let body = self.body(body).and_then(|id| self.recorder.world().body(id));
-        body.map_or(Vec2::ZERO, |body| body.velocity())
+        self.body(body).map_or(Vec2::ZERO, |body| body.velocity())
     }
 
     fn set_velocity(&mut self, body: usize, velocity: Vec2) {
-        let Some(id) = self.body(body) else { return };
+        let Some(id) = self.id(body) else { return };
         let spin = self.recorder.world().body(id).map_or(0.0, |body| body.angular_velocity());
         self.apply(Command::SetVelocity(id, velocity, spin));
     }
 
+    fn set_angular_velocity(&mut self, body: usize, radians_per_second: f32) {
+        let Some(id) = self.id(body) else { return };
+        let Some(body) = self.recorder.world().body(id) else { return };
+        if body.angular_velocity() != radians_per_second {
+            let velocity = body.velocity();
+            self.apply(Command::SetVelocity(id, velocity, radians_per_second));
+        }
+    }
+
     fn is_awake(&self, body: usize) -> bool {
-        let body = self.body(body).and_then(|id| self.recorder.world().body(id));
-        body.is_some_and(|body| body.is_awake())
+        self.body(body).is_some_and(|body| body.is_awake())
     }
 
     fn wake(&mut self, body: usize) {
-        if let Some(id) = self.body(body) {
+        if let Some(id) = self.id(body) {
             self.apply(Command::Wake(id));
         }
     }
@@ -171,7 +184,7 @@ impl Host for RecordingHost {
         self.error.get_or_insert(Error::Unsupported { reason });
     }
 
-    fn walk(&mut self, _: &mut CharacterMover, _: usize, _: MoverInput, _: f32) {
+    fn move_character(&mut self, _: &mut CharacterMover, _: MoverInput, _: f32) {
         let reason = "a recording holds no character";
         self.error.get_or_insert(Error::Unsupported { reason });
     }

@@ -33,7 +33,7 @@ pub(crate) fn character(_: Options) -> Scene {
     let crate_ = shapes::rect(0.4, 0.4);
     scene.body(RigidBody::dynamic().position(Vec2::new(56.0, 2.4)).shape(crate_));
     let position = DVec2::new(2.0, 3.0);
-    let body = scene.body(marker(position));
+    let body = scene.body(marker(position, CHARACTER_HEIGHT, CHARACTER_RADIUS));
     let script = Character {
         position,
         height: CHARACTER_HEIGHT,
@@ -56,10 +56,10 @@ fn stairs() -> RigidBody {
 }
 
 /// The body that shows the character: it collides with nothing.
-fn marker(position: DVec2) -> RigidBody {
-    let half = 0.5 * CHARACTER_HEIGHT - CHARACTER_RADIUS;
+pub(super) fn marker(position: DVec2, height: f32, radius: f32) -> RigidBody {
+    let half = 0.5 * height - radius;
     let (a, b) = (Vec2::new(0.0, -half), Vec2::new(0.0, half));
-    let shape = Shape::Capsule { a, b, radius: CHARACTER_RADIUS };
+    let shape = Shape::Capsule { a, b, radius };
     let filter = Filter { mask: 0, ..Filter::default() };
     RigidBody::kinematic().position(position).shape(ShapeDef::new(shape).filter(filter))
 }

@@ -1,13 +1,13 @@
 //! Scenes that show one ability of the engine each.
 
-use super::{Options, crate_at, ground};
+use super::{Options, course, crate_at, ground};
 use crate::scene::Scene;
-use crate::script::{Act, Deed, Hero, Pull, Script, Timeline, Walk, When};
+use crate::script::{Act, Character, Deed, Key, Leg, Pull, Ride, Script, Timeline, When};
 use crate::shapes;
 use core::f32::consts::TAU;
 use tiny_physics::math::{cos, sin};
 use tiny_physics::{
-    BodyKind, ChainDef, Filter, Material, RigidBody, Shape, ShapeDef, TileGrid, Vec2,
+    BodyKind, ChainDef, DVec2, Filter, Material, RigidBody, Shape, ShapeDef, TileGrid, Vec2,
 };
 
 const GRAVITY: Vec2 = Vec2::new(0.0, -10.0);
@@ -25,7 +25,7 @@ fn act(when: When, deed: Deed) -> Act {
 }
 
 fn timeline(acts: Vec<Act>) -> Option<Script> {
-    Some(Script::Timeline(Timeline { acts, hero: None }))
+    Some(Script::Timeline(Timeline { acts }))
 }
 
 /// Shapes of every kind fall into a bowl that is a closed chain; the size is their number.
@@ -266,54 +266,73 @@ fn show_zone(scene: &mut Scene, shape: Shape, position: Vec2) {
     scene.body(RigidBody::fixed().position(position).shape(ShapeDef::new(shape).sensor()));
 }
 
-/// Belts carry parcels of three categories over gates that each let two of them through; the size is the number
-/// of parcels.
+/// Parcels in a shaft of the sorting plant.
+const SHAFT: u32 = 6;
+
+/// A belt carries parcels of three categories to gates that let those of other kinds through; the size is the number of
+/// parcels.
 pub(crate) fn sorting(options: Options) -> Scene {
     let count = options.size_or(36, 2000);
-    let text = "Belts carry parcels; each gate holds one kind and lets the others fall.";
+    let text = "A belt carries parcels; each gate holds one kind and lets the others fall.";
     let mut scene = scene("sorting", text);
-    scene.steps = 1200;
+    scene.steps = 1500;
+    let kinds: [u64; 3] = [1 << 1, 1 << 2, 1 << 3];
+    let shaft = |i: u32| -2.0 - i as f32;
+    scene.body(sorting_plant(kinds, shaft(count.div_ceil(SHAFT)) + 0.5));
+    let corners: Vec<Vec2> = (0..8)
+        .map(|k| TAU * (k as f32 + 0.5) / 8.0)
+        .map(|angle| Vec2::new(cos(angle), sin(angle)) * 0.33)
+        .collect();
+    let mut acts = Vec::new();
+    for i in 0..count {
+        let kind = i as usize % 3;
+        let shape = match kind {
+            0 => shapes::rect(0.3, 0.3),
+            1 => Shape::Capsule { a: Vec2::new(-0.15, 0.0), b: Vec2::new(0.15, 0.0), radius: 0.25 },
+            _ => shapes::hull(&corners, 0.0),
+        };
+        let filter = Filter { category: kinds[kind], ..Filter::default() };
+        let parcel = ShapeDef::new(shape).filter(filter).friction(0.3);
+        let height = 1.2 + 0.75 * (i % SHAFT) as f32;
+        let place = Vec2::new(shaft(i / SHAFT), 10.05 + height);
+        let body = scene.body(RigidBody::fixed().position(place).shape(parcel));
+        // Let go so that every half second one is down: they lie apart on the belt.
+        let time = 1.0 + 0.5 * i as f32 - (2.0 * height / 10.0).sqrt();
+        let go = Deed::SetKind { body, kind: BodyKind::Dynamic };
+        acts.push(act(When::At((60.0 * time).round() as u32), go));
+    }
+    scene.script = timeline(acts);
+    scene
+}
+
+/// Shafts from `left` on over a belt, three belts that hold one kind each, and a box for each kind.
+fn sorting_plant(kinds: [u64; 3], left: f32) -> RigidBody {
     let mut plant = RigidBody::fixed();
     let mut put = |x: f32, y: f32, shape: ShapeDef| {
         plant.shapes.push(shape.offset(Vec2::new(x, y)));
     };
-    let kinds: [u64; 3] = [1 << 1, 1 << 2, 1 << 3];
-    // A hopper, a belt under it, and below three belts over each other that hold one kind each.
-    for side in [-1.0, 1.0] {
-        let slant = ShapeDef::new(shapes::rect(0.1, 2.2)).angle(side * -0.5);
-        put(-8.0 + side * 2.4, 13.4, slant.friction(0.1));
-        put(-8.0 + side * 3.45, 17.8, ShapeDef::new(shapes::rect(0.1, 2.6)).friction(0.1));
-    }
     let belt = |half: f32, speed: f32| {
-        ShapeDef::new(shapes::rounded_rect(half, 0.1, 0.15)).tangent_speed(speed).friction(0.9)
+        ShapeDef::new(shapes::rounded_rect(half, 0.1, 0.15)).tangent_speed(speed).friction(3.0)
     };
-    put(-4.5, 9.5, belt(5.5, 2.0));
+    let mut wall = -1.5;
+    while wall > left - 0.5 {
+        put(wall, 13.3, ShapeDef::new(shapes::rect(0.05, 2.4)).friction(0.0));
+        wall -= 1.0;
+    }
+    let (start, end) = (left - 0.5, 1.0);
+    put(0.5 * (start + end), 9.5, belt(0.5 * (end - start), 3.0));
     // The faster a belt, the further away the box that its parcels fly into.
     for (i, (kind, speed)) in kinds.into_iter().zip([6.3, 5.3, 2.5]).enumerate() {
         let holds = Filter { category: 1, mask: kind, group: 0 };
         put(5.0, 7.0 - 2.3 * i as f32, belt(4.0, speed).filter(holds));
     }
-    // Where the belts end, a box for each kind.
     for i in 0..3 {
         put(9.6 + 2.4 * i as f32, 0.8, ShapeDef::new(shapes::rect(0.1, 1.3)));
     }
     put(16.8, 3.5, ShapeDef::new(shapes::rect(0.1, 4.0)));
     put(13.2, -0.5, ShapeDef::new(shapes::rect(3.8, 0.2)));
     put(5.0, -0.5, ShapeDef::new(shapes::rect(4.5, 0.2)));
-    scene.body(plant);
-    for i in 0..count {
-        let kind = i as usize % 3;
-        let shape = match kind {
-            0 => shapes::rect(0.3, 0.3),
-            1 => Shape::Capsule { a: Vec2::new(-0.2, 0.0), b: Vec2::new(0.2, 0.0), radius: 0.2 },
-            _ => shapes::circle(0.32),
-        };
-        let filter = Filter { category: kinds[kind], ..Filter::default() };
-        let place = Vec2::new(-10.0 + 0.8 * (i % 6) as f32, 15.8 + 0.8 * (i / 6) as f32);
-        let parcel = ShapeDef::new(shape).filter(filter).friction(0.3);
-        scene.body(RigidBody::dynamic().position(place).shape(parcel));
-    }
-    scene
+    plant
 }
 
 /// A ball opens a door by rolling through a sensor; the size is the number of crates behind the door.
@@ -373,30 +392,28 @@ pub(crate) fn hero(options: Options) -> Scene {
     for block in map.bodies() {
         scene.body(block);
     }
-    let (from, to) = (Vec2::new(19.2, 1.85), Vec2::new(21.8, 2.85));
-    let shuttle = RigidBody::kinematic().position(from).shape(shapes::rect(1.2, 0.15));
-    let shuttle = scene.body(shuttle);
+    let shuttle = RigidBody::kinematic().position(Vec2::new(19.2, 1.85));
+    let shuttle = scene.body(shuttle.shape(shapes::rect(1.2, 0.15)));
     for i in 0..crates {
         let load = ShapeDef::new(shapes::rect(0.4, 0.4)).density(0.5);
         scene.body(body(27.9, 5.4 + 0.8 * i as f32, load));
     }
-    let (height, radius) = (1.8, 0.35);
-    let (a, b) = (Vec2::new(0.0, -0.55), Vec2::new(0.0, 0.55));
-    let look = ShapeDef::new(Shape::Capsule { a, b, radius }).sensor();
-    let look = RigidBody::kinematic().position(Vec2::new(2.0, 2.0)).shape(look);
-    let body = scene.body(look);
-    let walk = |from: u32, walk: f32, jump: f32| Walk { from, walk, jump };
-    let plan = vec![
-        walk(30, 4.0, 0.0),
-        walk(150, 0.0, 8.0),
-        walk(240, 4.0, 0.0),
-        // On the shuttle while it is on the left, off it on the right.
-        walk(378, 0.0, 0.0),
-        walk(535, 4.0, 0.0),
+    let (position, height, radius) = (DVec2::new(2.0, 2.0), 1.8, 0.35);
+    let body = scene.body(course::marker(position, height, radius));
+    let key = |from: f32, walk: f32, jump: f32| Key { from, walk, jump, drop: false };
+    let keys = vec![
+        key(0.5, 4.0, 0.0),
+        key(2.5, 0.0, 8.0),
+        key(4.0, 4.0, 0.0),
+        // On the shuttle while it stands on the left, off it on the right.
+        key(6.3, 0.0, 0.0),
+        key(9.0, 4.0, 0.0),
     ];
-    let lead = Deed::Lead { body: shuttle, from, to, turn: 0.0, period: 6.0 };
-    let acts = vec![act(When::Always, lead)];
-    let hero = Some(Hero { body, height, radius, plan });
-    scene.script = Some(Script::Timeline(Timeline { acts, hero }));
+    let over = Vec2::new(1.04, 0.4);
+    let leg = |from: f32, velocity: Vec2| Leg { from, to: from + 2.5, velocity, ..Leg::default() };
+    let legs = vec![leg(0.5, over), leg(3.5, Vec2::ZERO - over)];
+    let rides = vec![Ride { body: shuttle, period: 6.0, legs }];
+    scene.script =
+        Some(Script::Character(Character { position, height, radius, body, keys, rides }));
     scene
 }

@@ -15,7 +15,7 @@ pub use deed::{Deed, Pull, lead_progress};
 pub use queries::Queries;
 pub use rain::Rain;
 pub use terrain::Terrain;
-pub use timeline::{Act, Hero, Timeline, Walk, When};
+pub use timeline::{Act, Timeline, When};
 pub use wake::WakeSleepers;
 pub use walkers::Walkers;
 
@@ -39,7 +39,7 @@ pub enum Script {
     Terrain(Terrain),
     /// A paddle moves and many questions are asked of the world.
     Queries(Queries),
-    /// Things are done at their times, and a character walks.
+    /// Things are done at their times.
     Timeline(Timeline),
     /// A character walks through the scene.
     Character(Character),

@@ -1,8 +1,7 @@
 //! Bodies: hot rows for the solver, poses, and everything else.
 
-use super::clone::{Serial, clone_by_field};
+use super::clone::{Serial, cloned_data};
 use super::pace::PLAIN;
-use crate::codec::data;
 use crate::describe::{BodyKind, Locks};
 use crate::math::{DVec2, Pose, Rot, Vec2};
 use crate::simd::Row;
@@ -149,10 +148,12 @@ pub(crate) struct Bodies {
     pub(crate) awake_unsorted: bool,
     pub(crate) free: Vec<u32>,
     pub(crate) count: usize,
+    /// Bodies of another pace than the plain one, sleeping ones too.
+    pub(crate) refined: usize,
     serial: Serial,
 }
 
-clone_by_field!(Bodies {
+cloned_data!(Bodies {
     rows,
     poses,
     previous,
@@ -163,19 +164,7 @@ clone_by_field!(Bodies {
     awake_unsorted,
     free,
     count,
-    serial
-});
-data!(Bodies {
-    rows,
-    poses,
-    previous,
-    motions,
-    starts,
-    infos,
-    awake,
-    awake_unsorted,
-    free,
-    count,
+    refined,
     serial
 });
 
@@ -192,6 +181,7 @@ impl Bodies {
             awake_unsorted: false,
             free: Vec::new(),
             count: 0,
+            refined: 0,
             serial: Serial::default(),
         }
     }
@@ -233,6 +223,7 @@ impl Bodies {
     /// Takes a record out. The caller has unlinked everything that refers to it.
     pub(crate) fn remove(&mut self, index: u32) {
         self.count -= 1;
+        self.set_pace(index, PLAIN as u8);
         self.infos[index as usize] = BodyInfo::default();
         self.rows[index as usize] = [0.0; 8];
         self.free.push(index);
@@ -255,6 +246,19 @@ impl Bodies {
     #[inline]
     pub(crate) fn is_dynamic(&self, index: u32) -> bool {
         self.infos[index as usize].kind == BodyKind::Dynamic
+    }
+
+    /// Gives a body its pace.
+    pub(crate) fn set_pace(&mut self, index: u32, pace: u8) {
+        let old = core::mem::replace(&mut self.infos[index as usize].pace, pace);
+        self.refined -= usize::from(usize::from(old) != PLAIN);
+        self.refined += usize::from(usize::from(pace) != PLAIN);
+    }
+
+    /// Is any awake body of another pace than the plain one?
+    pub(crate) fn any_refined(&self) -> bool {
+        let is_refined = |&i: &u32| usize::from(self.infos[i as usize].pace) != PLAIN;
+        self.refined > 0 && self.awake.iter().any(is_refined)
     }
 
     /// Do two dynamic bodies have different paces? The next step brings them in line.

@@ -18,6 +18,15 @@ macro_rules! clone_by_field {
     };
 }
 
+/// Implements `Clone` as [`clone_by_field!`] and [`Data`](crate::codec::Data) as [`data!`](crate::codec::data) with one
+/// list of the fields.
+macro_rules! cloned_data {
+    ($type:ident { $($field:ident),* $(,)? }) => {
+        $crate::dynamics::clone_by_field!($type { $($field),* });
+        $crate::codec::data!($type { $($field),* });
+    };
+}
+
 /// Number of records ever put into a store, by this world or by any world that it was copied from: the
 /// source of generations. Going back to an earlier state does not turn it back, so that a handle made
 /// in the time that was undone never means something else. It is no part of the state: it is not
@@ -61,4 +70,4 @@ impl PartialEq for Serial {
     }
 }
 
-pub(crate) use clone_by_field;
+pub(crate) use {clone_by_field, cloned_data};

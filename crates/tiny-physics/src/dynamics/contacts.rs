@@ -1,7 +1,8 @@
 //! Contact records: pairs of shapes that came near, until their fat boxes part.
 
-use super::bodies::{Bodies, NULL};
+use super::bodies::Bodies;
 use super::clone::clone_by_field;
+use super::edges::{self, edges};
 use super::pair_table::PairTable;
 use crate::codec::{Data, Reader, Sink, bad};
 use crate::error::Error;
@@ -60,6 +61,8 @@ pub(crate) struct Contact {
     pub(crate) links: [(u32, u32); 2],
 }
 
+edges!(Contact, first_contact);
+
 /// All contacts of a world.
 #[derive(Debug, PartialEq, Default)]
 pub(crate) struct Contacts {
@@ -104,15 +107,13 @@ impl Contacts {
             self.records.len() as u32 - 1
         };
         self.pairs.insert(shape_a, shape_b, index);
-        self.link(bodies, index, 0);
-        self.link(bodies, index, 1);
+        edges::link(&mut self.records, bodies, index);
         index
     }
 
     /// Takes a record out. The caller has taken its lanes out of the graph.
     pub(crate) fn remove(&mut self, bodies: &mut Bodies, index: u32) {
-        self.unlink(bodies, index, 0);
-        self.unlink(bodies, index, 1);
+        edges::unlink(&mut self.records, bodies, index);
         let contact = &mut self.records[index as usize];
         contact.alive = false;
         let (a, b) = (contact.shape_a, contact.shape_b);
@@ -122,37 +123,6 @@ impl Contacts {
 
     /// Contacts of a body as (contact, side) from the head of its list.
     pub(crate) fn of_body(&self, first_edge: u32) -> impl Iterator<Item = (u32, u32)> + '_ {
-        core::iter::successors((first_edge != NULL).then_some(first_edge), |&edge| {
-            let next = self.records[edge as usize / 2].links[edge as usize % 2].1;
-            (next != NULL).then_some(next)
-        })
-        .map(|edge| (edge / 2, edge % 2))
-    }
-
-    fn body(&self, index: u32, side: usize) -> u32 {
-        let contact = &self.records[index as usize];
-        if side == 0 { contact.body_a } else { contact.body_b }
-    }
-
-    fn link(&mut self, bodies: &mut Bodies, index: u32, side: usize) {
-        let edge = index * 2 + side as u32;
-        let info = &mut bodies.infos[self.body(index, side) as usize];
-        let head = core::mem::replace(&mut info.first_contact, edge);
-        if head != NULL {
-            self.records[head as usize / 2].links[head as usize % 2].0 = edge;
-        }
-        self.records[index as usize].links[side] = (NULL, head);
-    }
-
-    fn unlink(&mut self, bodies: &mut Bodies, index: u32, side: usize) {
-        let (previous, next) = self.records[index as usize].links[side];
-        if previous == NULL {
-            bodies.infos[self.body(index, side) as usize].first_contact = next;
-        } else {
-            self.records[previous as usize / 2].links[previous as usize % 2].1 = next;
-        }
-        if next != NULL {
-            self.records[next as usize / 2].links[next as usize % 2].0 = previous;
-        }
+        edges::walk(&self.records, first_edge)
     }
 }

@@ -12,6 +12,7 @@
 
 use super::bodies::{Bodies, NULL};
 use super::clone::clone_by_field;
+use super::disjoint_sets::DisjointSets;
 use super::joint_blocks::{AxisLanes, JointClass};
 use super::joint_graph::{JOINT_PLACES, JOINT_TREES};
 use super::joints::{JointPlace, Joints};
@@ -394,7 +395,8 @@ fn plant(
     if cuts * LINKS_PER_CUT > count || count - cuts < LEAST_LINKS {
         return None;
     }
-    let mut sets = Sets { parents: (0..component.bodies.len() as u32).collect() };
+    let mut sets = DisjointSets::default();
+    sets.reset(component.bodies.len());
     let (mut spanning, mut anchors) = (Vec::new(), Vec::new());
     for joint in &component.joints {
         if inner(&joint) {
@@ -411,29 +413,6 @@ fn plant(
     let mut planter = Planter { bodies, joints, places, nodes, tree, depth: Vec::new() };
     planter.plant(&spanning, &anchors);
     (uneven || planter.is_deep()).then_some(planter.tree)
-}
-
-/// Sets of bodies that joints connect: of each the place of another in its set, or its own.
-struct Sets {
-    parents: Vec<u32>,
-}
-
-impl Sets {
-    fn root(&mut self, mut place: u32) -> u32 {
-        while self.parents[place as usize] != place {
-            let parent = self.parents[place as usize];
-            self.parents[place as usize] = self.parents[parent as usize];
-            place = parent;
-        }
-        place
-    }
-
-    /// Joins the sets of two bodies; false where they are one already.
-    fn join(&mut self, a: u32, b: u32) -> bool {
-        let (a, b) = (self.root(a), self.root(b));
-        self.parents[a as usize] = b;
-        a != b
-    }
 }
 
 /// A tree in the making.

@@ -6,7 +6,7 @@
 //! [forest](super::joint_forest) have lanes of their own, which keep their numbers between steps.
 
 use super::bodies::Bodies;
-use super::clone::clone_by_field;
+use super::clone::{clone_by_field, cloned_data};
 use super::joint_blocks::{
     DistanceBlock, DriveBlock, GearBlock, Impulses, JointClass, JointLanes, PrismaticBlock,
     PulleyBlock, RevoluteBlock, WeldBlock, WheelBlock,
@@ -14,7 +14,6 @@ use super::joint_blocks::{
 use super::joint_forest::{JointForest, JointTree, is_rigid};
 use super::joints::{JointPlace, JointRecord, Joints};
 use super::pace::{PACES, PLAIN};
-use crate::codec::data;
 use crate::simd::BLOCK;
 use crate::threads::Team;
 
@@ -212,8 +211,7 @@ pub(crate) struct JointGraph {
     pub(crate) forest: JointForest,
 }
 
-clone_by_field!(JointGraph { colours, described_h, any_stale, count, mixed, forest });
-data!(JointGraph { colours, described_h, any_stale, count, mixed, forest });
+cloned_data!(JointGraph { colours, described_h, any_stale, count, mixed, forest });
 
 impl JointGraph {
     pub(crate) fn new() -> Self {

@@ -1,9 +1,9 @@
 //! Joint records: what the user asked for, and where the solver's copy of it is.
 
 use super::bodies::{Bodies, NULL};
-use super::clone::{Serial, clone_by_field};
+use super::clone::{Serial, cloned_data};
+use super::edges::{self, edges};
 use super::joint_blocks::{Impulses, JointClass};
-use crate::codec::data;
 use crate::describe::JointDef;
 use crate::math::Vec2;
 
@@ -57,6 +57,8 @@ impl JointRecord {
     }
 }
 
+edges!(JointRecord, first_joint);
+
 /// What a joint does to body B, as of the last substep: the opposite acts on body A.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct JointLoad {
@@ -77,8 +79,7 @@ pub(crate) struct Joints {
     serial: Serial,
 }
 
-clone_by_field!(Joints { records, breakable, free, count, serial });
-data!(Joints { records, breakable, free, count, serial });
+cloned_data!(Joints { records, breakable, free, count, serial });
 
 impl Joints {
     /// Joints alive.
@@ -103,8 +104,7 @@ impl Joints {
             self.records.push(record);
             self.records.len() as u32 - 1
         };
-        self.link(bodies, index, 0);
-        self.link(bodies, index, 1);
+        edges::link(&mut self.records, bodies, index);
         self.note_breakable(index);
         index
     }
@@ -113,8 +113,7 @@ impl Joints {
     pub(crate) fn remove(&mut self, bodies: &mut Bodies, index: u32) {
         debug_assert_eq!(self.records[index as usize].place, JointPlace::Asleep);
         self.count -= 1;
-        self.unlink(bodies, index, 0);
-        self.unlink(bodies, index, 1);
+        edges::unlink(&mut self.records, bodies, index);
         let record = &mut self.records[index as usize];
         record.alive = false;
         record.def.break_at = None;
@@ -124,11 +123,7 @@ impl Joints {
 
     /// Joints of a body as (joint, side) from the head of its list: the newest first.
     pub(crate) fn of_body(&self, first_edge: u32) -> impl Iterator<Item = (u32, u32)> + '_ {
-        core::iter::successors((first_edge != NULL).then_some(first_edge), |&edge| {
-            let next = self.records[edge as usize / 2].links[edge as usize % 2].1;
-            (next != NULL).then_some(next)
-        })
-        .map(|edge| (edge / 2, edge % 2))
+        edges::walk(&self.records, first_edge)
     }
 
     /// Does no joint between the two bodies forbid them to collide?
@@ -163,33 +158,6 @@ impl Joints {
                 self.breakable.remove(at);
             }
             (Ok(_), true) | (Err(_), false) => {}
-        }
-    }
-
-    fn body(&self, index: u32, side: usize) -> u32 {
-        let record = &self.records[index as usize];
-        if side == 0 { record.body_a } else { record.body_b }
-    }
-
-    fn link(&mut self, bodies: &mut Bodies, index: u32, side: usize) {
-        let edge = index * 2 + side as u32;
-        let info = &mut bodies.infos[self.body(index, side) as usize];
-        let head = core::mem::replace(&mut info.first_joint, edge);
-        if head != NULL {
-            self.records[head as usize / 2].links[head as usize % 2].0 = edge;
-        }
-        self.records[index as usize].links[side] = (NULL, head);
-    }
-
-    fn unlink(&mut self, bodies: &mut Bodies, index: u32, side: usize) {
-        let (previous, next) = self.records[index as usize].links[side];
-        if previous == NULL {
-            bodies.infos[self.body(index, side) as usize].first_joint = next;
-        } else {
-            self.records[previous as usize / 2].links[previous as usize % 2].1 = next;
-        }
-        if next != NULL {
-            self.records[next as usize / 2].links[next as usize % 2].0 = previous;
         }
     }
 }
@@ -234,7 +202,7 @@ mod tests {
             for (index, side) in joints.of_body(bodies.infos[body as usize].first_joint) {
                 let record = &joints.records[index as usize];
                 assert!(record.alive);
-                assert_eq!(joints.body(index, side as usize), body);
+                assert_eq!([record.body_a, record.body_b][side as usize], body);
                 found += 1;
             }
         }

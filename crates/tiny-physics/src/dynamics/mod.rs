@@ -8,6 +8,8 @@ mod bodies;
 mod clone;
 mod contacts;
 mod data;
+mod disjoint_sets;
+mod edges;
 mod graph;
 mod joint_blocks;
 mod joint_forest;
@@ -23,8 +25,10 @@ pub(crate) use blocks::{
     BlockHead, ConstraintBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags, lane_block,
 };
 pub(crate) use bodies::{Bodies, BodyInfo, Motion, NULL, Slot};
-pub(crate) use clone::{Serial, clone_by_field};
+pub(crate) use clone::{Serial, clone_by_field, cloned_data};
 pub(crate) use contacts::{Contact, Contacts, Place, SavedPoint};
+pub(crate) use disjoint_sets::DisjointSets;
+pub(crate) use edges::next_edge;
 pub(crate) use graph::{Bucket, COLOURS, Graph, IDLE, colour_at, pace_at};
 pub(crate) use joint_blocks::*;
 pub(crate) use joint_forest::{JointTree, TreeLink, TreeNode, TreeRow};

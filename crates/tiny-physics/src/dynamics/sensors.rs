@@ -1,6 +1,6 @@
 //! What sensors saw in the last step.
 
-use super::clone::clone_by_field;
+use super::clone::cloned_data;
 use crate::codec::data;
 
 /// A sensor and a shape that overlaps it, with the generations of both: a shape that took the place of
@@ -28,8 +28,7 @@ pub(crate) struct Sensors {
     pub(crate) any_changed: bool,
 }
 
-clone_by_field!(Sensors { shapes, overlaps, changed, any_changed });
-data!(Sensors { shapes, overlaps, changed, any_changed });
+cloned_data!(Sensors { shapes, overlaps, changed, any_changed });
 
 impl Sensors {
     /// Notes that a shape has become a sensor.

@@ -1,9 +1,8 @@
 //! Shapes: what hangs on bodies.
 
 use super::bodies::NULL;
-use super::clone::{Serial, clone_by_field};
+use super::clone::{Serial, cloned_data};
 use crate::broad_phase::ProxyId;
-use crate::codec::data;
 use crate::describe::{ChainLink, Filter, Material};
 use crate::geometry::Shape;
 use crate::geometry::manifold::ShapeClass;
@@ -111,8 +110,7 @@ pub(crate) struct Shapes {
     serial: Serial,
 }
 
-clone_by_field!(Shapes { records, rows, tight, fat, guards, changed_ground, free, count, serial });
-data!(Shapes { records, rows, tight, fat, guards, changed_ground, free, count, serial });
+cloned_data!(Shapes { records, rows, tight, fat, guards, changed_ground, free, count, serial });
 
 impl Shapes {
     /// Shapes alive.

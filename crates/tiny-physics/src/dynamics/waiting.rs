@@ -1,7 +1,6 @@
 //! Pairs of shapes that are close, but not so close that they need a contact.
 
-use super::clone::clone_by_field;
-use crate::codec::data;
+use super::clone::cloned_data;
 
 /// Pairs whose fat boxes overlap while they themselves are apart. What moves fast has many of them for each
 /// contact: so they are eight bytes each, in no table and in no list of a body.
@@ -14,5 +13,4 @@ pub(crate) struct Waiting {
     pub(crate) stale: bool,
 }
 
-clone_by_field!(Waiting { pairs, stale });
-data!(Waiting { pairs, stale });
+cloned_data!(Waiting { pairs, stale });

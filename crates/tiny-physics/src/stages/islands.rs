@@ -1,8 +1,8 @@
-//! Islands: dynamic bodies that hang together by touching contacts and joints, found by union-find.
+//! Islands: dynamic bodies that hang together by touching contacts and joints, found with disjoint sets.
 //!
 //! They are not kept from step to step; what needs them finds them anew.
 
-use crate::dynamics::{Bodies, Contacts, Graph, IDLE, JointGraph, Joints};
+use crate::dynamics::{Bodies, Contacts, DisjointSets, Graph, IDLE, JointGraph, Joints};
 
 /// The stores that change when islands fall asleep, wake, or are solved at another pace.
 pub(crate) struct Stores<'a> {
@@ -16,36 +16,23 @@ pub(crate) struct Stores<'a> {
 /// The islands of the awake bodies. Found anew each time; kept for its memory.
 #[derive(Debug, Default)]
 pub(crate) struct Islands {
-    parent: Vec<u32>,
+    sets: DisjointSets,
 }
 
 impl Islands {
     /// Joins all dynamic bodies that touch or are joined.
     pub(crate) fn find_all(&mut self, bodies: &Bodies, graph: &Graph, joints: &Joints) {
-        self.parent.clear();
-        self.parent.extend(0..bodies.infos.len() as u32);
+        self.sets.reset(bodies.infos.len());
         for (a, b) in touching(graph).chain(joints.pairs()) {
             if bodies.is_dynamic(a) && bodies.is_dynamic(b) {
-                self.join(a, b);
+                self.sets.join(a, b);
             }
         }
     }
 
     /// The body with the smallest index of the island that a body is in.
-    pub(crate) fn root(&mut self, mut i: u32) -> u32 {
-        while self.parent[i as usize] != i {
-            let above = self.parent[self.parent[i as usize] as usize];
-            self.parent[i as usize] = above;
-            i = above;
-        }
-        i
-    }
-
-    /// The smaller index becomes the root: the result depends on the sets alone.
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        let (root, child) = if a < b { (a, b) } else { (b, a) };
-        self.parent[child as usize] = root;
+    pub(crate) fn root(&mut self, body: u32) -> u32 {
+        self.sets.root(body)
     }
 }
 

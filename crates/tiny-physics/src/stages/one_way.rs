@@ -10,8 +10,9 @@ use crate::dynamics::{Bodies, Contact, ShapeRecord, Shapes};
 use crate::geometry::{LINEAR_SLOP, collide};
 use crate::math::{Rot, Vec2};
 
-/// The normal may be this far from the solid direction, as a cosine: 60 degrees.
-const LEAST_COSINE: f32 = 0.5;
+/// A normal of the solid side may be this far from its direction, as a cosine: 60 degrees. Faces are solid up to
+/// there, too.
+pub(super) const LEAST_COSINE: f32 = 0.5;
 
 /// What parts faster than this is still on its way out, metres a second; multiplied by the length unit.
 const PARTING_SPEED: f32 = 0.1;

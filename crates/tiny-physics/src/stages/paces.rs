@@ -9,9 +9,10 @@
 //! what it did before. An island keeps its pace until its strain has fallen to half of what called for it.
 
 use super::islands::{Islands, Stores};
+use crate::describe::BodyKind;
 use crate::dynamics::{
     Bodies, Bucket, Graph, IDLE, JointPlace, NULL, PACES, PLAIN, Place, PointLanes, REFINEMENT,
-    pace_at,
+    next_edge, pace_at,
 };
 use crate::math::Vec2;
 use crate::simd::BLOCK;
@@ -60,12 +61,16 @@ pub(crate) struct Memory {
     changed: Vec<(u32, u8)>,
     moved_contacts: Vec<(u32, usize)>,
     moved_joints: Vec<(u32, usize)>,
-    of_body: Vec<u32>,
 }
 
-/// Is any body refined?
-pub(crate) fn any_refined(bodies: &Bodies) -> bool {
-    bodies.awake.iter().any(|&i| usize::from(bodies.infos[i as usize].pace) != PLAIN)
+/// Lists the awake bodies that are integrated at a pace: what is not dynamic is at every one.
+pub(crate) fn list_bodies(bodies: &Bodies, pace: usize, listed: &mut Vec<u32>) {
+    let concerns = |&&i: &&u32| {
+        let info = &bodies.infos[i as usize];
+        info.kind != BodyKind::Dynamic || usize::from(info.pace) == pace
+    };
+    listed.clear();
+    listed.extend(bodies.awake.iter().filter(concerns));
 }
 
 /// Gives every island its pace, where that is due.
@@ -102,7 +107,7 @@ fn is_due(stores: &Stores<'_>, rules: Rules) -> bool {
     graph.mixed
         || joint_graph.mixed
         || many
-        || look && (news > 0 || any_refined(bodies) || is_any_strained(bodies, graph, rules))
+        || look && (news > 0 || bodies.any_refined() || is_any_strained(bodies, graph, rules))
 }
 
 /// Would a point between two moving bodies of the plain pace sink visibly?
@@ -243,33 +248,32 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
 /// Moves bodies to other paces, and what hangs on them.
 fn change(stores: &mut Stores<'_>, memory: &mut Memory) {
     let Stores { bodies, contacts, graph, joints, joint_graph } = stores;
-    let Memory { changed, moved_contacts, moved_joints, of_body, .. } = memory;
+    let Memory { changed, moved_contacts, moved_joints, .. } = memory;
     moved_contacts.clear();
     moved_joints.clear();
     for &(body, _) in changed.iter() {
         let mut edge = bodies.infos[body as usize].first_contact;
         while edge != NULL {
             let contact = &contacts.records[edge as usize / 2];
-            let next = contact.links[edge as usize % 2].1;
             if let (true, Place::Graph { colour, .. }) = (contact.touching, contact.place) {
                 graph.remove(bodies, contacts, edge / 2);
                 moved_contacts.push((edge / 2, pace_at(colour.into())));
             }
-            edge = next;
+            edge = next_edge(&contacts.records, edge);
         }
-        let joined = joints.of_body(bodies.infos[body as usize].first_joint);
-        of_body.clear();
-        of_body.extend(joined.map(|(index, _)| index));
-        for &index in of_body.iter() {
-            if let JointPlace::Graph { .. } = joints.records[index as usize].place {
-                let pace = joint_graph.pace_of(&joints.records[index as usize]);
-                joint_graph.remove(bodies, joints, index);
-                moved_joints.push((index, pace));
+        let mut edge = bodies.infos[body as usize].first_joint;
+        while edge != NULL {
+            let joint = &joints.records[edge as usize / 2];
+            if let JointPlace::Graph { .. } = joint.place {
+                let pace = joint_graph.pace_of(joint);
+                joint_graph.remove(bodies, joints, edge / 2);
+                moved_joints.push((edge / 2, pace));
             }
+            edge = next_edge(&joints.records, edge);
         }
     }
     for &(body, pace) in changed.iter() {
-        bodies.infos[body as usize].pace = pace;
+        bodies.set_pace(body, pace);
     }
     moved_contacts.sort_unstable();
     for &(index, old) in moved_contacts.iter() {

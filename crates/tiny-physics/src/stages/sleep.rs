@@ -7,7 +7,7 @@
 
 use super::islands::{self, Islands, Stores};
 use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, Contacts, Graph, Joints, NULL, Place};
+use crate::dynamics::{Bodies, Contacts, Graph, Joints, NULL, Place, next_edge};
 use crate::math::Vec2;
 
 /// Steps between two looks for islands at rest: one look costs about as much as a solver pass.
@@ -138,12 +138,10 @@ fn put_island_to_sleep(island: &[u32], stores: &mut Stores<'_>, hinges: &mut Vec
         let mut edge = bodies.infos[body as usize].first_contact;
         while edge != NULL {
             let contact = &contacts.records[edge as usize / 2];
-            let awake = super::pairs::is_awake(bodies, contact);
-            let next = contact.links[edge as usize % 2].1;
-            if !awake {
+            if !super::pairs::is_awake(bodies, contact) {
                 graph.remove(bodies, contacts, edge / 2);
             }
-            edge = next;
+            edge = next_edge(&contacts.records, edge);
         }
         list_joints(bodies, joints, body, hinges);
         for &index in hinges.iter() {
@@ -183,7 +181,7 @@ pub(crate) fn wake(index: u32, stores: Stores<'_>, island: &mut Vec<u32>, hinges
             if contacts.records[edge as usize / 2].place == Place::Asleep {
                 graph.insert(bodies, contacts, edge / 2);
             }
-            edge = contacts.records[edge as usize / 2].links[edge as usize % 2].1;
+            edge = next_edge(&contacts.records, edge);
         }
         list_joints(bodies, joints, body, hinges);
         for &index in hinges.iter() {

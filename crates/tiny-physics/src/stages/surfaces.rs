@@ -15,6 +15,7 @@
 //! comparison a stride of lanes.
 
 use super::narrow_phase::Context;
+use super::one_way;
 use crate::broad_phase::{BroadPhase, ProxyId, ProxyKind};
 use crate::describe::{BodyKind, ChainLink};
 use crate::dynamics::{Bodies, ShapeRecord, Shapes, guard};
@@ -33,8 +34,6 @@ const REACH: f32 = 0.02;
 const CONE_TOLERANCE: f32 = 5.0e-4;
 /// A corner of a chain has a normal if the next segment rises by no more than this sine above it.
 const LINK_TOLERANCE: f32 = 1.0e-3;
-/// Cosine of the greatest angle between a one-way platform's direction and a face that is solid.
-const ONE_WAY_COSINE: f32 = 0.5;
 
 /// What looking at surfaces needs beyond the narrow phase's own.
 #[derive(Clone, Copy)]
@@ -362,7 +361,7 @@ impl<'a> View<'a> {
 
     /// May something stand on this face?
     fn is_solid(&self, face: usize) -> bool {
-        self.way().is_none_or(|way| self.seams.core.normal(face).dot(way) > ONE_WAY_COSINE)
+        self.way().is_none_or(|way| self.seams.core.normal(face).dot(way) > one_way::LEAST_COSINE)
     }
 }
 

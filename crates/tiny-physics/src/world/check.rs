@@ -6,8 +6,8 @@ use super::World;
 use crate::broad_phase::ProxyId;
 use crate::describe::BodyKind;
 use crate::dynamics::{
-    Bucket, Contact, FrameLanes, IDLE, JOINT_PLACES, JointBucket, JointClass, JointLanes,
-    JointPlace, JointRecord, NULL, PACES, Place, guard,
+    BodyInfo, Bucket, Contact, FrameLanes, IDLE, JOINT_PLACES, JointBucket, JointClass, JointLanes,
+    JointPlace, JointRecord, NULL, PACES, PLAIN, Place, guard,
 };
 use crate::geometry::manifold::{PairClass, ShapeClass};
 use crate::simd::BLOCK;
@@ -81,6 +81,11 @@ impl World {
         ensure(
             bodies.awake_unsorted || bodies.awake.is_sorted(),
             "the awake bodies are in disorder",
+        )?;
+        let is_refined = |info: &&BodyInfo| usize::from(info.pace) != PLAIN;
+        ensure(
+            bodies.infos.iter().filter(is_refined).count() == bodies.refined,
+            "bodies of finer paces are miscounted",
         )?;
         for (info, pose) in bodies.infos.iter().zip(&bodies.poses) {
             let moves = info.alive && info.enabled && info.kind != BodyKind::Static;

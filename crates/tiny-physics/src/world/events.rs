@@ -2,7 +2,7 @@
 
 use super::ids::{BodyId, JointId, ShapeId};
 use crate::codec::data;
-use crate::dynamics::clone_by_field;
+use crate::dynamics::cloned_data;
 use crate::math::{DVec2, Vec2};
 
 /// Two shapes began to touch.
@@ -115,20 +115,7 @@ data!(SensorBegin { sensor, visitor });
 data!(SensorEnd { sensor, visitor });
 data!(Hit { shape_a, shape_b, position, normal, speed });
 data!(JointBreak { joint, force, torque, user_data });
-data!(Events {
-    contact_begin,
-    contact_end,
-    hits,
-    sensor_begin,
-    sensor_end,
-    joint_breaks,
-    woke,
-    fell_asleep,
-    pending_end,
-    pending_woke,
-    pending_asleep
-});
-clone_by_field!(Events {
+cloned_data!(Events {
     contact_begin,
     contact_end,
     hits,

@@ -40,7 +40,7 @@ pub use shapes::ShapeRef;
 pub use stats::{Stage, Stats};
 
 use crate::broad_phase::BroadPhase;
-use crate::describe::{BodyKind, Settings};
+use crate::describe::Settings;
 use crate::dynamics::{
     Bodies, Contacts, Graph, JointGraph, JointLoad, Joints, Overlap, PACES, PLAIN, REFINEMENT,
     Sensors, Shapes, Waiting,
@@ -367,19 +367,19 @@ impl World {
         let Self { joint_graph, joints, bodies, .. } = self;
         joint_graph.grow_forest(bodies, joints);
         joint_solver::describe(joint_graph, joints, &bodies.infos, lengths.h);
-        let mut listed = core::mem::take(&mut self.scratch.listed);
-        let refined = paces::any_refined(&self.bodies);
-        for pace in (0..PACES).rev().filter(|&pace| refined || pace == PLAIN) {
-            listed.clear();
-            let infos = &self.bodies.infos;
-            let concerns = |&&i: &&u32| {
-                let info = &infos[i as usize];
-                info.kind != BodyKind::Dynamic || usize::from(info.pace) == pace
-            };
-            listed.extend(self.bodies.awake.iter().filter(concerns));
-            self.solve_pace(team, pace, &listed, lengths.refined(pace));
+        if self.bodies.any_refined() {
+            let mut listed = core::mem::take(&mut self.scratch.listed);
+            for pace in (0..PACES).rev() {
+                paces::list_bodies(&self.bodies, pace, &mut listed);
+                self.solve_pace(team, pace, &listed, lengths.refined(pace));
+            }
+            self.scratch.listed = listed;
+        } else {
+            // All that is awake, lent for as long as that takes.
+            let listed = core::mem::take(&mut self.bodies.awake);
+            self.solve_pace(team, PLAIN, &listed, lengths);
+            self.bodies.awake = listed;
         }
-        self.scratch.listed = listed;
         self.collect_hits();
         self.break_joints();
     }

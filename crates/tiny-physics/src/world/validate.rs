@@ -2,7 +2,7 @@
 
 use super::World;
 use crate::describe::BodyKind;
-use crate::dynamics::{COLOURS, IDLE, JointPlace, JointRecord, NULL, Place, colour_at};
+use crate::dynamics::{COLOURS, IDLE, JointPlace, JointRecord, NULL, PLAIN, Place, colour_at};
 use crate::stages::{finalize, pairs};
 use core::ops::ControlFlow;
 use std::collections::HashSet;
@@ -25,6 +25,11 @@ impl World {
     fn validate_bodies(&self) -> Result<(), String> {
         if self.bodies.rows[0] != [0.0; 8] {
             return Err("row 0 has been written".into());
+        }
+        let is_refined = |i: &u32| usize::from(self.bodies.infos[*i as usize].pace) != PLAIN;
+        let refined = self.bodies.indices().filter(is_refined).count();
+        if refined != self.bodies.refined {
+            return Err(format!("{refined} bodies are refined, {} counted", self.bodies.refined));
         }
         for index in self.bodies.indices() {
             let info = &self.bodies.infos[index as usize];

@@ -77,9 +77,12 @@ fn islands_that_meet_agree_and_relieved_ones_return() {
     assert_eq!((pace(&world, light), pace(&world, falling)), (1, PLAIN));
     steps(&mut world, 90);
     assert_eq!(pace(&world, falling), 1, "it lies on the refined ones");
+    assert_eq!(world.bodies.refined, 3);
     world.remove_body(heavy).unwrap();
+    assert_eq!(world.bodies.refined, 2);
     steps(&mut world, 120);
     assert_eq!((pace(&world, light), pace(&world, falling)), (PLAIN, PLAIN));
+    assert!(!world.bodies.any_refined());
 }
 
 /// Crates are put on a tower one by one; when the tower becomes refined, nothing jumps.
@@ -129,7 +132,15 @@ fn a_saved_world_with_an_unknown_pace_is_refused() {
     let mut world = floored();
     let body = world.add_body(crate_at(0.0, 0.5, 1.0)).unwrap();
     let index = world.body_index(body).unwrap();
-    world.bodies.infos[index as usize].pace = PACES as u8;
+    world.bodies.set_pace(index, PACES as u8);
     let error = World::from_bytes(&world.to_bytes()).unwrap_err();
-    assert!(error.to_string().contains("pace"), "{error}");
+    assert!(error.to_string().contains("has no pace"), "{error}");
+}
+
+#[test]
+fn a_saved_world_that_miscounts_its_refined_bodies_is_refused() {
+    let mut world = floored();
+    world.bodies.refined = 1;
+    let error = World::from_bytes(&world.to_bytes()).unwrap_err();
+    assert!(error.to_string().contains("miscounted"), "{error}");
 }

@@ -9,6 +9,9 @@
 //! Every child has the union of its leaves' categories, so a query skips subtrees that it cannot
 //! collide with. Results of a query do not depend on the shape of the tree, only their order does.
 
+mod build;
+mod check;
+
 use super::boxes::{Boxes, WIDTH};
 use super::stack::Stack;
 use super::{BoxCast, NONE, clamped};
@@ -344,43 +347,6 @@ impl DynamicTree {
         }
     }
 
-    /// Builds the tree anew where that is worth it: once about as much has changed as there are
-    /// boxes, and the nodes have become larger by a quarter.
-    pub fn maintain(&mut self) {
-        if self.changes <= self.count + 64 {
-            return;
-        }
-        self.changes = 0;
-        if self.cost() > 1.25 * self.built_cost {
-            self.rebuild();
-        }
-    }
-
-    /// Builds the tree anew, top down, by halving along the longer side of the boxes' centres.
-    pub fn rebuild(&mut self) {
-        let mut branches = core::mem::take(&mut self.spare.0);
-        branches.reserve(self.count);
-        for id in 0..self.places.len() as u32 {
-            if let Some((node, lane)) = self.place(id) {
-                branches.push(self.branch(node, lane));
-            }
-        }
-        self.boxes.clear();
-        self.nodes.clear();
-        (self.root, self.free) = (NONE, NONE);
-        if !branches.is_empty() {
-            let mut level = 0;
-            while capacity(level) < branches.len() {
-                level += 1;
-            }
-            self.root = self.build(&mut branches, level);
-        }
-        branches.clear();
-        self.spare.0 = branches;
-        self.changes = 0;
-        self.built_cost = self.cost();
-    }
-
     /// Longest way from the root to a leaf, in nodes; 0 for an empty tree.
     pub fn height(&self) -> u32 {
         if self.root == NONE { 0 } else { u32::from(self.nodes[self.root as usize].level) + 1 }
@@ -394,124 +360,6 @@ impl DynamicTree {
             return 0.0;
         }
         self.cost() * self.count as f32 / root
-    }
-
-    /// Perimeters of all nodes, per box in the tree.
-    fn cost(&self) -> f32 {
-        let mut total = 0.0;
-        for boxes in &self.boxes {
-            let perimeter = boxes.union().perimeter();
-            if perimeter > 0.0 {
-                total += perimeter;
-            }
-        }
-        total / self.count as f32
-    }
-
-    /// Checks every invariant. For tests.
-    ///
-    /// # Errors
-    ///
-    /// Says what is wrong, and at which node.
-    pub fn validate(&self) -> Result<(), String> {
-        let (mut leaves, mut inner) = (0, 0);
-        let mut stack: Vec<u32> = [self.root].into_iter().filter(|&root| root != NONE).collect();
-        while let Some(index) = stack.pop() {
-            let node =
-                self.nodes.get(index as usize).ok_or(format!("node {index} is not there"))?;
-            inner += 1;
-            let mut count = 0;
-            for lane in 0..WIDTH {
-                let child = node.child[lane];
-                if child == NONE {
-                    if self.boxes[index as usize].get(lane) != Aabb::EMPTY
-                        || node.category[lane] != 0
-                    {
-                        return Err(format!("node {index} has something in free lane {lane}"));
-                    }
-                    continue;
-                }
-                count += 1;
-                if node.level == 0 {
-                    leaves += 1;
-                    if self.place(child) != Some((index, lane)) {
-                        return Err(format!("id {child} does not know its node {index}"));
-                    }
-                } else {
-                    self.validate_link(index, lane)?;
-                    stack.push(child);
-                }
-            }
-            if count != node.count || count == 0 {
-                return Err(format!("node {index} has {count} children, not {}", node.count));
-            }
-        }
-        let known = self.places.iter().filter(|&&place| place != NONE).count();
-        let mut free = self.free;
-        while free != NONE {
-            inner += 1;
-            free = self.nodes[free as usize].parent;
-        }
-        if leaves != self.count || known != self.count || inner != self.nodes.len() {
-            return Err(format!("{leaves} leaves, {inner} nodes, {} boxes", self.count));
-        }
-        Ok(())
-    }
-
-    /// Checks that every link of a tree that was read leads to where it should, so that no walk leaves the
-    /// lists or runs in a circle.
-    pub(super) fn check_loaded(&self) -> Result<(), &'static str> {
-        let count = self.nodes.len();
-        let inside = |index: u32| index == NONE || (index as usize) < count;
-        if self.boxes.len() != count || !inside(self.root) {
-            return Err("a tree has no root");
-        }
-        let is_leaf = |place: u32| (place as usize / WIDTH) < count;
-        if self.places.iter().any(|&place| place != NONE && !is_leaf(place)) {
-            return Err("a leaf of a tree is nowhere");
-        }
-        for node in &self.nodes {
-            let below = |&child: &u32| child == NONE || node.level == 0 || (child as usize) < count;
-            if node.level > 64 || !inside(node.parent) || node.lane as usize >= WIDTH {
-                return Err("a node of a tree is wrong");
-            }
-            if !node.child.iter().all(below) {
-                return Err("a branch of a tree leads nowhere");
-            }
-        }
-        let mut free = self.free;
-        for _ in 0..=count {
-            if free == NONE {
-                break;
-            }
-            free = self.nodes.get(free as usize).ok_or("a free node is nowhere")?.parent;
-        }
-        if free != NONE {
-            return Err("the free nodes of a tree run in a circle");
-        }
-        // Levels go down by one on each link, so the walk of this ends.
-        let root_is_top = self.root == NONE || self.nodes[self.root as usize].parent == NONE;
-        if !root_is_top || self.validate().is_err() {
-            return Err("a tree is not one");
-        }
-        Ok(())
-    }
-
-    fn validate_link(&self, index: u32, lane: usize) -> Result<(), String> {
-        let child = self.nodes[index as usize].child[lane];
-        let node = self.nodes.get(child as usize).ok_or(format!("node {child} is not there"))?;
-        if (node.parent, node.lane as usize) != (index, lane) {
-            return Err(format!("node {child} does not know its parent {index}"));
-        }
-        if node.level + 1 != self.nodes[index as usize].level {
-            return Err(format!("node {child} is on the wrong level"));
-        }
-        if !self.boxes[index as usize].get(lane).contains(&self.boxes[child as usize].union())
-            || self.nodes[index as usize].category[lane] != node.all_categories()
-        {
-            return Err(format!("node {child} is not in the box its parent has for it"));
-        }
-        Ok(())
     }
 
     /// Node and lane of an id.
@@ -640,7 +488,7 @@ impl DynamicTree {
         for (lane, branch) in all[..WIDTH].iter_mut().enumerate() {
             *branch = self.branch(index, lane);
         }
-        let cut = best_cut(&mut all);
+        let cut = build::best_cut(&mut all);
         let Node { level, parent, lane, .. } = self.nodes[index as usize];
         self.boxes[index as usize] = Boxes::EMPTY;
         self.nodes[index as usize] = Node { parent, lane, ..Node::new(level) };
@@ -747,71 +595,4 @@ impl DynamicTree {
         }
         (order, count)
     }
-
-    fn build(&mut self, branches: &mut [Branch], level: u8) -> u32 {
-        let index = self.allocate(level);
-        if level == 0 {
-            self.fill(index, branches);
-            return index;
-        }
-        let parts = branches.len().div_ceil(capacity(level - 1));
-        let mut lane = 0;
-        self.build_parts(index, &mut lane, branches, parts);
-        self.nodes[index as usize].count = lane as u8;
-        index
-    }
-
-    fn build_parts(&mut self, index: u32, lane: &mut usize, part: &mut [Branch], parts: usize) {
-        if parts == 1 {
-            let child = self.build(part, self.nodes[index as usize].level - 1);
-            self.put(index, *lane, self.summary(child));
-            *lane += 1;
-            return;
-        }
-        let middle = part.len() * (parts / 2) / parts;
-        let axis = wider_axis(part);
-        part.select_nth_unstable_by(middle, |a, b| compare(a, b, axis));
-        let (low, high) = part.split_at_mut(middle);
-        self.build_parts(index, lane, low, parts / 2);
-        self.build_parts(index, lane, high, parts - parts / 2);
-    }
-}
-
-/// Leaves that a tree with its root on this level can hold.
-fn capacity(level: u8) -> usize {
-    WIDTH.saturating_pow(u32::from(level) + 1)
-}
-
-/// The axis along which the centres spread more.
-fn wider_axis(branches: &[Branch]) -> usize {
-    let mut centers = Aabb::EMPTY;
-    for branch in branches {
-        let center = branch.aabb.center();
-        centers = centers.union(&Aabb::new(center, center));
-    }
-    usize::from(centers.max.y - centers.min.y > centers.max.x - centers.min.x)
-}
-
-#[inline]
-fn compare(a: &Branch, b: &Branch, axis: usize) -> core::cmp::Ordering {
-    let (p, q) = (a.aabb.center()[axis], b.aabb.center()[axis]);
-    p.total_cmp(&q).then(a.child.cmp(&b.child))
-}
-
-/// Sorts the children of a full node and finds where to cut: least perimeter of both parts, three
-/// children a part at least.
-fn best_cut(all: &mut [Branch; WIDTH + 1]) -> usize {
-    let axis = wider_axis(all);
-    all.sort_unstable_by(|a, b| compare(a, b, axis));
-    let union = |part: &[Branch]| {
-        part.iter().fold(Aabb::EMPTY, |all, branch| all.union(&branch.aabb)).perimeter()
-    };
-    let (mut best, mut best_cost) = (WIDTH.div_ceil(2), f32::INFINITY);
-    for cut in 3..=WIDTH - 2 {
-        let cost = union(&all[..cut]) + union(&all[cut..]);
-        if cost < best_cost {
-            (best, best_cost) = (cut, cost);
-        }
-    }
-    best
 }
