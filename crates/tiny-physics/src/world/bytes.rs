@@ -15,7 +15,7 @@ use std::sync::OnceLock;
 /// The first bytes of a frame.
 const MAGIC: [u8; 4] = *b"tpw1";
 /// Goes up whenever the bytes of the same world change.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 /// Magic, version, length, hash.
 const HEADER: usize = 4 + 4 + 8 + 8;
 
