@@ -42,6 +42,16 @@ impl Target {
         };
         if used.is_nan() { f64::INFINITY } else { used.max(0.0) }
     }
+
+    /// What a perfect engine gets, where that is a number.
+    pub fn reference(self) -> Option<f64> {
+        let ideal = match self {
+            Self::AtMost(_) => 0.0,
+            Self::AtLeast { ideal, .. } => ideal,
+            Self::Within { value, .. } => value,
+        };
+        ideal.is_finite().then_some(ideal)
+    }
 }
 
 impl fmt::Display for Target {
@@ -68,5 +78,15 @@ mod tests {
         assert_eq!(Target::AtLeast { limit: 600.0, ideal: f64::INFINITY }.use_of(300.0), 2.0);
         assert_eq!(Target::Within { value: 1.0, tolerance: 0.5 }.use_of(0.5), 1.0);
         assert_eq!(Target::AtMost(1.0).use_of(f64::NAN), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_perfect_engine_passes() {
+        let within = Target::Within { value: 9.5, tolerance: 0.5 };
+        for target in [Target::AtMost(2.0), Target::AtLeast { limit: 3.0, ideal: 4.0 }, within] {
+            let reference = target.reference().expect("a number");
+            assert_eq!(target.use_of(reference), 0.0, "{target}");
+        }
+        assert_eq!(Target::AtLeast { limit: 1.0, ideal: f64::INFINITY }.reference(), None);
     }
 }

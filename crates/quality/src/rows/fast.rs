@@ -46,8 +46,7 @@ pub(super) fn thin_wall(lab: &mut Lab<'_>) -> Vec<Measure> {
             through as f64,
             "",
             Target::AtMost(0.0),
-        )
-        .reference("0", "0"),
+        ),
         Measure::new(
             format!("{shots} pairs head on, past each other"),
             passed as f64,
@@ -92,8 +91,7 @@ pub(super) fn tiles(lab: &mut Lab<'_>) -> Vec<Measure> {
                 kept,
                 "",
                 Target::AtLeast { limit: 0.999, ideal: 1.0 },
-            )
-            .reference("0.37", "0.58"),
+            ),
         );
         measures.push(Measure::new(
             format!("{floor}, greatest hop"),
