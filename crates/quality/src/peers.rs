@@ -181,7 +181,11 @@ mod tests {
                 .collect();
             assert_eq!(recorded, measured, "{variant:?}; measure anew: {COMMAND}");
             for report in &reports {
-                assert!(peers.beside(variant, report).iter().all(Option::is_some), "{}", report.name);
+                assert!(
+                    peers.beside(variant, report).iter().all(Option::is_some),
+                    "{}",
+                    report.name
+                );
             }
         }
     }

@@ -1,7 +1,8 @@
 //! The table of results: ours beside the other engines'.
 
-use crate::peers::{Figure, PeerMeasure, digits};
+use crate::peers::{Figure, PeerMeasure};
 use crate::report::Report;
+use crate::target::plain;
 
 /// Names of the columns.
 pub const HEADER: [&str; 10] =
@@ -23,7 +24,7 @@ pub fn cells(report: &Report, peers: &[Option<&PeerMeasure>]) -> Vec<[String; 10
             measure.metric.clone(),
             measure.unit.into(),
             Figure::of(measure.value).short(),
-            measure.target.reference().map_or_else(|| "-".into(), plain),
+            measure.target.reference().map_or_else(|| "-".into(), |value| plain(value).to_string()),
             short(peer.map(|peer| &peer.box2d)),
             short(peer.map(|peer| &peer.rapier)),
             measure.target.to_string(),
@@ -31,11 +32,6 @@ pub fn cells(report: &Report, peers: &[Option<&PeerMeasure>]) -> Vec<[String; 10
         ]
     };
     report.measures.iter().enumerate().map(line).collect()
-}
-
-/// A reference: as written in the row, without zeros that say nothing.
-fn plain(value: f64) -> String {
-    if value == 0.0 || value.abs() < 0.000_1 { digits(value) } else { format!("{}", (value * 1e4).round() / 1e4) }
 }
 
 /// One line of the table, cells padded to the columns' widths.

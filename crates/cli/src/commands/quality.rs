@@ -3,9 +3,9 @@
 use crate::args::QualityArgs;
 use crate::failure::{Failure, Outcome};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde::Serialize;
 use std::io::{IsTerminal, Write, stderr, stdout};
 use std::time::{Duration, Instant};
-use serde::Serialize;
 use tiny_physics_quality::{
     PEERS_COMMAND, PeerMeasure, Peers, Report, Row, Variant, find, our_engine, rows, table,
 };
@@ -50,9 +50,8 @@ fn print_summary(
 ) -> Outcome {
     let passed = reports.iter().filter(|report| report.pass).count();
     let count = |figure| {
-        let passes = |report: &&Report| {
-            table::peer_passes(report, &peers.beside(variant, report), figure)
-        };
+        let passes =
+            |report: &&Report| table::peer_passes(report, &peers.beside(variant, report), figure);
         reports.iter().filter(passes).count()
     };
     let (box2d, rapier) = (count(|peer| &peer.box2d), count(|peer| &peer.rapier));

@@ -85,14 +85,12 @@ pub(super) fn tiles(lab: &mut Lab<'_>) -> Vec<Measure> {
             highest = greatest([highest, trial.moved(slider).y].into_iter());
         });
         let kept = f64::from(trial.velocity(slider).x / speed);
-        measures.push(
-            Measure::new(
-                format!("{floor}, speed kept"),
-                kept,
-                "",
-                Target::AtLeast { limit: 0.999, ideal: 1.0 },
-            ),
-        );
+        measures.push(Measure::new(
+            format!("{floor}, speed kept"),
+            kept,
+            "",
+            Target::AtLeast { limit: 0.999, ideal: 1.0 },
+        ));
         measures.push(Measure::new(
             format!("{floor}, greatest hop"),
             1000.0 * highest,

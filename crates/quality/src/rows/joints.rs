@@ -186,14 +186,12 @@ pub(super) fn pendulum_period(lab: &mut Lab<'_>) -> Vec<Measure> {
     });
     let last = 2 * SWINGS as usize;
     let measured = passed.get(last).map_or(f64::INFINITY, |end| (end - passed[0]) / SWINGS);
-    vec![
-        Measure::new(
-            "error of the period",
-            100.0 * (measured / period - 1.0),
-            "%",
-            Target::Within { value: 0.0, tolerance: 0.01 },
-        ),
-    ]
+    vec![Measure::new(
+        "error of the period",
+        100.0 * (measured / period - 1.0),
+        "%",
+        Target::Within { value: 0.0, tolerance: 0.01 },
+    )]
 }
 
 /// How much lower a pendulum swings after 60 s.
@@ -204,14 +202,12 @@ pub(super) fn pendulum_apex(lab: &mut Lab<'_>) -> Vec<Measure> {
     let mut apex = -length;
     let swing = 7.5 / omega;
     lab.run(&mut trial, swing, |trial| apex = apex.max(trial.position(ball).y));
-    vec![
-        Measure::new(
-            "60 s, apex lost",
-            -apex / length,
-            "m of 1 m",
-            Target::Within { value: 0.0, tolerance: 0.005 },
-        ),
-    ]
+    vec![Measure::new(
+        "60 s, apex lost",
+        -apex / length,
+        "m of 1 m",
+        Target::Within { value: 0.0, tolerance: 0.005 },
+    )]
 }
 
 /// A crate on a damped spring: frequency and logarithmic decrement against the formulas.

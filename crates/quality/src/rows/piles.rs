@@ -162,14 +162,12 @@ pub(super) fn far_away(lab: &mut Lab<'_>) -> Vec<Measure> {
     });
     let crates = 1..near.scene().bodies.len();
     let difference = greatest(crates.map(|body| difference(&near, &far, body)));
-    vec![
-        Measure::new(
-            format!("base {base}, {distance} m away, difference from the one at the origin"),
-            1000.0 * difference,
-            "mm",
-            Target::AtMost(1.0),
-        ),
-    ]
+    vec![Measure::new(
+        format!("base {base}, {distance} m away, difference from the one at the origin"),
+        1000.0 * difference,
+        "mm",
+        Target::AtMost(1.0),
+    )]
 }
 
 fn difference(near: &Trial, far: &Trial, body: usize) -> f64 {

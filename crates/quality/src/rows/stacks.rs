@@ -83,9 +83,7 @@ pub(super) fn heavy_tower(lab: &mut Lab<'_>) -> Vec<Measure> {
     let mut trial = lab.build(scene);
     let overlap = deepest_of_tower(lab, &mut trial, heavy, 60.0);
     let metric = format!("{light} crates under one of {ratio}:1, 60 s, deepest overlap");
-    vec![
-        Measure::new(metric, 1000.0 * overlap, "mm", Target::AtMost(25.0)),
-    ]
+    vec![Measure::new(metric, 1000.0 * overlap, "mm", Target::AtMost(25.0))]
 }
 
 /// Deepest overlap in a tower over some seconds; infinite if it falls.
@@ -124,12 +122,10 @@ pub(super) fn stack(lab: &mut Lab<'_>) -> Vec<Measure> {
         // A tower that fell over has not sunk.
         let sag = if sideways < 0.5 { sag } else { f64::INFINITY };
         let metric = format!("{count} crates, 60 s, sag");
-        measures
-            .push(Measure::new(metric, sag, "m", Target::AtMost(limit)));
+        measures.push(Measure::new(metric, sag, "m", Target::AtMost(limit)));
         let metric = format!("{count} crates, 60 s, sideways");
         let target = Target::AtMost(0.1);
-        measures
-            .push(Measure::new(metric, 1000.0 * sideways, "mm", target));
+        measures.push(Measure::new(metric, 1000.0 * sideways, "mm", target));
     }
     measures
 }
