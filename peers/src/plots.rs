@@ -66,9 +66,9 @@ fn overview(path: &Path) -> Result<(), String> {
 }
 
 /// A row in all engines, recorded every so many steps, in the order of [`chart::ENGINES`].
-fn record(engines: &Engines, row: u32, every: u32) -> Result<Vec<Run>, String> {
+fn record(engines: &Engines, (row, other): (u32, bool), every: u32) -> Result<Vec<Run>, String> {
     eprintln!("recording row {row}");
-    let job = QualityJob { row, other: false, tape: Some(every) };
+    let job = QualityJob { row, other, tape: Some(every) };
     let tapes = |answer| match answer {
         Ok(Answer::Played(played)) => Ok(Run { tapes: played.tapes }),
         Ok(Answer::Failed(reason)) => Err(reason),
@@ -106,7 +106,7 @@ fn greatest(tape: &Tape, number: impl Fn(usize) -> Option<f64>) -> Option<f64> {
 
 /// Towers of 100 crates: how far the top sinks, and how far the worst crate goes sideways.
 fn stack(engines: &Engines, path: &Path) -> Result<(), String> {
-    let runs = record(engines, 6, 12)?;
+    let runs = record(engines, (6, false), 12)?;
     let sag = lines(&runs, 1, |tape, frame| {
         let top = tape.bodies.len() - 1;
         Some(place(tape, 0, top)?[1] - place(tape, frame, top)?[1])
@@ -138,7 +138,7 @@ fn stack(engines: &Engines, path: &Path) -> Result<(), String> {
 
 /// A crate on another of a thousandth of its weight: how deep they overlap; and the tower of row 3 as it stands.
 fn heavy(engines: &Engines, path: &Path) -> Result<(), String> {
-    let runs = record(engines, 3, 30)?;
+    let runs = record(engines, (3, false), 30)?;
     let views: Vec<_> = runs.iter().map(|run| run.tapes.first().map(|tape| (tape, 20))).collect();
     let window = chart::Window { x: (-3.2, 3.2), y: (-0.6, 5.6), circle: None };
     chart::worlds(
@@ -151,7 +151,7 @@ fn heavy(engines: &Engines, path: &Path) -> Result<(), String> {
 
 /// The chain of 30 links with a ball of 1000 times a link's weight, on its way.
 fn chain(engines: &Engines, path: &Path) -> Result<(), String> {
-    let runs = record(engines, 4, 30)?;
+    let runs = record(engines, (4, false), 30)?;
     let views: Vec<_> = runs.iter().map(|run| run.tapes.get(1).map(|tape| (tape, 20))).collect();
     let circle = Some((30.5, "as far as the ball may get"));
     let window = chart::Window { x: (-40.0, 40.0), y: (-70.0, 5.0), circle };
@@ -165,7 +165,7 @@ fn chain(engines: &Engines, path: &Path) -> Result<(), String> {
 
 /// A pyramid of 40 rows: how far the worst crate has gone since second 1.
 fn pyramid(engines: &Engines, path: &Path) -> Result<(), String> {
-    let runs = record(engines, 7, 30)?;
+    let runs = record(engines, (7, false), 30)?;
     let drift = lines(&runs, 0, |tape, frame| {
         let moved = |b| {
             let ([x, y], [from_x, from_y]) = (place(tape, frame, b)?, place(tape, 2, b)?);
@@ -187,7 +187,7 @@ fn pyramid(engines: &Engines, path: &Path) -> Result<(), String> {
 
 /// A box without friction over tiles: its speed.
 fn tiles(engines: &Engines, path: &Path) -> Result<(), String> {
-    let runs = record(engines, 23, 6)?;
+    let runs = record(engines, (23, true), 6)?;
     let speed = |world| {
         lines(&runs, world, |tape, frame| {
             let (slider, before) = (tape.bodies.len() - 1, frame.checked_sub(1)?);
@@ -195,10 +195,10 @@ fn tiles(engines: &Engines, path: &Path) -> Result<(), String> {
         })
     };
     let (separate, one) = (speed(0), speed(1));
-    let (time, y) = (Axis::linear("seconds", 0.0, 5.0), Axis::linear("", 0.0, 11.0));
+    let (time, y) = (Axis::linear("seconds", 0.0, 5.0), Axis::linear("", 0.0, 22.0));
     chart::charts(
         path,
-        "A box without friction slides at 10 m/s over a floor of tiles",
+        "A box without friction slides at 20 m/s over a floor of tiles",
         &[
             Chart {
                 title: "tiles on bodies of their own: speed (m/s)",
