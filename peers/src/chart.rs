@@ -120,7 +120,7 @@ fn legend(svg: &mut Svg, mut x: f64, y: f64, lines: bool) {
             svg.disk((x + 18.0, y), 5.0, color, Stroke { color, width: 1.0, dashes: "" });
         }
         svg.text((x + 32.0, y + 4.5), 13.0, Anchor::Start, INK, name);
-        x += 50.0 + 7.6 * name.len() as f64;
+        x += 54.0 + 7.0 * name.len() as f64;
     }
 }
 
@@ -176,7 +176,7 @@ pub fn worlds(
     let mut svg = Svg::new(WIDTH, TOP + panel_height + 20.0);
     svg.text((GAP, 28.0), 17.0, Anchor::Start, INK, title);
     if let Some((_, meaning)) = window.circle {
-        svg.text((WIDTH - GAP, 58.0), 12.5, Anchor::End, INK, &format!("dashed: {meaning}"));
+        svg.text((WIDTH - GAP, 28.0), 12.5, Anchor::End, INK, &format!("dashed: {meaning}"));
     }
     for (i, view) in views.iter().enumerate() {
         let left = GAP + (panel_width + GAP) * i as f64;
@@ -258,7 +258,8 @@ pub fn overview(path: &Path, rows: &[Dots]) -> Result<(), String> {
         svg.line(&[(x(tick), top), (x(tick), bottom)], GRID);
         svg.text((x(tick), bottom + 18.0), 12.0, Anchor::Middle, INK, &tick_text(tick));
     }
-    let note = "times what is allowed; at the left edge 0.001 or less, at the right edge 1,000 or more, cross: lost the scene";
+    let note =
+        "times what the target allows; a cross fell apart, or is not 0 where 0 is the target";
     svg.text((WIDTH - 40.0, bottom + 40.0), 12.0, Anchor::End, INK, note);
     svg.line(
         &[(x(1.0), top - 6.0), (x(1.0), bottom)],

@@ -1,6 +1,6 @@
 //! The pictures of `docs/quality.md`: rows of the quality suite in all engines, drawn from what happened.
 
-use crate::chart::{self, Axis, Chart, Series};
+use crate::chart::{self, Axis, Chart, Series, Window};
 use crate::quality::Engines;
 use clap::Args;
 use peers_worker::{Answer, QualityJob, Tape};
@@ -29,6 +29,8 @@ pub fn run(args: &PlotsArgs) -> Result<(), String> {
     let out = |name: &str| args.out.join(name);
     stack(&engines, &out("quality-stack.svg"))?;
     heavy(&engines, &out("quality-heavy.svg"))?;
+    tower(&engines, &out("quality-tower.svg"))?;
+    billiards(&engines, &out("quality-billiards.svg"))?;
     chain(&engines, &out("quality-chain.svg"))?;
     pyramid(&engines, &out("quality-pyramid.svg"))?;
     tiles(&engines, &out("quality-tiles.svg"))?;
@@ -136,53 +138,82 @@ fn stack(engines: &Engines, path: &Path) -> Result<(), String> {
     )
 }
 
-/// A crate on another of a thousandth of its weight: how deep they overlap; and the tower of row 3 as it stands.
+/// A crate on a lighter one: how deep anything overlaps, until it falls.
 fn heavy(engines: &Engines, path: &Path) -> Result<(), String> {
+    let runs = record(engines, (2, false), 6)?;
+    let overlap = |world| {
+        lines(&runs, world, |tape, frame| {
+            let ([_, light], [x, heavy]) = (place(tape, frame, 1)?, place(tape, frame, 2)?);
+            let stands = x.abs() < 0.5 && heavy > 1.0;
+            // Crates of 1 m on y = 0, upright as long as they stand.
+            stands.then(|| 1000.0 * (0.5 - light).max(1.0 - (heavy - light)))
+        })
+    };
+    let (hundred, thousand) = (overlap(0), overlap(1));
+    let (time, y) = (Axis::linear("seconds", 0.0, 10.0), Axis::log("", 0.1, 1000.0));
+    let chart = |title, series| Chart { title, x: time, y, series };
+    chart::charts(
+        path,
+        "A heavy crate on a light one: how deep they overlap, until it falls",
+        &[chart("100 times as heavy (mm)", &hundred), chart("1000 times as heavy (mm)", &thousand)],
+    )
+}
+
+/// Light crates under a heavy one after ten seconds.
+fn tower(engines: &Engines, path: &Path) -> Result<(), String> {
     let runs = record(engines, (3, false), 30)?;
     let views: Vec<_> = runs.iter().map(|run| run.tapes.first().map(|tape| (tape, 20))).collect();
-    let window = chart::Window { x: (-3.2, 3.2), y: (-0.6, 5.6), circle: None };
-    chart::worlds(
-        path,
-        "Four crates under one of 1000 times their weight, after 10 s",
-        &window,
-        &views,
-    )
+    let window = Window { x: (-3.2, 3.2), y: (-0.6, 5.6), circle: None };
+    let title = "Four crates under one of 1000 times their weight, after 10 s";
+    chart::worlds(path, title, &window, &views)
 }
 
-/// The chain of 30 links with a ball of 1000 times a link's weight, on its way.
+/// The chain of 30 links with a ball of 1000 times a link's weight, when the ball is farthest away.
 fn chain(engines: &Engines, path: &Path) -> Result<(), String> {
-    let runs = record(engines, (4, false), 30)?;
-    let views: Vec<_> = runs.iter().map(|run| run.tapes.get(1).map(|tape| (tape, 20))).collect();
-    let circle = Some((30.5, "as far as the ball may get"));
-    let window = chart::Window { x: (-40.0, 40.0), y: (-70.0, 5.0), circle };
-    chart::worlds(
-        path,
-        "A chain of 30 m with a ball of 1000 times a link's weight, after 10 s",
-        &window,
-        &views,
-    )
+    let runs = record(engines, (4, false), 2)?;
+    let farthest = |tape: &Tape| {
+        let far = |frame: usize| {
+            let [x, y] = place(tape, frame, tape.bodies.len() - 1).unwrap_or_default();
+            x.hypot(y)
+        };
+        (0..tape.frames.len()).max_by(|&a, &b| far(a).total_cmp(&far(b))).unwrap_or_default()
+    };
+    let views: Vec<_> =
+        runs.iter().map(|run| run.tapes.get(1).map(|tape| (tape, farthest(tape)))).collect();
+    let circle = Some((30.0, "as far as 30 links reach"));
+    let window = Window { x: (-33.0, 33.0), y: (-56.0, 4.0), circle };
+    let title = "A ball of 1000 times a link's weight on 30 links, when longest";
+    chart::worlds(path, title, &window, &views)
 }
 
-/// A pyramid of 40 rows: how far the worst crate has gone since second 1.
+/// A pyramid of 40 rows: how far the worst crate is off to the side.
 fn pyramid(engines: &Engines, path: &Path) -> Result<(), String> {
-    let runs = record(engines, (7, false), 30)?;
-    let drift = lines(&runs, 0, |tape, frame| {
-        let moved = |b| {
-            let ([x, y], [from_x, from_y]) = (place(tape, frame, b)?, place(tape, 2, b)?);
-            Some((x - from_x).hypot(y - from_y) * 1000.0)
-        };
-        if frame > 2 { greatest(tape, moved) } else { None }
+    let runs = record(engines, (7, false), 3)?;
+    let sideways = lines(&runs, 0, |tape, frame| {
+        let moved = |b| Some((place(tape, frame, b)?[0] - place(tape, 0, b)?[0]).abs() * 1000.0);
+        if frame <= 120 { greatest(tape, moved) } else { None }
     });
     chart::charts(
         path,
-        "A pyramid with 40 crates in its lowest row",
+        "A pyramid with 40 crates in its lowest row: the first six seconds",
         &[Chart {
-            title: "how far the worst crate has moved since the first second (mm)",
-            x: Axis::linear("seconds", 0.0, 60.0),
-            y: Axis::log("", 0.01, 100.0),
-            series: &drift,
+            title: "how far the worst crate is off to the side (mm)",
+            x: Axis::linear("seconds", 0.0, 6.0),
+            y: Axis::linear("", 0.0, 60.0),
+            series: &sideways,
         }],
     )
+}
+
+/// A ball hits fifteen head on: half a second later.
+fn billiards(engines: &Engines, path: &Path) -> Result<(), String> {
+    let runs = record(engines, (20, false), 1)?;
+    let last = |tape: &Tape| tape.frames.len().saturating_sub(1);
+    let views: Vec<_> =
+        runs.iter().map(|run| run.tapes.first().map(|tape| (tape, last(tape)))).collect();
+    let window = Window { x: (-5.0, 8.0), y: (-4.2, 4.2), circle: None };
+    let title = "A ball (grey) has hit fifteen head on, from the left: half a second later";
+    chart::worlds(path, title, &window, &views)
 }
 
 /// A box without friction over tiles: its speed.

@@ -27,6 +27,9 @@ pub struct QualityArgs {
     /// Print one JSON object a row instead of a table.
     #[arg(long)]
     json: bool,
+    /// Print the table as Markdown, as it stands in docs/quality.md.
+    #[arg(long, conflicts_with = "json")]
+    markdown: bool,
     /// Play all rows in both variants and write the other engines' figures to crates/quality/peers.json, from where
     /// `tiny-physics quality` has its columns.
     #[arg(long, conflicts_with_all = ["rows", "variant"])]
@@ -60,7 +63,7 @@ pub fn run(args: &QualityArgs) -> Result<(), String> {
         if args.json {
             print_json(&reports, &record, variant)?;
         } else {
-            print_table(&reports, &record, variant);
+            print_table(&reports, &record, variant, args.markdown);
         }
     }
     if args.write { write(&record) } else { Ok(()) }
@@ -172,14 +175,24 @@ fn column(
     }
 }
 
-fn print_table(reports: &[Report], record: &Peers, variant: Variant) {
+fn print_table(reports: &[Report], record: &Peers, variant: Variant, markdown: bool) {
     println!("\n{variant:?} variant: {}, {}", record.box2d, record.rapier);
-    println!("{}", table::line(&table::HEADER));
+    let line = |cells: &[String; 10]| {
+        if markdown { format!("| {} |", cells.join(" | ")) } else { table::line(cells) }
+    };
+    println!("{}", line(&table::HEADER.map(String::from)));
+    if markdown {
+        println!("{}|", "|---".repeat(table::HEADER.len()));
+    }
     let mut notes = Vec::new();
     for report in reports {
         let peers = record.beside(variant, report);
         for cells in table::cells(report, &peers) {
-            println!("{}", table::line(&cells));
+            // A bar would end a cell of Markdown.
+            println!(
+                "{}",
+                line(&cells.map(|cell| cell.replace('|', if markdown { "\\|" } else { "|" })))
+            );
         }
         for peer in peers.iter().flatten() {
             for (engine, figure) in [("Box2D", &peer.box2d), ("Rapier", &peer.rapier)] {
