@@ -84,3 +84,26 @@ pub fn shape_def(def: &ShapeDef) -> b2ShapeDef {
     out.enableContactEvents = false;
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tiny_physics::Polygon;
+
+    #[test]
+    fn thin_cards_are_boxes() {
+        let card = ShapeDef::new(Polygon::rect(0.001, 0.2).expect("positive sizes"));
+        let card = card.offset(Vec2::new(3.0, 0.0));
+        let Some(Geometry::Polygon(polygon)) = geometry(&card) else { panic!("no polygon") };
+        assert_eq!(polygon.count, 4);
+        let xs = polygon.vertices[..4].iter().map(|v| v.x);
+        assert!(xs.clone().fold(0.0, f32::max) < 3.0011 && xs.fold(9.0, f32::min) > 2.9989);
+    }
+
+    #[test]
+    fn what_box2d_cannot_make_is_told() {
+        let corners = [Vec2::ZERO, Vec2::new(0.001, 0.0), Vec2::new(0.0, 0.001)];
+        let tiny = Polygon::hull(&corners).expect("a triangle");
+        assert!(geometry(&ShapeDef::new(tiny)).is_none());
+    }
+}

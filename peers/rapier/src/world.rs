@@ -268,3 +268,32 @@ fn body_state(body: &RigidBody) -> BodyState {
         spin: body.angvel().into(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tiny_physics::Vec2;
+
+    #[test]
+    fn tells_how_bodies_are_turned() {
+        let mut world = Rapier::create(&Setup {
+            gravity: Vec2::ZERO,
+            settings: &Settings::default(),
+            tuning: Tuning::Own,
+            threads: 1,
+            setting: "",
+        })
+        .expect("one thread and no setting");
+        let own = IntegrationParameters::default();
+        assert_eq!(world.world.integration_parameters.contact_softness, own.contact_softness);
+        let body = tiny_physics::RigidBody::dynamic()
+            .shape(Shape::Circle { radius: 0.5 })
+            .angle(0.3)
+            .angular_velocity(2.0);
+        let body = world.add_body(&body);
+        assert!((world.angle(body) - 0.3).abs() < 1e-6);
+        world.step(0.1);
+        assert!((world.angle(body) - 0.5).abs() < 1e-3, "{}", world.angle(body));
+        assert!((world.angular_velocity(body) - 2.0).abs() < 1e-6);
+    }
+}
