@@ -18,7 +18,7 @@ pub fn time(program: &Path, job: &Job) -> Result<Report, String> {
     match ask(program, &Task::Time(job.clone()), DAY)? {
         Answer::Done(report) => Ok(report),
         Answer::Failed(reason) => Err(reason),
-        Answer::Played(_) => Err("the worker played a row instead".into()),
+        _ => Err("the worker did something else instead".into()),
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod chart;
 mod engines;
+mod frames;
 mod honesty;
 mod launch;
 mod plots;
@@ -55,6 +56,8 @@ enum Command {
     Quality(quality::QualityArgs),
     /// Draw the pictures of docs/quality.md: rows of the quality suite, ours beside the others.
     Plots(plots::PlotsArgs),
+    /// Measure what it costs to keep a world of 10,000 touching bodies and to go back to it.
+    Frames(frames::FramesArgs),
 }
 
 fn main() -> std::process::ExitCode {
@@ -63,6 +66,7 @@ fn main() -> std::process::ExitCode {
         None => compare(&args),
         Some(Command::Quality(args)) => quality::run(args),
         Some(Command::Plots(args)) => plots::run(args),
+        Some(Command::Frames(args)) => frames::run(args),
     };
     match done {
         Ok(()) => std::process::ExitCode::SUCCESS,

@@ -74,7 +74,7 @@ fn record(engines: &Engines, (row, other): (u32, bool), every: u32) -> Result<Ve
     let tapes = |answer| match answer {
         Ok(Answer::Played(played)) => Ok(Run { tapes: played.tapes }),
         Ok(Answer::Failed(reason)) => Err(reason),
-        Ok(Answer::Done(_)) => Err("the worker timed a scene instead".into()),
+        Ok(_) => Err("the worker did something else instead".into()),
         // A crash leaves no tape: its lines are missing.
         Err(how) => {
             eprintln!("row {row}: a worker crashed: {how}");

@@ -170,7 +170,7 @@ fn column(
             Ok((played.engine, played.measures.iter().map(|m| value(m.value)).collect()))
         }
         Ok(Answer::Failed(reason)) => Err(reason),
-        Ok(Answer::Done(_)) => Err("the worker timed a scene instead".into()),
+        Ok(_) => Err("the worker did something else instead".into()),
         Err(how) => Ok((String::new(), all(Figure::Crashed(how)))),
     }
 }

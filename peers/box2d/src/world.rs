@@ -50,6 +50,22 @@ impl Engine for Box2d {
         Some(format!("joint not translated to Box2D: {:?}", strange.def.kind))
     }
 
+    fn save(&self) -> Option<Vec<u8>> {
+        // SAFETY: the world lives until drop; without a buffer the call only tells a size.
+        let size = unsafe { b2World_Snapshot(self.world, core::ptr::null_mut(), 0) };
+        let mut bytes = vec![0; usize::try_from(size).ok()?];
+        // SAFETY: the buffer has `size` bytes.
+        let written = unsafe { b2World_Snapshot(self.world, bytes.as_mut_ptr(), size) };
+        (written == size && size > 0).then_some(bytes)
+    }
+
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), String> {
+        let size = i32::try_from(bytes.len()).map_err(|error| error.to_string())?;
+        // SAFETY: the world lives until drop, no step is under way, and `bytes` has `size` bytes.
+        let done = unsafe { b2World_Restore(self.world, bytes.as_ptr(), size) };
+        if done { Ok(()) } else { Err("Box2D refuses the snapshot".into()) }
+    }
+
     fn summary(&self) -> Summary {
         let live = || self.bodies.iter().flatten();
         // SAFETY: the world lives until drop.

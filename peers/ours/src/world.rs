@@ -1,6 +1,7 @@
 //! The engine's own world as a host of scenes.
 
-use peers_worker::{BodyState, Engine, Host, Setup, Subject, Summary};
+use peers_worker::{BodyState, Engine, Host, Setup, Subject, Summary, best_ms};
+use std::hint::black_box;
 use tiny_physics::{
     Aabb, BodyId, BodyKind, DVec2, JointDef, JointId, QueryFilter, RigidBody, Rot, Shape,
     SimdLevel, Transform, Vec2, World,
@@ -23,6 +24,19 @@ impl Engine for Ours {
             world.set_simd(level).map_err(|error| error.to_string())?;
         }
         Ok(Self { world, bodies: Vec::new(), joints: Vec::new() })
+    }
+
+    fn save(&self) -> Option<Vec<u8>> {
+        Some(self.world.to_bytes())
+    }
+
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), String> {
+        self.world.restore_bytes(bytes).map_err(|error| error.to_string())
+    }
+
+    fn clone_ms(&self) -> Option<f64> {
+        let mut frame = self.world.clone();
+        Some(best_ms(|| frame.clone_from(black_box(&self.world))))
     }
 
     fn summary(&self) -> Summary {

@@ -56,6 +56,17 @@ impl Engine for Rapier {
         Some(format!("joint not translated to Rapier: {:?}", strange.def.kind))
     }
 
+    #[cfg(feature = "frames")]
+    fn save(&self) -> Option<Vec<u8>> {
+        bincode::serialize(&self.world).ok()
+    }
+
+    #[cfg(feature = "frames")]
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), String> {
+        self.world = bincode::deserialize(bytes).map_err(|error| error.to_string())?;
+        Ok(())
+    }
+
     fn summary(&self) -> Summary {
         let (mut contacts, mut overlap) = (0, 0.0_f32);
         for pair in self.world.narrow_phase.contact_pairs() {

@@ -44,6 +44,24 @@ pub trait Engine: Subject + Sized {
         None
     }
 
+    /// The whole world as bytes; `None` where the engine or this build has no such thing.
+    fn save(&self) -> Option<Vec<u8>> {
+        None
+    }
+
+    /// Goes back to saved bytes.
+    ///
+    /// # Errors
+    /// The engine cannot, or refuses the bytes.
+    fn restore(&mut self, _bytes: &[u8]) -> Result<(), String> {
+        Err("this engine or build cannot restore a world".into())
+    }
+
+    /// Time to copy the world into another that has the memory already, milliseconds.
+    fn clone_ms(&self) -> Option<f64> {
+        None
+    }
+
     /// The world now.
     fn summary(&self) -> Summary;
 

@@ -1,12 +1,13 @@
 //! What the engines' worker programs share.
 //!
 //! A worker is one engine in one configuration. It reads one [`Task`] as a line of JSON and answers with a line of
-//! JSON: it times a scene ([`Job`], [`Report`]) or plays a row of the quality suite ([`QualityJob`], [`Played`]),
+//! JSON: it times a scene ([`Job`], [`Report`]) or plays a row of the quality suite ([`QualityJob`], [`Played`]), or measures [`Frames`],
 //! through the engine's public interface. Every task runs in a process of its own, so that no engine inherits
 //! another's heap, threads or caches, and a crash costs one run.
 
 mod clock;
 mod engine;
+mod frames;
 mod protocol;
 mod quality;
 mod run;
@@ -15,6 +16,7 @@ mod tape;
 
 pub use clock::{mean, percentile};
 pub use engine::{BodyState, Engine, Setup, Summary, Tuning};
+pub use frames::{Frames, best_ms};
 pub use protocol::{Answer, Job, Measured, Outline, Played, QualityJob, Report, Tape, Task};
 pub use run::serve;
 pub use shapes::centered_box;

@@ -1,6 +1,6 @@
 //! What the runner and the workers say to each other.
 
-use crate::Summary;
+use crate::{Frames, Summary};
 use serde::{Deserialize, Serialize};
 
 /// What a worker is asked to do.
@@ -11,6 +11,8 @@ pub enum Task {
     Time(Job),
     /// Play a row of the quality suite.
     Quality(QualityJob),
+    /// Measure what frames cost.
+    Frames,
 }
 
 /// One run to be made.
@@ -107,6 +109,8 @@ pub enum Answer {
     Done(Report),
     /// The row was played.
     Played(Played),
+    /// Frames were measured.
+    Frames(Frames),
     /// The engine cannot do this; the reason.
     Failed(String),
 }

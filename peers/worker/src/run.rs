@@ -5,7 +5,7 @@
 //! before it (spawning, removing) included.
 
 use crate::clock::{Stopwatch, mean, peak_mib, percentile};
-use crate::{Answer, Engine, Job, Report, Setup, Task, Tuning, quality};
+use crate::{Answer, Engine, Job, Report, Setup, Task, Tuning, frames, quality};
 use std::time::Instant;
 use tiny_physics_scenes::{Options, Player, find};
 
@@ -14,6 +14,7 @@ pub fn serve<E: Engine + 'static>() {
     let answer = read_task().and_then(|task| match task {
         Task::Time(job) => run::<E>(&job).map(Answer::Done),
         Task::Quality(job) => quality::play::<E>(&job).map(Answer::Played),
+        Task::Frames => frames::measure::<E>().map(Answer::Frames),
     });
     match serde_json::to_string(&answer.unwrap_or_else(Answer::Failed)) {
         Ok(line) => println!("{line}"),
