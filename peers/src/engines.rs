@@ -48,7 +48,7 @@ const RAPIER: Config = Config {
 };
 
 /// Everything that can be compared; the first is what ratios refer to where it runs.
-const ALL: [Config; 10] = [
+const ALL: [Config; 11] = [
     OURS,
     Config { name: "ours-scalar", config: "scalar", setting: "scalar", by_default: false, ..OURS },
     Config { name: "ours-sse2", config: "SSE2", setting: "sse2", by_default: false, ..OURS },
@@ -57,6 +57,13 @@ const ALL: [Config; 10] = [
     BOX2D,
     Config { name: "box2d-avx2", config: "AVX2", features: &["avx2"], needs_avx2: true, ..BOX2D },
     RAPIER,
+    Config {
+        name: "rapier-frames",
+        config: "serde",
+        features: &["frames"],
+        by_default: false,
+        ..RAPIER
+    },
     Config {
         name: "rapier-v3",
         config: "x86-64-v3",

@@ -4,12 +4,17 @@
 //! here with its own flags into its own folder. Runs are interleaved, A B C A B C, so that what
 //! disturbs the machine disturbs all. See `README.md` for what is equal and what is not.
 
+mod chart;
 mod engines;
+mod frames;
 mod honesty;
 mod launch;
+mod plots;
+mod quality;
+mod svg;
 mod table;
 
-use clap::Parser;
+use clap::{Parser, Subcommand};
 use engines::Config;
 use peers_worker::{Job, Report};
 use table::Row;
@@ -20,8 +25,10 @@ use table::Row;
 /// step, the 99th percentile, and the ratio of its time to that of tiny-physics; beside them the
 /// figures that show whether all simulated the same.
 #[derive(Parser)]
-#[command(version)]
+#[command(version, args_conflicts_with_subcommands = true)]
 struct Args {
+    #[command(subcommand)]
+    command: Option<Command>,
     /// Scenes to run, by name or by tag (benchmark, box2d, scale, huge, show); `benchmark` if none is given.
     #[arg(value_name = "SCENE")]
     scenes: Vec<String>,
@@ -43,9 +50,25 @@ struct Args {
     json: bool,
 }
 
+#[derive(Subcommand)]
+enum Command {
+    /// Play the quality suite in tiny-physics, Box2D and Rapier, each at its own defaults, and print the table.
+    Quality(quality::QualityArgs),
+    /// Draw the pictures of docs/quality.md: rows of the quality suite, ours beside the others.
+    Plots(plots::PlotsArgs),
+    /// Measure what it costs to keep a world of 10,000 touching bodies and to go back to it.
+    Frames(frames::FramesArgs),
+}
+
 fn main() -> std::process::ExitCode {
     let args = Args::parse();
-    match compare(&args) {
+    let done = match &args.command {
+        None => compare(&args),
+        Some(Command::Quality(args)) => quality::run(args),
+        Some(Command::Plots(args)) => plots::run(args),
+        Some(Command::Frames(args)) => frames::run(args),
+    };
+    match done {
         Ok(()) => std::process::ExitCode::SUCCESS,
         Err(message) => {
             eprintln!("error: {message}");
@@ -105,7 +128,7 @@ fn run_scene(args: &Args, scene: &str, configs: &[Config]) -> Vec<Row> {
                 continue;
             }
             eprintln!("{scene}, {round} of {}: {}", args.repeat, config.name);
-            match launch::run(&config.program(usize::from(args.threads)), &job(config.setting)) {
+            match launch::time(&config.program(usize::from(args.threads)), &job(config.setting)) {
                 Ok(report) => reports[i].push(report),
                 Err(message) => {
                     eprintln!("{scene}: {} is left out: {message}", config.name);

@@ -75,7 +75,9 @@ Examples:
     Bench(BenchArgs),
     /// Measure the engine against scenes whose right answer is known
     #[command(
-        after_help = "Columns 'Box2D' and 'Rapier' are reference figures measured elsewhere (August 2026), not by this run.
+        after_help = "Columns 'Box2D' and 'Rapier' were measured on the same scenes and are part of this program: crates/quality/peers.json,
+which `cargo run --release --manifest-path peers/Cargo.toml -- quality --write` makes anew. 'reference' is what a
+perfect engine gets.
 docs/quality.md says in plain words what each row is.
 
 Examples:

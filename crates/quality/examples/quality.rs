@@ -27,14 +27,12 @@ fn main() {
         for measure in &report.measures {
             let mark = if measure.pass { "ok  " } else { "MISS" };
             println!(
-                "   {mark} {:60} {:>12.5} {} (target {}; {:.2}; {} | {})",
+                "   {mark} {:60} {:>12.5} {} (target {}; {:.2})",
                 measure.metric,
                 measure.value,
                 measure.unit,
                 measure.target,
                 measure.use_of_target(),
-                measure.box2d_reference,
-                measure.rapier_reference
             );
         }
     }

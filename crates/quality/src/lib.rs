@@ -12,15 +12,20 @@
 
 mod golden;
 mod lab;
+mod peers;
 mod report;
 mod rows;
 mod scenery;
+mod still;
 mod subject;
+pub mod table;
 mod target;
 
 pub use golden::{golden, row_hash, row_of};
 pub use lab::{Lab, MakeSubject, Trial, Variant};
+pub use peers::{COMMAND as PEERS_COMMAND, Figure, PeerMeasure, PeerRow, Peers};
 pub use report::{Measure, Report};
 pub use rows::{Row, find, rows};
+pub use still::still;
 pub use subject::{Subject, our_engine};
 pub use target::Target;

@@ -18,26 +18,13 @@ pub struct Measure {
     pub target: Target,
     /// Is it?
     pub pass: bool,
-    /// What Box2D made of the same scene: a figure of QUALITY.md measured elsewhere, August 2026. Empty
-    /// where there is none.
-    pub box2d_reference: &'static str,
-    /// The same for Rapier 0.36.1.
-    pub rapier_reference: &'static str,
 }
 
 impl Measure {
     /// A number and what it has to be.
     pub fn new(metric: impl Into<String>, value: f64, unit: &'static str, target: Target) -> Self {
         let pass = target.use_of(value) <= 1.0;
-        let metric = metric.into();
-        Self { metric, value, unit, target, pass, box2d_reference: "", rapier_reference: "" }
-    }
-
-    /// With what other engines reached, measured elsewhere.
-    pub fn reference(mut self, box2d: &'static str, rapier: &'static str) -> Self {
-        self.box2d_reference = box2d;
-        self.rapier_reference = rapier;
-        self
+        Self { metric: metric.into(), value, unit, target, pass }
     }
 
     /// How much of what is allowed it uses up; up to 1 passes.
@@ -87,6 +74,15 @@ impl Report {
             pass: worst.pass,
             measures,
         }
+    }
+
+    /// The report of the same row with other values for its numbers, in their order.
+    pub fn with_values(mut self, values: &[f64]) -> Self {
+        for (measure, &value) in self.measures.iter_mut().zip(values) {
+            measure.value = value;
+            measure.pass = measure.use_of_target() <= 1.0;
+        }
+        Self::new(self.id, self.name, self.measures)
     }
 
     /// How much of its targets the row uses up at worst; up to 1 passes.

@@ -42,17 +42,34 @@ impl Target {
         };
         if used.is_nan() { f64::INFINITY } else { used.max(0.0) }
     }
+
+    /// What a perfect engine gets, where that is a number.
+    pub fn reference(self) -> Option<f64> {
+        let ideal = match self {
+            Self::AtMost(_) => 0.0,
+            Self::AtLeast { ideal, .. } => ideal,
+            Self::Within { value, .. } => value,
+        };
+        ideal.is_finite().then_some(ideal)
+    }
 }
 
 impl fmt::Display for Target {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::AtMost(limit) if *limit == 0.0 => write!(f, "0"),
-            Self::AtMost(limit) => write!(f, "<= {limit}"),
-            Self::AtLeast { limit, .. } => write!(f, ">= {limit}"),
-            Self::Within { value, tolerance } => write!(f, "{value} +- {tolerance}"),
+            Self::AtMost(limit) => write!(f, "<= {}", plain(*limit)),
+            Self::AtLeast { limit, .. } => write!(f, ">= {}", plain(*limit)),
+            Self::Within { value, tolerance } => {
+                write!(f, "{} +- {}", plain(*value), plain(*tolerance))
+            }
         }
     }
+}
+
+/// A number of a target in six decimals at most: many were worked out from those of single precision.
+pub(crate) fn plain(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
 }
 
 #[cfg(test)]
@@ -68,5 +85,22 @@ mod tests {
         assert_eq!(Target::AtLeast { limit: 600.0, ideal: f64::INFINITY }.use_of(300.0), 2.0);
         assert_eq!(Target::Within { value: 1.0, tolerance: 0.5 }.use_of(0.5), 1.0);
         assert_eq!(Target::AtMost(1.0).use_of(f64::NAN), f64::INFINITY);
+    }
+
+    #[test]
+    fn numbers_are_printed_as_written() {
+        let target = Target::Within { value: f64::from(0.3_f32 * 0.3), tolerance: 0.000_45 };
+        assert_eq!(target.to_string(), "0.09 +- 0.00045");
+        assert_eq!(Target::AtMost(1e-5).to_string(), "<= 0.00001");
+    }
+
+    #[test]
+    fn a_perfect_engine_passes() {
+        let within = Target::Within { value: 9.5, tolerance: 0.5 };
+        for target in [Target::AtMost(2.0), Target::AtLeast { limit: 3.0, ideal: 4.0 }, within] {
+            let reference = target.reference().expect("a number");
+            assert_eq!(target.use_of(reference), 0.0, "{target}");
+        }
+        assert_eq!(Target::AtLeast { limit: 1.0, ideal: f64::INFINITY }.reference(), None);
     }
 }

@@ -1,13 +1,13 @@
 //! Box2D's world as a host of scenes.
 //!
-//! Everything is set to what the description says; what it does not say (contact recycling, joint
-//! stiffness) stays at Box2D's defaults.
+//! For timing, everything is set to what the description says; what it does not say (contact recycling, joint
+//! stiffness) stays at Box2D's defaults. For quality, so does the solver: [`Tuning`].
 
 use crate::queries;
 use crate::shapes::{Geometry, geometry, rot, shape_def, vec2};
 use boxdd_sys::ffi::*;
-use peers_worker::{BodyState, Engine, Host, Summary};
-use tiny_physics::{BodyKind, DVec2, JointDef, JointKind, Mix, RigidBody, Settings, Shape, Vec2};
+use peers_worker::{BodyState, Engine, Host, Scene, Setup, Subject, Summary, Tuning};
+use tiny_physics::{BodyKind, DVec2, JointDef, JointKind, Mix, RigidBody, Shape, Vec2};
 
 /// A Box2D world and the handles of what a scene put into it.
 pub struct Box2d {
@@ -17,24 +17,53 @@ pub struct Box2d {
     substeps: i32,
 }
 
+/// What Box2D's manual advises.
+const SUBSTEPS: i32 = 4;
+
 impl Engine for Box2d {
-    fn create(
-        gravity: Vec2,
-        settings: &Settings,
-        threads: usize,
-        setting: &str,
-    ) -> Result<Self, String> {
+    fn create(setup: &Setup<'_>) -> Result<Self, String> {
         if !env!("PEERS_CFLAGS").contains("-DNDEBUG") {
             return Err("Box2D was built with its assertions on: build with CFLAGS=-DNDEBUG".into());
         }
-        if !setting.is_empty() {
-            return Err(format!("Box2D has no setting {setting}"));
+        if !setup.setting.is_empty() {
+            return Err(format!("Box2D has no setting {}", setup.setting));
         }
-        let def = world_def(gravity, settings, threads);
+        let def = world_def(setup);
         // SAFETY: `def` began as the default and outlives the call.
         let world = unsafe { b2CreateWorld(&def) };
-        let substeps = settings.substeps as i32;
+        let substeps = match setup.tuning {
+            Tuning::Scene => setup.settings.substeps as i32,
+            Tuning::Own => SUBSTEPS,
+        };
         Ok(Self { world, bodies: Vec::new(), joints: Vec::new(), substeps })
+    }
+
+    fn lacks(scene: &Scene) -> Option<String> {
+        let mut shapes = scene.bodies.iter().flat_map(|body| &body.shapes);
+        if shapes.any(|shape| geometry(shape).is_none()) {
+            return Some("a polygon too small for Box2D".into());
+        }
+        let known = |kind: &JointKind| {
+            matches!(kind, JointKind::Revolute { .. } | JointKind::Distance { .. })
+        };
+        let strange = scene.joints.iter().find(|joint| !known(&joint.def.kind))?;
+        Some(format!("joint not translated to Box2D: {:?}", strange.def.kind))
+    }
+
+    fn save(&self) -> Option<Vec<u8>> {
+        // SAFETY: the world lives until drop; without a buffer the call only tells a size.
+        let size = unsafe { b2World_Snapshot(self.world, core::ptr::null_mut(), 0) };
+        let mut bytes = vec![0; usize::try_from(size).ok()?];
+        // SAFETY: the buffer has `size` bytes.
+        let written = unsafe { b2World_Snapshot(self.world, bytes.as_mut_ptr(), size) };
+        (written == size && size > 0).then_some(bytes)
+    }
+
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), String> {
+        let size = i32::try_from(bytes.len()).map_err(|error| error.to_string())?;
+        // SAFETY: the world lives until drop, no step is under way, and `bytes` has `size` bytes.
+        let done = unsafe { b2World_Restore(self.world, bytes.as_ptr(), size) };
+        if done { Ok(()) } else { Err("Box2D refuses the snapshot".into()) }
     }
 
     fn summary(&self) -> Summary {
@@ -70,6 +99,19 @@ impl Drop for Box2d {
     fn drop(&mut self) {
         // SAFETY: the world was made in `create` and is destroyed only here.
         unsafe { b2DestroyWorld(self.world) }
+    }
+}
+
+impl Subject for Box2d {
+    fn angle(&self, body: usize) -> f64 {
+        // SAFETY: the handle is live while it is on the list.
+        let q = self.bodies[body].map(|id| unsafe { b2Body_GetRotation(id) });
+        q.map_or(0.0, |q| f64::from(q.s).atan2(f64::from(q.c)))
+    }
+
+    fn angular_velocity(&self, body: usize) -> f32 {
+        // SAFETY: as above.
+        self.bodies[body].map_or(0.0, |id| unsafe { b2Body_GetAngularVelocity(id) })
     }
 }
 
@@ -168,22 +210,25 @@ impl Host for Box2d {
     }
 }
 
-fn world_def(gravity: Vec2, settings: &Settings, threads: usize) -> b2WorldDef {
+fn world_def(setup: &Setup<'_>) -> b2WorldDef {
+    let settings = setup.settings;
     // SAFETY: returns a plain value.
     let mut def = unsafe { b2DefaultWorldDef() };
-    def.gravity = vec2(gravity);
-    def.restitutionThreshold = settings.restitution_threshold;
-    def.hitEventThreshold = settings.hit_event_threshold;
-    def.contactHertz = settings.contact_hertz;
-    def.contactDampingRatio = settings.contact_damping_ratio;
-    def.contactSpeed = settings.push_speed;
-    def.maximumLinearSpeed = settings.max_speed;
-    def.enableSleep = settings.sleep;
-    def.enableContinuous = settings.continuous;
+    def.gravity = vec2(setup.gravity);
     def.frictionCallback = mix_callback(settings.friction_mix, Mix::GeometricMean);
     def.restitutionCallback = mix_callback(settings.restitution_mix, Mix::Max);
+    if setup.tuning == Tuning::Scene {
+        def.restitutionThreshold = settings.restitution_threshold;
+        def.hitEventThreshold = settings.hit_event_threshold;
+        def.contactHertz = settings.contact_hertz;
+        def.contactDampingRatio = settings.contact_damping_ratio;
+        def.contactSpeed = settings.push_speed;
+        def.maximumLinearSpeed = settings.max_speed;
+        def.enableSleep = settings.sleep;
+        def.enableContinuous = settings.continuous;
+    }
     // More than one starts Box2D's own scheduler.
-    def.workerCount = threads as i32;
+    def.workerCount = setup.threads as i32;
     def
 }
 
@@ -251,10 +296,14 @@ fn never_turns(body: &RigidBody) -> bool {
 }
 
 fn add_shape(body: b2BodyId, shape: &tiny_physics::ShapeDef) {
+    let Some(geometry) = geometry(shape) else {
+        eprintln!("a shape is left out: degenerate");
+        return;
+    };
     let def = shape_def(shape);
     // SAFETY: `def` began as the default, the geometry outlives the call, the body is live.
     unsafe {
-        match geometry(shape) {
+        match geometry {
             Geometry::Circle(circle) => b2CreateCircleShape(body, &def, &circle),
             Geometry::Capsule(capsule) => b2CreateCapsuleShape(body, &def, &capsule),
             Geometry::Segment(segment) => b2CreateSegmentShape(body, &def, &segment),

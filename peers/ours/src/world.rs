@@ -1,8 +1,9 @@
 //! The engine's own world as a host of scenes.
 
-use peers_worker::{BodyState, Engine, Host, Summary};
+use peers_worker::{BodyState, Engine, Host, Setup, Subject, Summary, best_ms};
+use std::hint::black_box;
 use tiny_physics::{
-    Aabb, BodyId, BodyKind, DVec2, JointDef, JointId, QueryFilter, RigidBody, Rot, Settings, Shape,
+    Aabb, BodyId, BodyKind, DVec2, JointDef, JointId, QueryFilter, RigidBody, Rot, Shape,
     SimdLevel, Transform, Vec2, World,
 };
 
@@ -14,19 +15,28 @@ pub struct Ours {
 }
 
 impl Engine for Ours {
-    fn create(
-        gravity: Vec2,
-        settings: &Settings,
-        threads: usize,
-        setting: &str,
-    ) -> Result<Self, String> {
-        let mut world = World::with_settings(gravity, *settings);
-        world.set_threads(threads);
-        if !setting.is_empty() {
-            let level: SimdLevel = setting.parse()?;
+    fn create(setup: &Setup<'_>) -> Result<Self, String> {
+        // The scene's settings are this engine's defaults, or what the scene says instead.
+        let mut world = World::with_settings(setup.gravity, *setup.settings);
+        world.set_threads(setup.threads);
+        if !setup.setting.is_empty() {
+            let level: SimdLevel = setup.setting.parse()?;
             world.set_simd(level).map_err(|error| error.to_string())?;
         }
         Ok(Self { world, bodies: Vec::new(), joints: Vec::new() })
+    }
+
+    fn save(&self) -> Option<Vec<u8>> {
+        Some(self.world.to_bytes())
+    }
+
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), String> {
+        self.world.restore_bytes(bytes).map_err(|error| error.to_string())
+    }
+
+    fn clone_ms(&self) -> Option<f64> {
+        let mut frame = self.world.clone();
+        Some(best_ms(|| frame.clone_from(black_box(&self.world))))
     }
 
     fn summary(&self) -> Summary {
@@ -71,6 +81,19 @@ impl Ours {
             }
         }
         world.contact_count()
+    }
+}
+
+impl Subject for Ours {
+    fn angle(&self, body: usize) -> f64 {
+        self.world.body(self.bodies[body]).map_or(0.0, |body| {
+            let rotation = body.rotation();
+            f64::from(rotation.s).atan2(f64::from(rotation.c))
+        })
+    }
+
+    fn angular_velocity(&self, body: usize) -> f32 {
+        self.world.body(self.bodies[body]).map_or(0.0, |body| body.angular_velocity())
     }
 }
 

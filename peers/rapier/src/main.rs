@@ -1,5 +1,6 @@
 //! The benchmark scenes in Rapier, through its public interface.
 
+mod belts;
 mod filters;
 mod joints;
 mod queries;

@@ -1,5 +1,6 @@
 //! Shapes and materials translated to Rapier's.
 
+use peers_worker::centered_box;
 use rapier2d::prelude::*;
 use tiny_physics::{Mix, Settings, Shape, ShapeDef, Vec2};
 
@@ -43,13 +44,6 @@ fn geometry(shape: &Shape) -> Option<ColliderBuilder> {
     })
 }
 
-/// Half extents, if the polygon is a box around the origin along the axes.
-fn centered_box(vertices: &[Vec2]) -> Option<Vec2> {
-    let half = vertices.first()?.abs();
-    let is_box = vertices.len() == 4 && vertices.iter().all(|v| v.abs() == half);
-    is_box.then_some(half)
-}
-
 fn rule(mix: Mix) -> CoefficientCombineRule {
     match mix {
         Mix::GeometricMean => CoefficientCombineRule::GeometricMean,
@@ -57,19 +51,5 @@ fn rule(mix: Mix) -> CoefficientCombineRule {
         Mix::Min => CoefficientCombineRule::Min,
         Mix::Max => CoefficientCombineRule::Max,
         Mix::Multiply => CoefficientCombineRule::Multiply,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn boxes_are_recognised() {
-        let v = |x, y| Vec2::new(x, y);
-        let square = [v(-1.0, -2.0), v(1.0, -2.0), v(1.0, 2.0), v(-1.0, 2.0)];
-        assert_eq!(centered_box(&square), Some(v(1.0, 2.0)));
-        assert_eq!(centered_box(&[v(0.0, -1.0), v(2.0, -1.0), v(2.0, 1.0), v(0.0, 1.0)]), None);
-        assert_eq!(centered_box(&square[..3]), None);
     }
 }

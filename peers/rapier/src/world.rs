@@ -1,14 +1,15 @@
 //! Rapier's world as a host of scenes.
 //!
-//! Everything is set to what the description says; what it does not say stays at Rapier's defaults:
+//! For timing, everything is set to what the description says; what it does not say stays at Rapier's defaults:
 //! 4 solver iterations (its substeps) with one pass each, contact recycling on, automatic continuous
-//! collision against fixed colliders.
+//! collision against fixed colliders. For quality, so do the solver and sleeping: [`Tuning`].
 
+use crate::belts::Belts;
 use crate::filters::Filters;
 use crate::joints::joint;
 use crate::queries;
 use crate::shapes::{collider, vector};
-use peers_worker::{BodyState, Engine, Host, Summary};
+use peers_worker::{BodyState, Engine, Host, Scene, Setup, Subject, Summary, Tuning};
 use rapier2d::prelude::*;
 use tiny_physics::{BodyKind, DVec2, JointDef, Settings, Shape, Vec2};
 
@@ -16,32 +17,54 @@ use tiny_physics::{BodyKind, DVec2, JointDef, Settings, Shape, Vec2};
 pub struct Rapier {
     world: PhysicsWorld,
     settings: Settings,
+    tuning: Tuning,
     filters: Filters,
+    belts: Belts,
     bodies: Vec<RigidBodyHandle>,
     joints: Vec<Option<ImpulseJointHandle>>,
 }
 
 impl Engine for Rapier {
-    fn create(
-        gravity: Vec2,
-        settings: &Settings,
-        threads: usize,
-        setting: &str,
-    ) -> Result<Self, String> {
-        if !setting.is_empty() {
-            return Err(format!("Rapier has no setting {setting}"));
+    fn create(setup: &Setup<'_>) -> Result<Self, String> {
+        if !setup.setting.is_empty() {
+            return Err(format!("Rapier has no setting {}", setup.setting));
         }
         let mut world = PhysicsWorld::new();
-        world.gravity = vector(gravity);
-        world.integration_parameters = parameters(settings);
-        set_threads(&mut world, threads)?;
+        world.gravity = vector(setup.gravity);
+        if setup.tuning == Tuning::Scene {
+            world.integration_parameters = parameters(setup.settings);
+        }
+        set_threads(&mut world, setup.threads)?;
         Ok(Self {
             world,
-            settings: *settings,
+            settings: *setup.settings,
+            tuning: setup.tuning,
             filters: Filters::default(),
+            belts: Belts::default(),
             bodies: Vec::new(),
             joints: Vec::new(),
         })
+    }
+
+    fn lacks(scene: &Scene) -> Option<String> {
+        let mut shapes = scene.bodies.iter().flat_map(|body| &body.shapes);
+        if shapes.any(|shape| shape.material.rolling_resistance != 0.0) {
+            return Some("Rapier has no rolling resistance".into());
+        }
+        let strange =
+            scene.joints.iter().find(|joint| crate::joints::joint(&joint.def).is_none())?;
+        Some(format!("joint not translated to Rapier: {:?}", strange.def.kind))
+    }
+
+    #[cfg(feature = "frames")]
+    fn save(&self) -> Option<Vec<u8>> {
+        bincode::serialize(&self.world).ok()
+    }
+
+    #[cfg(feature = "frames")]
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), String> {
+        self.world = bincode::deserialize(bytes).map_err(|error| error.to_string())?;
+        Ok(())
     }
 
     fn summary(&self) -> Summary {
@@ -68,23 +91,44 @@ impl Engine for Rapier {
     }
 }
 
+impl Subject for Rapier {
+    fn angle(&self, body: usize) -> f64 {
+        let body = self.world.bodies.get(self.bodies[body]);
+        body.map_or(0.0, |body| body.rotation().angle().into())
+    }
+
+    fn angular_velocity(&self, body: usize) -> f32 {
+        self.world.bodies.get(self.bodies[body]).map_or(0.0, RigidBody::angvel)
+    }
+}
+
 impl Host for Rapier {
     fn add_body(&mut self, body: &tiny_physics::RigidBody) -> usize {
-        let handle = self.world.insert_body(rigid_body(body, &self.settings));
+        let handle = self.world.insert_body(rigid_body(body, &self.settings, self.tuning));
         let mut colliders = Vec::new();
+        let mut speeds = Vec::new();
         for def in &body.shapes {
             let builder = collider(def, &self.settings).zip(self.filters.groups(def.filter));
             let Some((builder, groups)) = builder else {
                 eprintln!("a shape is left out: degenerate, or the 33rd distinct filter");
                 continue;
             };
-            colliders.push(builder.collision_groups(groups).build());
+            let speed = def.material.tangent_speed;
+            let mut collider = builder.collision_groups(groups).build();
+            if speed != 0.0 {
+                collider.set_active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS);
+            }
+            colliders.push(collider);
+            speeds.push(speed);
         }
         if let Some(mass) = body.mass {
             scale_mass(&mut colliders, mass);
         }
-        for collider in colliders {
-            self.world.insert_collider(collider, Some(handle));
+        for (collider, speed) in colliders.into_iter().zip(speeds) {
+            let collider = self.world.insert_collider(collider, Some(handle));
+            if speed != 0.0 {
+                self.belts.add(collider, speed);
+            }
         }
         self.bodies.push(handle);
         self.bodies.len() - 1
@@ -135,7 +179,7 @@ impl Host for Rapier {
 
     fn step(&mut self, dt: f32) {
         self.world.integration_parameters.dt = dt;
-        self.world.step();
+        self.world.step_with_events(&self.belts, &());
     }
 
     fn ray_cast(&mut self, origin: Vec2, translation: Vec2, mask: u64) -> Option<f32> {
@@ -181,7 +225,7 @@ fn set_threads(_: &mut PhysicsWorld, threads: usize) -> Result<(), String> {
     if threads == 1 { Ok(()) } else { Err("built without threads".into()) }
 }
 
-fn rigid_body(body: &tiny_physics::RigidBody, settings: &Settings) -> RigidBody {
+fn rigid_body(body: &tiny_physics::RigidBody, settings: &Settings, tuning: Tuning) -> RigidBody {
     let kind = match body.kind {
         BodyKind::Static => RigidBodyType::Fixed,
         BodyKind::Kinematic => RigidBodyType::KinematicVelocityBased,
@@ -205,7 +249,7 @@ fn rigid_body(body: &tiny_physics::RigidBody, settings: &Settings) -> RigidBody 
         .ccd_enabled(settings.continuous && body.bullet)
         .enabled(body.enabled)
         .build();
-    if settings.sleep && body.can_sleep {
+    if settings.sleep && body.can_sleep && tuning == Tuning::Scene {
         let activation = out.activation_mut();
         activation.normalized_linear_threshold = body.sleep_speed;
         activation.time_until_sleep = settings.time_to_sleep;
@@ -233,5 +277,34 @@ fn body_state(body: &RigidBody) -> BodyState {
         inertia: body.mass_properties().local_mprops.principal_inertia().into(),
         speed_sq: (speed.x * speed.x + speed.y * speed.y).into(),
         spin: body.angvel().into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tiny_physics::Vec2;
+
+    #[test]
+    fn tells_how_bodies_are_turned() {
+        let mut world = Rapier::create(&Setup {
+            gravity: Vec2::ZERO,
+            settings: &Settings::default(),
+            tuning: Tuning::Own,
+            threads: 1,
+            setting: "",
+        })
+        .expect("one thread and no setting");
+        let own = IntegrationParameters::default();
+        assert_eq!(world.world.integration_parameters.contact_softness, own.contact_softness);
+        let body = tiny_physics::RigidBody::dynamic()
+            .shape(Shape::Circle { radius: 0.5 })
+            .angle(0.3)
+            .angular_velocity(2.0);
+        let body = world.add_body(&body);
+        assert!((world.angle(body) - 0.3).abs() < 1e-6);
+        world.step(0.1);
+        assert!((world.angle(body) - 0.5).abs() < 1e-3, "{}", world.angle(body));
+        assert!((world.angular_velocity(body) - 2.0).abs() < 1e-6);
     }
 }

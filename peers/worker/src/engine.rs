@@ -2,21 +2,65 @@
 
 use serde::{Deserialize, Serialize};
 use tiny_physics::{Settings, Vec2};
-use tiny_physics_scenes::Host;
+use tiny_physics_quality::Subject;
+use tiny_physics_scenes::Scene;
+
+/// What a world is made with.
+#[derive(Clone, Copy, Debug)]
+pub struct Setup<'a> {
+    /// Metres a second squared.
+    pub gravity: Vec2,
+    /// The scene's settings.
+    pub settings: &'a Settings,
+    /// How much of the settings counts.
+    pub tuning: Tuning,
+    /// Threads that the engine may use.
+    pub threads: usize,
+    /// What [`Job::setting`](crate::Job::setting) says.
+    pub setting: &'a str,
+}
+
+/// How much of a scene's settings counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tuning {
+    /// All of it, as far as an engine has the like: for timing, so that engines do the same work.
+    Scene,
+    /// Only how friction and restitution mix: for quality, where each engine shows what it makes of a scene at its own
+    /// defaults.
+    Own,
+}
 
 /// An engine that scenes can be built in and stepped.
-pub trait Engine: Host + Sized {
-    /// An empty world. `setting` is what [`Job::setting`](crate::Job::setting) says.
+pub trait Engine: Subject + Sized {
+    /// An empty world.
     ///
     /// # Errors
     /// A setting that the engine does not know or that the machine lacks, a build that must not be
     /// measured.
-    fn create(
-        gravity: Vec2,
-        settings: &Settings,
-        threads: usize,
-        setting: &str,
-    ) -> Result<Self, String>;
+    fn create(setup: &Setup<'_>) -> Result<Self, String>;
+
+    /// What of a scene the engine cannot express, in words.
+    fn lacks(_scene: &Scene) -> Option<String> {
+        None
+    }
+
+    /// The whole world as bytes; `None` where the engine or this build has no such thing.
+    fn save(&self) -> Option<Vec<u8>> {
+        None
+    }
+
+    /// Goes back to saved bytes.
+    ///
+    /// # Errors
+    /// The engine cannot, or refuses the bytes.
+    fn restore(&mut self, _bytes: &[u8]) -> Result<(), String> {
+        Err("this engine or build cannot restore a world".into())
+    }
+
+    /// Time to copy the world into another that has the memory already, milliseconds.
+    fn clone_ms(&self) -> Option<f64> {
+        None
+    }
 
     /// The world now.
     fn summary(&self) -> Summary;

@@ -1,17 +1,24 @@
 //! What the engines' worker programs share.
 //!
-//! A worker is one engine in one configuration. It reads one [`Job`] as a line of JSON, builds the
-//! scene through the engine's public interface, times its steps, and answers with one [`Report`] as
-//! a line of JSON. Every job runs in a process of its own, so that no engine inherits another's heap,
-//! threads or caches.
+//! A worker is one engine in one configuration. It reads one [`Task`] as a line of JSON and answers with a line of
+//! JSON: it times a scene ([`Job`], [`Report`]) or plays a row of the quality suite ([`QualityJob`], [`Played`]), or measures [`Frames`],
+//! through the engine's public interface. Every task runs in a process of its own, so that no engine inherits
+//! another's heap, threads or caches, and a crash costs one run.
 
 mod clock;
 mod engine;
+mod frames;
 mod protocol;
+mod quality;
 mod run;
+mod shapes;
+mod tape;
 
 pub use clock::{mean, percentile};
-pub use engine::{BodyState, Engine, Summary};
-pub use protocol::{Answer, Job, Report};
+pub use engine::{BodyState, Engine, Setup, Summary, Tuning};
+pub use frames::{Frames, best_ms};
+pub use protocol::{Answer, Job, Measured, Outline, Played, QualityJob, Report, Tape, Task};
 pub use run::serve;
-pub use tiny_physics_scenes::{Host, resolve};
+pub use shapes::centered_box;
+pub use tiny_physics_quality::Subject;
+pub use tiny_physics_scenes::{Host, Scene, resolve};

@@ -1,7 +1,19 @@
 //! What the runner and the workers say to each other.
 
-use crate::Summary;
+use crate::{Frames, Summary};
 use serde::{Deserialize, Serialize};
+
+/// What a worker is asked to do.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Task {
+    /// Time a scene.
+    Time(Job),
+    /// Play a row of the quality suite.
+    Quality(QualityJob),
+    /// Measure what frames cost.
+    Frames,
+}
 
 /// One run to be made.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -41,12 +53,64 @@ pub struct Report {
     pub end: Summary,
 }
 
+/// A row of the quality suite to be played.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct QualityJob {
+    /// Number of the row.
+    pub row: u32,
+    /// Play it in its other variant?
+    pub other: bool,
+    /// Record where bodies are at the start and after each so many steps.
+    pub tape: Option<u32>,
+}
+
+/// What came of a row.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Played {
+    /// Engine and version as the worker knows them.
+    pub engine: String,
+    /// The row's numbers, in order.
+    pub measures: Vec<Measured>,
+    /// Why the engine cannot express a scene of the row; then the numbers mean nothing.
+    pub cannot: Option<String>,
+    /// A tape for each world of the row, in the order in which they ended, if tapes were asked for.
+    pub tapes: Vec<Tape>,
+}
+
+/// One number of a row.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Measured {
+    /// What was measured.
+    pub metric: String,
+    /// The number; `None` where the scene fell apart.
+    pub value: Option<f64>,
+}
+
+/// The corners of a shape in its body's frame, metres; round ones have many.
+pub type Outline = Vec<[f32; 2]>;
+
+/// Where the bodies of a world were, again and again.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Tape {
+    /// Time from one frame to the next, seconds.
+    pub seconds: f64,
+    /// Each body's shapes.
+    pub bodies: Vec<Vec<Outline>>,
+    /// At the start and from then on: for each body x and y in metres and the angle in radians; `None` where one of
+    /// them is no number.
+    pub frames: Vec<Vec<Option<[f32; 3]>>>,
+}
+
 /// A worker's line of output.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Answer {
     /// The run was made.
     Done(Report),
-    /// The engine cannot run this scene; the reason.
+    /// The row was played.
+    Played(Played),
+    /// Frames were measured.
+    Frames(Frames),
+    /// The engine cannot do this; the reason.
     Failed(String),
 }

@@ -5,33 +5,42 @@
 //! before it (spawning, removing) included.
 
 use crate::clock::{Stopwatch, mean, peak_mib, percentile};
-use crate::{Answer, Engine, Job, Report};
+use crate::{Answer, Engine, Job, Report, Setup, Task, Tuning, frames, quality};
 use std::time::Instant;
 use tiny_physics_scenes::{Options, Player, find};
 
-/// Reads one job from standard input, runs it in the engine `E`, and prints the answer.
-pub fn serve<E: Engine>() {
-    let answer = read_job().and_then(|job| run::<E>(&job));
-    let answer = answer.map_or_else(Answer::Failed, Answer::Done);
-    match serde_json::to_string(&answer) {
+/// Reads one task from standard input, does it in the engine `E`, and prints the answer.
+pub fn serve<E: Engine + 'static>() {
+    let answer = read_task().and_then(|task| match task {
+        Task::Time(job) => run::<E>(&job).map(Answer::Done),
+        Task::Quality(job) => quality::play::<E>(&job).map(Answer::Played),
+        Task::Frames => frames::measure::<E>().map(Answer::Frames),
+    });
+    match serde_json::to_string(&answer.unwrap_or_else(Answer::Failed)) {
         Ok(line) => println!("{line}"),
         Err(error) => eprintln!("cannot write the answer: {error}"),
     }
 }
 
-fn read_job() -> Result<Job, String> {
+fn read_task() -> Result<Task, String> {
     let mut line = String::new();
     std::io::stdin()
         .read_line(&mut line)
-        .map_err(|error| format!("cannot read the job: {error}"))?;
-    serde_json::from_str(&line).map_err(|error| format!("cannot understand the job: {error}"))
+        .map_err(|error| format!("cannot read the task: {error}"))?;
+    serde_json::from_str(&line).map_err(|error| format!("cannot understand the task: {error}"))
 }
 
 fn run<E: Engine>(job: &Job) -> Result<Report, String> {
     let entry = find(&job.scene).map_err(|error| error.to_string())?;
     let scene = entry.build(Options::default());
     let start = Instant::now();
-    let engine = E::create(scene.gravity, &scene.settings, job.threads, &job.setting)?;
+    let engine = E::create(&Setup {
+        gravity: scene.gravity,
+        settings: &scene.settings,
+        tuning: Tuning::Scene,
+        threads: job.threads,
+        setting: &job.setting,
+    })?;
     let mut player = Player::new(&scene, engine);
     let build_ms = start.elapsed().as_secs_f64() * 1e3;
 

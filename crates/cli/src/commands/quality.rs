@@ -3,9 +3,12 @@
 use crate::args::QualityArgs;
 use crate::failure::{Failure, Outcome};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde::Serialize;
 use std::io::{IsTerminal, Write, stderr, stdout};
 use std::time::{Duration, Instant};
-use tiny_physics_quality::{Measure, Report, Row, Variant, find, our_engine, rows};
+use tiny_physics_quality::{
+    PEERS_COMMAND, PeerMeasure, Peers, Report, Row, Variant, find, our_engine, rows, table,
+};
 
 /// Plays the rows and prints the table.
 ///
@@ -14,26 +17,68 @@ use tiny_physics_quality::{Measure, Report, Row, Variant, find, our_engine, rows
 pub fn run(args: &QualityArgs) -> Outcome {
     let chosen = choose(&args.rows)?;
     let variant = if args.variant { Variant::Other } else { Variant::Usual };
+    let peers = Peers::recorded()?;
     let mut out = stdout().lock();
     let mut reports = Vec::new();
     if !args.json {
-        print_line(&mut out, &HEADER)?;
+        writeln!(out, "{}", table::line(&table::HEADER))?;
     }
     for row in chosen {
         let report = play(row, variant, args.awake);
         if !args.json {
-            print_report(&mut out, &report)?;
+            for cells in table::cells(&report, &peers.beside(variant, &report)) {
+                writeln!(out, "{}", table::line(&cells))?;
+            }
         }
         reports.push(report);
     }
     if args.json {
-        serde_json::to_writer_pretty(&mut out, &reports)?;
+        let rows: Vec<_> = reports.iter().map(|r| JsonRow::new(r, &peers, variant)).collect();
+        serde_json::to_writer_pretty(&mut out, &rows)?;
         writeln!(out)?;
-    } else {
-        let passed = reports.iter().filter(|report| report.pass).count();
-        writeln!(out, "\n{passed} of {} rows pass.", reports.len())?;
+        return Ok(());
     }
+    print_summary(&mut out, &reports, &peers, variant)
+}
+
+/// How many rows each engine passes, and where the others' figures come from.
+fn print_summary(
+    out: &mut impl Write,
+    reports: &[Report],
+    peers: &Peers,
+    variant: Variant,
+) -> Outcome {
+    let passed = reports.iter().filter(|report| report.pass).count();
+    let count = |figure| {
+        let passes =
+            |report: &&Report| table::peer_passes(report, &peers.beside(variant, report), figure);
+        reports.iter().filter(passes).count()
+    };
+    let (box2d, rapier) = (count(|peer| &peer.box2d), count(|peer| &peer.rapier));
+    let total = reports.len();
+    writeln!(out, "\n{passed} of {total} rows pass; {box2d} in Box2D, {rapier} in Rapier.")?;
+    writeln!(
+        out,
+        "Columns Box2D and Rapier: measured before on the same scenes, each engine at its own defaults\n\
+         ({}, {}). To measure them anew: {PEERS_COMMAND}",
+        peers.box2d, peers.rapier
+    )?;
     Ok(())
+}
+
+/// A row as JSON: the report, and what the other engines made of each of its numbers.
+#[derive(Serialize)]
+struct JsonRow<'a> {
+    #[serde(flatten)]
+    report: &'a Report,
+    peers: Vec<&'a PeerMeasure>,
+}
+
+impl<'a> JsonRow<'a> {
+    fn new(report: &'a Report, peers: &'a Peers, variant: Variant) -> Self {
+        let peers = peers.beside(variant, report).into_iter().flatten().collect();
+        Self { report, peers }
+    }
 }
 
 /// The rows asked for, in their order; all if none is named.
@@ -73,56 +118,6 @@ fn play(row: &Row, variant: Variant, awake: bool) -> Report {
     });
     bar.finish_and_clear();
     report
-}
-
-/// Widths of the columns, negative for those that are flush left.
-const WIDTHS: [i32; 9] = [2, -15, -56, 11, -8, -20, -5, 7, 7];
-const HEADER: [&str; 9] =
-    ["id", "name", "metric", "value", "unit", "target", "pass", "Box2D*", "Rapier*"];
-
-fn print_report(out: &mut impl Write, report: &Report) -> Outcome {
-    let id = report.id.to_string();
-    for (i, measure) in report.measures.iter().enumerate() {
-        let (id, name) = if i == 0 { (id.as_str(), report.name) } else { ("", "") };
-        let (value, target) = (value_text(measure), measure.target.to_string());
-        let cells = [
-            id,
-            name,
-            &measure.metric,
-            &value,
-            measure.unit,
-            &target,
-            if measure.pass { "yes" } else { "NO" },
-            measure.box2d_reference,
-            measure.rapier_reference,
-        ];
-        print_line(out, &cells)?;
-    }
-    Ok(())
-}
-
-fn print_line(out: &mut impl Write, cells: &[&str; 9]) -> Outcome {
-    let mut line = String::new();
-    for (cell, width) in cells.iter().zip(WIDTHS) {
-        let columns = width.unsigned_abs() as usize;
-        line +=
-            &if width < 0 { format!("{cell:<columns$}  ") } else { format!("{cell:>columns$}  ") };
-    }
-    writeln!(out, "{}", line.trim_end())?;
-    Ok(())
-}
-
-/// Five digits that matter; a word for scenes that fell apart.
-fn value_text(measure: &Measure) -> String {
-    let value = measure.value;
-    match value.abs() {
-        size if !size.is_finite() => "fell apart".into(),
-        0.0 => "0".into(),
-        size if size >= 10_000.0 => format!("{value:.0}"),
-        size if size >= 1.0 => format!("{value:.3}"),
-        size if size >= 0.000_1 => format!("{value:.5}"),
-        _ => format!("{value:.1e}"),
-    }
 }
 
 #[cfg(test)]

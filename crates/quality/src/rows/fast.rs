@@ -46,8 +46,7 @@ pub(super) fn thin_wall(lab: &mut Lab<'_>) -> Vec<Measure> {
             through as f64,
             "",
             Target::AtMost(0.0),
-        )
-        .reference("0", "0"),
+        ),
         Measure::new(
             format!("{shots} pairs head on, past each other"),
             passed as f64,
@@ -86,15 +85,12 @@ pub(super) fn tiles(lab: &mut Lab<'_>) -> Vec<Measure> {
             highest = greatest([highest, trial.moved(slider).y].into_iter());
         });
         let kept = f64::from(trial.velocity(slider).x / speed);
-        measures.push(
-            Measure::new(
-                format!("{floor}, speed kept"),
-                kept,
-                "",
-                Target::AtLeast { limit: 0.999, ideal: 1.0 },
-            )
-            .reference("0.37", "0.58"),
-        );
+        measures.push(Measure::new(
+            format!("{floor}, speed kept"),
+            kept,
+            "",
+            Target::AtLeast { limit: 0.999, ideal: 1.0 },
+        ));
         measures.push(Measure::new(
             format!("{floor}, greatest hop"),
             1000.0 * highest,
