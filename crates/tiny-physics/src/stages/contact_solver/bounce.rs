@@ -13,7 +13,8 @@ use crate::dynamics::{
     Bodies, Bucket, COLOURS, Graph, PointLanes, Slot, colour_at, flags, lane_block,
 };
 use crate::geometry::manifold::PairClass;
-use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
+use crate::math::Vec2;
+use crate::simd::{BLOCK, LaneKernel, Lanes, Row, SimdLevel, dispatch};
 use crate::threads::{SharedRows, SharedSlice, Team};
 
 /// Rounds in a step: an impulse runs through this many bodies at once.
@@ -48,7 +49,7 @@ lane_block! {
         tangent_arm_b: f32 = 0.0,
         normal_mass: f32 = 0.0,
         tangent_mass: f32 = 0.0,
-        /// Speed at which it is to leave; 0 if it does not hit.
+        /// Speed at which it is to leave; 0 if it does not hit. See [`aim`].
         target: f32 = 0.0,
         /// What makes it leave, newton seconds.
         normal_impulse: f32 = 0.0,
@@ -92,19 +93,16 @@ pub(crate) fn run(
     marks.resize(bodies.infos.len(), false);
     for round in 0..ROUNDS {
         let near = (round > 0).then_some(&**marks);
-        let count = collect(graph, occupied, near, &parameters, batches);
+        let count = collect(graph, occupied, near, &bodies.rows, &parameters, batches);
         marked.drain(..).for_each(|body| marks[body as usize] = false);
-        let batches = &mut batches[..count];
-        let rows = SharedRows::new(&mut bodies.rows);
-        for batch in &mut *batches {
-            batch.run(team, level, Pass::Aim, &parameters, rows);
-        }
-        if !batches.iter().any(Batch::hits) {
+        if count == 0 {
             return;
         }
+        let batches = &mut batches[..count];
+        let rows = SharedRows::new(&mut bodies.rows);
         for _ in 0..ITERATIONS {
             for batch in &mut *batches {
-                batch.run(team, level, Pass::Leave, &parameters, rows);
+                batch.run(team, level, &parameters, rows);
             }
         }
         for batch in &*batches {
@@ -117,12 +115,13 @@ pub(crate) fn run(
     marked.drain(..).for_each(|body| marks[body as usize] = false);
 }
 
-/// Copies out what may bounce: what approaches fast, or what is near a marked body. Gives the number of
-/// batches.
+/// Copies out what bounces, of all that approaches fast or of what is near a marked body. Gives the number
+/// of batches.
 fn collect(
     graph: &Graph,
     occupied: &[(usize, PairClass)],
     near: Option<&[bool]>,
+    rows: &[Row],
     parameters: &Parameters,
     batches: &mut Vec<Batch>,
 ) -> usize {
@@ -137,17 +136,18 @@ fn collect(
                 Some(marks) => near_lanes(bucket, block, marks),
                 None => approaching_lanes(bucket, block, parameters.restitution_threshold),
             };
-            if lanes != 0 && (count == 0 || batches[count - 1].place != place) {
-                if batches.len() == count {
-                    batches.push(Batch::default());
-                }
-                batches[count].start(place);
-                count += 1;
-            }
             while lanes != 0 {
-                let slot = block * BLOCK + lanes.trailing_zeros() as usize;
+                let lane = lanes.trailing_zeros() as usize;
                 lanes &= lanes - 1;
-                batches[count - 1].push(bucket, class, slot);
+                let Some(targets) = aim(bucket, (block, lane), rows, parameters) else { continue };
+                if count == 0 || batches[count - 1].place != place {
+                    if batches.len() == count {
+                        batches.push(Batch::default());
+                    }
+                    batches[count].start(place);
+                    count += 1;
+                }
+                batches[count - 1].push(bucket, class, (block, lane), targets);
             }
         }
     }
@@ -180,15 +180,20 @@ impl Batch {
         self.sources.clear();
     }
 
-    /// Copies a contact out of the graph.
-    fn push(&mut self, bucket: &Bucket, class: PairClass, slot: usize) {
+    /// Copies a contact out of the graph, with the speeds at which its points are to leave.
+    fn push(
+        &mut self,
+        bucket: &Bucket,
+        class: PairClass,
+        (from, at): (usize, usize),
+        targets: [f32; 2],
+    ) {
         let lane = self.sources.len() % BLOCK;
         if lane == 0 {
             self.blocks.push(BounceBlock::NULL);
             self.points.push([BouncePoint::NULL; 2]);
         }
-        self.sources.push((class, slot as u32));
-        let (from, at) = (slot / BLOCK, slot % BLOCK);
+        self.sources.push((class, (from * BLOCK + at) as u32));
         let (constraint, surface) = (&bucket.constraints[from], &bucket.surfaces[from]);
         if let (Some(block), Some(points)) = (self.blocks.last_mut(), self.points.last_mut()) {
             block.body_a[lane] = constraint.body_a[at];
@@ -198,21 +203,11 @@ impl Batch {
             block.restitution[lane] = surface.restitution[at];
             block.friction[lane] = constraint.friction[at];
             block.tangent_speed[lane] = surface.tangent_speed[at];
-            for (to, from) in points.iter_mut().zip(&constraint.points) {
+            for ((to, from), target) in points.iter_mut().zip(&constraint.points).zip(targets) {
                 to.copy_from(lane, from, at);
+                to.target[lane] = target;
             }
         }
-    }
-
-    /// Does any point hit?
-    fn hits(&self) -> bool {
-        let mut points = self.points.iter().flatten();
-        points.any(|point| point.target.iter().any(|&target| target > 0.0))
-    }
-
-    /// Which of a lane's points hit?
-    fn hits_of(&self, index: usize) -> [bool; 2] {
-        self.points[index / BLOCK].each_ref().map(|point| point.target[index % BLOCK] > 0.0)
     }
 
     /// Notes impulses for the events of hits.
@@ -239,9 +234,6 @@ impl Batch {
     /// Marks the bodies that have bounced and can move.
     fn mark(&self, bodies: &Bodies, marks: &mut [bool], marked: &mut Vec<u32>) {
         for index in 0..self.sources.len() {
-            if self.hits_of(index) == [false; 2] {
-                continue;
-            }
             let block = &self.blocks[index / BLOCK];
             for body in [block.body_a[index % BLOCK], block.body_b[index % BLOCK]] {
                 if bodies.is_dynamic(body) && !marks[body as usize] {
@@ -252,12 +244,11 @@ impl Batch {
         }
     }
 
-    /// Runs a pass over all blocks: in lanes, or one by one in the overflow.
+    /// Lets all points leave, in lanes, or one by one in the overflow.
     fn run(
         &mut self,
         team: &Team,
         level: SimdLevel,
-        pass: Pass,
         parameters: &Parameters,
         rows: SharedRows<'_>,
     ) {
@@ -268,7 +259,7 @@ impl Batch {
         let points = SharedSlice::new(&mut self.points);
         team.for_each_chunk(blocks.len(), chunk, |range| {
             let (blocks, points) = (&blocks[range.clone()], points.range(range));
-            dispatch(level, RunPass { pass, parameters, rows, blocks, points });
+            dispatch(level, Leave { parameters, rows, blocks, points });
         });
     }
 }
@@ -285,36 +276,67 @@ impl BouncePoint {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Pass {
-    /// Finds the points that will hit in this step, and the speed at which they are to leave.
-    Aim,
-    /// Lets them leave.
-    Leave,
+/// How fast the points of a contact are to leave, if one of them hits in this step; 0 for one that does not.
+///
+/// With approach v, separation s, closing acceleration c and restitution e, the surfaces meet at speed
+/// `sqrt(v^2 + 2 c s)`. The bounce takes place here, at separation s, so the speed that has to be set is
+/// `sqrt(e^2 (v^2 + 2 c s) - 2 c s)`. Velocities of the semi-implicit scheme are half a substep late:
+/// `c h / 2` is missing from the approach and needed on top of the speed.
+fn aim(
+    bucket: &Bucket,
+    (block, lane): (usize, usize),
+    rows: &[Row],
+    parameters: &Parameters,
+) -> Option<[f32; 2]> {
+    let constraint = &bucket.constraints[block];
+    let restitution = bucket.surfaces[block].restitution[lane];
+    let a = &rows[constraint.body_a[lane] as usize];
+    let b = &rows[constraint.body_b[lane] as usize];
+    let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
+    let along = normal.dot(Vec2::new(b[Slot::VX] - a[Slot::VX], b[Slot::VY] - a[Slot::VY]));
+    // What falls onto something fixed; what falls together does not close in.
+    let pull = normal.dot(parameters.gravity);
+    let pulled = |row: &Row, pull: f32| if row[Slot::INV_MASS] > 0.0 { 0.0 } else { pull };
+    let closing = positive(pulled(b, pull) - pulled(a, pull));
+    let late = closing * (0.5 * parameters.h);
+    let targets = constraint.points.each_ref().map(|point| {
+        let (arm_a, arm_b) = (point.normal_arm_a[lane], point.normal_arm_b[lane]);
+        let velocity = along + (arm_b * b[Slot::W] - arm_a * a[Slot::W]);
+        let s = point.separation[lane];
+        let fast = velocity < -parameters.restitution_threshold
+            && restitution * velocity < -parameters.least_bounce;
+        if !fast || s + velocity * parameters.dt >= 0.0 || point.normal_mass[lane] <= 0.0 {
+            return 0.0;
+        }
+        let fall = 2.0 * closing * s;
+        let approach = late - velocity;
+        let meet = positive(approach * approach + fall);
+        positive(restitution * restitution * meet - fall).sqrt() + late
+    });
+    (targets != [0.0; 2]).then_some(targets)
 }
 
-struct RunPass<'a> {
-    pass: Pass,
+fn positive(value: f32) -> f32 {
+    if value > 0.0 { value } else { 0.0 }
+}
+
+struct Leave<'a> {
     parameters: &'a Parameters,
     rows: SharedRows<'a>,
     blocks: &'a [BounceBlock],
     points: &'a mut [[BouncePoint; 2]],
 }
 
-impl LaneKernel for RunPass<'_> {
+impl LaneKernel for Leave<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run<L: Lanes>(self, token: L::Token) {
-        let Self { pass, parameters, rows, blocks, points } = self;
+        let Self { parameters, rows, blocks, points } = self;
         let constants = Constants::<L>::new(token, parameters);
         for (block, points) in blocks.iter().zip(points) {
             for at in (0..BLOCK).step_by(L::WIDTH) {
-                let stride = Stride { token, rows, at, constants: &constants };
-                match pass {
-                    Pass::Aim => aim(&stride, block, points),
-                    Pass::Leave => leave(&stride, block, points),
-                }
+                leave(&Stride { token, rows, at, constants: &constants }, block, points);
             }
         }
     }
@@ -327,41 +349,7 @@ impl BounceBlock {
     }
 }
 
-/// With approach v, separation s, closing acceleration c and restitution e, the surfaces meet at speed
-/// `sqrt(v^2 + 2 c s)`. The bounce takes place here, at separation s, so the speed that has to be set is
-/// `sqrt(e^2 (v^2 + 2 c s) - 2 c s)`. Velocities of the semi-implicit scheme are half a substep late:
-/// `c h / 2` is missing from the approach and needed on top of the speed.
-#[inline(always)]
-fn aim<L: Lanes>(stride: &Stride<'_, L>, block: &BounceBlock, points: &mut [BouncePoint; 2]) {
-    let constants = stride.constants;
-    let zero = constants.zero;
-    let pair = block.pair(stride);
-    let bounce = stride.load(&block.restitution);
-    let pull = pair.normal[0] * constants.gravity[0] + pair.normal[1] * constants.gravity[1];
-    // What falls onto something fixed; what falls together does not close in.
-    let (fixed_a, fixed_b) = (pair.a[Slot::INV_MASS].le(zero), pair.b[Slot::INV_MASS].le(zero));
-    let closing = L::select(fixed_b, pull, zero) - L::select(fixed_a, pull, zero);
-    let closing = closing.max(zero);
-    let late = closing * constants.half_h;
-    for point in points {
-        let s = stride.load(&point.separation);
-        let arms = [stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b)];
-        let velocity = pair.normal_velocity(arms[0], arms[1]);
-        let fall = (closing + closing) * s;
-        let fast = L::and(
-            velocity.lt(constants.threshold),
-            (bounce * velocity).lt(constants.least_bounce),
-        );
-        let meets = (s + velocity * constants.dt).lt(zero);
-        let hit = L::and(L::and(fast, meets), zero.lt(stride.load(&point.normal_mass)));
-        let approach = late - velocity;
-        let meet = (approach * approach + fall).max(zero);
-        let target = (bounce * bounce * meet - fall).max(zero).sqrt() + late;
-        stride.store(L::select(hit, target, zero), &mut point.target);
-    }
-}
-
-/// Lets the points found by [`aim`] leave at their speeds, rubbed by what that takes.
+/// Lets points leave at the speeds that [`aim`] found, rubbed by what that takes.
 #[inline(always)]
 fn leave<L: Lanes>(stride: &Stride<'_, L>, block: &BounceBlock, points: &mut [BouncePoint; 2]) {
     let zero = stride.constants.zero;

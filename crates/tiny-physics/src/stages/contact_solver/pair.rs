@@ -14,11 +14,6 @@ pub(super) struct Constants<L> {
     pub(super) fast: L,
     pub(super) soft: [L; 3],
     pub(super) static_soft: [L; 3],
-    pub(super) threshold: L,
-    pub(super) least_bounce: L,
-    pub(super) gravity: [L; 2],
-    pub(super) half_h: L,
-    pub(super) dt: L,
 }
 
 impl<L: Lanes> Constants<L> {
@@ -36,11 +31,6 @@ impl<L: Lanes> Constants<L> {
             fast: splat(-parameters.fast_approach),
             soft: soft(parameters.soft),
             static_soft: soft(parameters.static_soft),
-            threshold: splat(-parameters.restitution_threshold),
-            least_bounce: splat(-parameters.least_bounce),
-            gravity: [splat(parameters.gravity.x), splat(parameters.gravity.y)],
-            half_h: splat(0.5 * parameters.h),
-            dt: splat(parameters.dt),
         }
     }
 }
