@@ -1,7 +1,7 @@
 //! Box2D's world as a host of scenes.
 //!
 //! For timing, everything is set to what the description says; what it does not say (contact recycling, joint
-//! stiffness) stays at Box2D's defaults. For quality, so does the solver: [`Tuning`].
+//! stiffness) and how stiff contacts are stays at Box2D's defaults. For quality, so does the solver: [`Tuning`].
 
 use crate::queries;
 use crate::shapes::{Geometry, geometry, rot, shape_def, vec2};
@@ -220,9 +220,6 @@ fn world_def(setup: &Setup<'_>) -> b2WorldDef {
     if setup.tuning == Tuning::Scene {
         def.restitutionThreshold = settings.restitution_threshold;
         def.hitEventThreshold = settings.hit_event_threshold;
-        def.contactHertz = settings.contact_hertz;
-        def.contactDampingRatio = settings.contact_damping_ratio;
-        def.contactSpeed = settings.push_speed;
         def.maximumLinearSpeed = settings.max_speed;
         def.enableSleep = settings.sleep;
         def.enableContinuous = settings.continuous;

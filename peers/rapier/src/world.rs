@@ -1,6 +1,6 @@
 //! Rapier's world as a host of scenes.
 //!
-//! For timing, everything is set to what the description says; what it does not say stays at Rapier's defaults:
+//! For timing, everything is set to what the description says; what it does not say, and how stiff contacts are, stays at Rapier's defaults:
 //! 4 solver iterations (its substeps) with one pass each, contact recycling on, automatic continuous
 //! collision against fixed colliders. For quality, so do the solver and sleeping: [`Tuning`].
 
@@ -202,12 +202,8 @@ impl Host for Rapier {
 }
 
 fn parameters(settings: &Settings) -> IntegrationParameters {
-    let soft = |hertz| SpringCoefficients::new(hertz, settings.contact_damping_ratio);
     IntegrationParameters {
         num_solver_iterations: settings.substeps as usize,
-        contact_softness: soft(settings.contact_hertz),
-        static_contact_softness: soft(2.0 * settings.contact_hertz),
-        normalized_max_corrective_velocity: settings.push_speed,
         normalized_max_linear_velocity: settings.max_speed,
         max_ccd_substeps: usize::from(settings.continuous),
         ..IntegrationParameters::default()
