@@ -241,10 +241,16 @@ impl World {
             None => 1.0,
         };
         info.inertia = if dynamic { total.inertia * scale } else { 0.0 };
-        info.local_center = if dynamic { total.center } else { Vec2::ZERO };
+        let center = if dynamic { total.center } else { Vec2::ZERO };
+        let shifted = core::mem::replace(&mut info.local_center, center) != center;
         self.bodies.set_origin_pose(index, origin.p, origin.q);
         self.bodies.update_inverse_masses(index);
         self.update_central_frames(index);
+        if shifted {
+            // Shapes have stayed where they were, but for rounding, which a far centre of mass makes visible.
+            let Self { bodies, shapes, broad_phase, .. } = self;
+            finalize::update_boxes(bodies, shapes, broad_phase, index, Vec2::ZERO);
+        }
         for (joint, _) in self.joints.of_body(self.bodies.infos[index as usize].first_joint) {
             self.joint_graph.refresh(&self.joints, joint);
         }

@@ -286,3 +286,18 @@ fn sleepers_that_a_joint_links_wake_together() {
     let apart = world.body(c).unwrap().position().x - world.body(b).unwrap().position().x;
     assert!(apart < 2.5, "the spring drew them together: {apart}");
 }
+
+/// The centre of mass goes far off, and with it the precision of where the other shapes are.
+#[test]
+fn a_huge_shape_more_leaves_boxes_where_the_others_are() {
+    let mut world = world();
+    let body = add(&mut world, 3.0, 2.0, circle(0.37).offset(Vec2::new(0.3, 0.1)));
+    run(&mut world, 3);
+    for length in [1.0e3, 1.0e4, 6.0e4, 1.0e5] {
+        let long = Shape::capsule(Vec2::ZERO, Vec2::new(length, 0.3 * length), 0.2).unwrap();
+        let shape = world.add_shape(body, long).unwrap();
+        world.validate().unwrap();
+        world.remove_shape(shape).unwrap();
+        world.validate().unwrap();
+    }
+}
