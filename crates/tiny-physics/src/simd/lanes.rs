@@ -331,6 +331,7 @@ fn half_rows_8<const AT: usize, S: Simd>(
 }
 
 /// Halves of rows `i`, `i + 4`, `i + 8` and `i + 12` side by side.
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 #[inline(always)]
 fn half_rows_16<const AT: usize, S: Simd>(
     token: S,
