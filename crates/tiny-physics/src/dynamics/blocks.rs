@@ -23,15 +23,12 @@ macro_rules! lane_block {
             pub(crate) const NULL: Self = Self { $($field: [$null; BLOCK],)* };
 
             /// Copies one lane.
-            #[allow(dead_code, reason = "not every block is packed")]
             pub(crate) fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
                 $(self.$field[to] = source.$field[from];)*
             }
         }
     };
 }
-
-pub(crate) use lane_block;
 
 lane_block! {
     /// What the narrow phase keeps of a contact from step to step.

@@ -22,7 +22,7 @@ mod shapes;
 mod waiting;
 
 pub(crate) use blocks::{
-    BlockHead, ConstraintBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags, lane_block,
+    BlockHead, ConstraintBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags,
 };
 pub(crate) use bodies::{Bodies, BodyInfo, Motion, NULL, Slot};
 pub(crate) use clone::{Serial, clone_by_field, cloned_data};

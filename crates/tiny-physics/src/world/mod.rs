@@ -391,11 +391,7 @@ impl World {
         self.prepare_joints(team, pace, lengths.h);
         integrate::prepare(team, listed, &mut self.bodies, self.gravity, lengths.h);
         let max_speed = self.settings.max_speed * self.settings.length_unit;
-        {
-            let Self { level, bodies, graph, scratch, .. } = self;
-            let (occupied, memory) = (&scratch.occupied, &mut scratch.bounces);
-            contact_solver::run_bounces(team, *level, &parameters, bodies, graph, occupied, memory);
-        }
+        self.bounce(team, &parameters);
         let joints = |world: &mut Self, pass| world.solve_joints(team, pace, pass, lengths.h);
         for substep in 0..lengths.substeps {
             let first = substep == 0;
@@ -413,6 +409,13 @@ impl World {
             self.note_broken_joints(pace);
         }
         joints(self, joint_solver::Pass::Finish);
+    }
+
+    /// Reflects what hits something bouncy.
+    fn bounce(&mut self, team: &Team, parameters: &Parameters) {
+        let Self { level, bodies, graph, scratch, .. } = self;
+        let Scratch { occupied, bounces, .. } = scratch;
+        contact_solver::run_bounces(team, *level, parameters, bodies, graph, occupied, bounces);
     }
 
     /// Stiffness of contacts for a substep length.
@@ -436,7 +439,6 @@ impl World {
             h: lengths.h,
             dt: lengths.dt,
             restitution_threshold: settings.restitution_threshold * settings.length_unit,
-            least_bounce: 0.0,
         }
     }
 

@@ -7,11 +7,10 @@
 //! Few contacts bounce at a time, so they are copied out of the graph into blocks of their own, colour by
 //! colour, and those are full.
 
-use super::Parameters;
-use super::pair::{ALL_BODIES, Constants, Pair, Stride};
-use crate::dynamics::{
-    Bodies, Bucket, COLOURS, Graph, PointLanes, Slot, colour_at, flags, lane_block,
-};
+use super::friction::solve_friction;
+use super::pair::{Constants, Pair, Stride};
+use super::{Parameters, share};
+use crate::dynamics::{Bodies, Bucket, ConstraintBlock, Graph, Slot, flags};
 use crate::geometry::manifold::PairClass;
 use crate::math::Vec2;
 use crate::simd::{BLOCK, LaneKernel, Lanes, Row, SimdLevel, dispatch};
@@ -23,47 +22,26 @@ const ROUNDS: usize = 8;
 const ITERATIONS: usize = 8;
 /// What would leave more slowly than this part of the threshold is not handed on.
 const HANDED_ON: f32 = 0.1;
-/// Blocks that one member of the team solves at a time.
-const CHUNK: usize = 8;
 
-lane_block! {
-    /// Contacts of one colour that may bounce.
-    struct BounceBlock {
-        body_a: u32 = 0,
-        body_b: u32 = 0,
-        normal_x: f32 = 0.0,
-        normal_y: f32 = 0.0,
-        restitution: f32 = 0.0,
-        friction: f32 = 0.0,
-        tangent_speed: f32 = 0.0,
-    }
+/// What a copied block has besides its constraints.
+#[derive(Clone, Copy, Debug)]
+struct Aims {
+    /// Speeds at which the points are to leave; 0 for one that does not hit. See [`Search::aim`].
+    targets: [[f32; BLOCK]; 2],
+    tangent_speed: [f32; BLOCK],
 }
 
-lane_block! {
-    /// One of their points; see [`PointLanes`].
-    struct BouncePoint {
-        separation: f32 = 0.0,
-        normal_arm_a: f32 = 0.0,
-        normal_arm_b: f32 = 0.0,
-        tangent_arm_a: f32 = 0.0,
-        tangent_arm_b: f32 = 0.0,
-        normal_mass: f32 = 0.0,
-        tangent_mass: f32 = 0.0,
-        /// Speed at which it is to leave; 0 if it does not hit. See [`aim`].
-        target: f32 = 0.0,
-        /// What makes it leave, newton seconds.
-        normal_impulse: f32 = 0.0,
-        /// What rubs it meanwhile.
-        tangent_impulse: f32 = 0.0,
-    }
+impl Aims {
+    const NULL: Self = Self { targets: [[0.0; BLOCK]; 2], tangent_speed: [0.0; BLOCK] };
 }
 
-/// The contacts of one place of the graph that may bounce.
+/// The contacts of one place of the graph that bounce.
 #[derive(Debug, Default)]
 struct Batch {
     place: usize,
-    blocks: Vec<BounceBlock>,
-    points: Vec<[BouncePoint; 2]>,
+    /// Their constraints; the impulses are those of the bounce.
+    blocks: Vec<ConstraintBlock>,
+    aims: Vec<Aims>,
     /// Where each lane is in the graph.
     sources: Vec<(PairClass, u32)>,
 }
@@ -88,12 +66,14 @@ pub(crate) fn run(
     memory: &mut Memory,
 ) {
     let Memory { batches, marks, marked } = memory;
-    let mut parameters = *parameters;
-    let least_bounce = HANDED_ON * parameters.restitution_threshold;
+    let threshold = parameters.restitution_threshold;
     marks.resize(bodies.infos.len(), false);
     for round in 0..ROUNDS {
-        let near = (round > 0).then_some(&**marks);
-        let count = collect(graph, occupied, near, &bodies.rows, &parameters, batches);
+        let search = match round {
+            0 => Search { near: None, approach: threshold, leave: 0.0 },
+            _ => Search { near: Some(marks), approach: 0.0, leave: HANDED_ON * threshold },
+        };
+        let count = search.collect(graph, occupied, &bodies.rows, parameters, batches);
         marked.drain(..).for_each(|body| marks[body as usize] = false);
         if count == 0 {
             return;
@@ -102,56 +82,111 @@ pub(crate) fn run(
         let rows = SharedRows::new(&mut bodies.rows);
         for _ in 0..ITERATIONS {
             for batch in &mut *batches {
-                batch.run(team, level, &parameters, rows);
+                batch.run(team, level, parameters, rows);
             }
         }
         for batch in &*batches {
             batch.note_peaks(graph);
             batch.mark(bodies, marks, marked);
         }
-        parameters.restitution_threshold = 0.0;
-        parameters.least_bounce = least_bounce;
     }
     marked.drain(..).for_each(|body| marks[body as usize] = false);
 }
 
-/// Copies out what bounces, of all that approaches fast or of what is near a marked body. Gives the number
-/// of batches.
-fn collect(
-    graph: &Graph,
-    occupied: &[(usize, PairClass)],
-    near: Option<&[bool]>,
-    rows: &[Row],
-    parameters: &Parameters,
-    batches: &mut Vec<Batch>,
-) -> usize {
-    let mut count = 0;
-    for &(place, class) in occupied {
-        let bucket = &graph.buckets[place][class as usize];
-        for (block, head) in bucket.heads.iter().enumerate() {
-            if head.flags & flags::RESTITUTION == 0 {
-                continue;
-            }
-            let mut lanes = match near {
-                Some(marks) => near_lanes(bucket, block, marks),
-                None => approaching_lanes(bucket, block, parameters.restitution_threshold),
-            };
-            while lanes != 0 {
-                let lane = lanes.trailing_zeros() as usize;
-                lanes &= lanes - 1;
-                let Some(targets) = aim(bucket, (block, lane), rows, parameters) else { continue };
-                if count == 0 || batches[count - 1].place != place {
-                    if batches.len() == count {
-                        batches.push(Batch::default());
-                    }
-                    batches[count].start(place);
-                    count += 1;
+/// What bounces in a round.
+struct Search<'a> {
+    /// The bodies whose contacts are looked at; those of all where not said.
+    near: Option<&'a [bool]>,
+    /// What approaches no faster than this does not bounce, metres a second.
+    approach: f32,
+    /// Nor does what would leave no faster than this.
+    leave: f32,
+}
+
+impl Search<'_> {
+    /// Copies out what bounces. Gives the number of batches.
+    fn collect(
+        &self,
+        graph: &Graph,
+        occupied: &[(usize, PairClass)],
+        rows: &[Row],
+        parameters: &Parameters,
+        batches: &mut Vec<Batch>,
+    ) -> usize {
+        let mut count = 0;
+        for &(place, class) in occupied {
+            let bucket = &graph.buckets[place][class as usize];
+            for (block, head) in bucket.heads.iter().enumerate() {
+                if head.flags & flags::RESTITUTION == 0 {
+                    continue;
                 }
-                batches[count - 1].push(bucket, class, (block, lane), targets);
+                let mut lanes = match self.near {
+                    Some(marks) => near_lanes(bucket, block, marks),
+                    None => approaching_lanes(bucket, block, self.approach),
+                };
+                while lanes != 0 {
+                    let at = (block, lanes.trailing_zeros() as usize);
+                    lanes &= lanes - 1;
+                    if let Some(targets) = self.aim(bucket, at, rows, parameters) {
+                        batch_of(place, batches, &mut count).push(bucket, class, at, targets);
+                    }
+                }
             }
         }
+        count
     }
-    count
+
+    /// How fast the points of a contact are to leave, if one of them hits in this step; 0 for one that does not.
+    ///
+    /// With approach v, separation s, closing acceleration c and restitution e, the surfaces meet at speed
+    /// `sqrt(v^2 + 2 c s)`. The bounce takes place here, at separation s, so the speed that has to be set is
+    /// `sqrt(e^2 (v^2 + 2 c s) - 2 c s)`. Velocities of the semi-implicit scheme are half a substep late:
+    /// `c h / 2` is missing from the approach and needed on top of the speed.
+    fn aim(
+        &self,
+        bucket: &Bucket,
+        (block, lane): (usize, usize),
+        rows: &[Row],
+        parameters: &Parameters,
+    ) -> Option<[f32; 2]> {
+        let constraint = &bucket.constraints[block];
+        let restitution = bucket.surfaces[block].restitution[lane];
+        let a = &rows[constraint.body_a[lane] as usize];
+        let b = &rows[constraint.body_b[lane] as usize];
+        let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
+        let along = normal.dot(Vec2::new(b[Slot::VX] - a[Slot::VX], b[Slot::VY] - a[Slot::VY]));
+        // What falls onto something fixed; what falls together does not close in.
+        let pull = normal.dot(parameters.gravity);
+        let pulled = |row: &Row, pull: f32| if row[Slot::INV_MASS] > 0.0 { 0.0 } else { pull };
+        let closing = positive(pulled(b, pull) - pulled(a, pull));
+        let late = closing * (0.5 * parameters.h);
+        let targets = constraint.points.each_ref().map(|point| {
+            let (arm_a, arm_b) = (point.normal_arm_a[lane], point.normal_arm_b[lane]);
+            let velocity = along + (arm_b * b[Slot::W] - arm_a * a[Slot::W]);
+            let s = point.separation[lane];
+            let fast = velocity < -self.approach && restitution * velocity < -self.leave;
+            if !fast || s + velocity * parameters.dt >= 0.0 || point.normal_mass[lane] <= 0.0 {
+                return 0.0;
+            }
+            let fall = 2.0 * closing * s;
+            let approach = late - velocity;
+            let meet = positive(approach * approach + fall);
+            positive(restitution * restitution * meet - fall).sqrt() + late
+        });
+        (targets != [0.0; 2]).then_some(targets)
+    }
+}
+
+/// The batch of a place: the last one of `count`, or another.
+fn batch_of<'a>(place: usize, batches: &'a mut Vec<Batch>, count: &mut usize) -> &'a mut Batch {
+    if *count == 0 || batches[*count - 1].place != place {
+        if batches.len() == *count {
+            batches.push(Batch::default());
+        }
+        batches[*count].start(place);
+        *count += 1;
+    }
+    &mut batches[*count - 1]
 }
 
 /// Lanes whose points approach faster than the threshold.
@@ -176,7 +211,7 @@ impl Batch {
     fn start(&mut self, place: usize) {
         self.place = place;
         self.blocks.clear();
-        self.points.clear();
+        self.aims.clear();
         self.sources.clear();
     }
 
@@ -190,22 +225,19 @@ impl Batch {
     ) {
         let lane = self.sources.len() % BLOCK;
         if lane == 0 {
-            self.blocks.push(BounceBlock::NULL);
-            self.points.push([BouncePoint::NULL; 2]);
+            self.blocks.push(ConstraintBlock::NULL);
+            self.aims.push(Aims::NULL);
         }
         self.sources.push((class, (from * BLOCK + at) as u32));
-        let (constraint, surface) = (&bucket.constraints[from], &bucket.surfaces[from]);
-        if let (Some(block), Some(points)) = (self.blocks.last_mut(), self.points.last_mut()) {
-            block.body_a[lane] = constraint.body_a[at];
-            block.body_b[lane] = constraint.body_b[at];
-            block.normal_x[lane] = constraint.normal_x[at];
-            block.normal_y[lane] = constraint.normal_y[at];
-            block.restitution[lane] = surface.restitution[at];
-            block.friction[lane] = constraint.friction[at];
-            block.tangent_speed[lane] = surface.tangent_speed[at];
-            for ((to, from), target) in points.iter_mut().zip(&constraint.points).zip(targets) {
-                to.copy_from(lane, from, at);
-                to.target[lane] = target;
+        if let (Some(block), Some(aims)) = (self.blocks.last_mut(), self.aims.last_mut()) {
+            block.copy_lane(lane, &bucket.constraints[from], at);
+            for point in &mut block.points {
+                point.normal_impulse[lane] = 0.0;
+                point.tangent_impulse[lane] = 0.0;
+            }
+            aims.tangent_speed[lane] = bucket.surfaces[from].tangent_speed[at];
+            for (lanes, target) in aims.targets.iter_mut().zip(targets) {
+                lanes[lane] = target;
             }
         }
     }
@@ -219,11 +251,9 @@ impl Batch {
                 continue;
             }
             let surface = &mut bucket.surfaces[block];
-            let impulses =
-                self.points[index / BLOCK].each_ref().map(|p| p.normal_impulse[index % BLOCK]);
-            for (peak, impulse) in
-                [&mut surface.peak_1, &mut surface.peak_2].into_iter().zip(impulses)
-            {
+            let peaks = [&mut surface.peak_1, &mut surface.peak_2];
+            for (peak, point) in peaks.into_iter().zip(&self.blocks[index / BLOCK].points) {
+                let impulse = point.normal_impulse[index % BLOCK];
                 if impulse > peak[lane] {
                     peak[lane] = impulse;
                 }
@@ -252,68 +282,14 @@ impl Batch {
         parameters: &Parameters,
         rows: SharedRows<'_>,
     ) {
-        let in_order = colour_at(self.place) == COLOURS;
-        let (level, chunk) =
-            if in_order { (SimdLevel::Scalar, usize::MAX) } else { (level, CHUNK) };
-        let blocks = &self.blocks;
-        let points = SharedSlice::new(&mut self.points);
-        team.for_each_chunk(blocks.len(), chunk, |range| {
-            let (blocks, points) = (&blocks[range.clone()], points.range(range));
-            dispatch(level, Leave { parameters, rows, blocks, points });
+        let (level, chunk) = share(level, self.place);
+        let aims = &self.aims;
+        let blocks = SharedSlice::new(&mut self.blocks);
+        team.for_each_chunk(aims.len(), chunk, |range| {
+            let (blocks, aims) = (blocks.range(range.clone()), &aims[range]);
+            dispatch(level, Leave { parameters, rows, blocks, aims });
         });
     }
-}
-
-impl BouncePoint {
-    fn copy_from(&mut self, lane: usize, from: &PointLanes, at: usize) {
-        self.separation[lane] = from.separation[at];
-        self.normal_arm_a[lane] = from.normal_arm_a[at];
-        self.normal_arm_b[lane] = from.normal_arm_b[at];
-        self.tangent_arm_a[lane] = from.tangent_arm_a[at];
-        self.tangent_arm_b[lane] = from.tangent_arm_b[at];
-        self.normal_mass[lane] = from.normal_mass[at];
-        self.tangent_mass[lane] = from.tangent_mass[at];
-    }
-}
-
-/// How fast the points of a contact are to leave, if one of them hits in this step; 0 for one that does not.
-///
-/// With approach v, separation s, closing acceleration c and restitution e, the surfaces meet at speed
-/// `sqrt(v^2 + 2 c s)`. The bounce takes place here, at separation s, so the speed that has to be set is
-/// `sqrt(e^2 (v^2 + 2 c s) - 2 c s)`. Velocities of the semi-implicit scheme are half a substep late:
-/// `c h / 2` is missing from the approach and needed on top of the speed.
-fn aim(
-    bucket: &Bucket,
-    (block, lane): (usize, usize),
-    rows: &[Row],
-    parameters: &Parameters,
-) -> Option<[f32; 2]> {
-    let constraint = &bucket.constraints[block];
-    let restitution = bucket.surfaces[block].restitution[lane];
-    let a = &rows[constraint.body_a[lane] as usize];
-    let b = &rows[constraint.body_b[lane] as usize];
-    let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
-    let along = normal.dot(Vec2::new(b[Slot::VX] - a[Slot::VX], b[Slot::VY] - a[Slot::VY]));
-    // What falls onto something fixed; what falls together does not close in.
-    let pull = normal.dot(parameters.gravity);
-    let pulled = |row: &Row, pull: f32| if row[Slot::INV_MASS] > 0.0 { 0.0 } else { pull };
-    let closing = positive(pulled(b, pull) - pulled(a, pull));
-    let late = closing * (0.5 * parameters.h);
-    let targets = constraint.points.each_ref().map(|point| {
-        let (arm_a, arm_b) = (point.normal_arm_a[lane], point.normal_arm_b[lane]);
-        let velocity = along + (arm_b * b[Slot::W] - arm_a * a[Slot::W]);
-        let s = point.separation[lane];
-        let fast = velocity < -parameters.restitution_threshold
-            && restitution * velocity < -parameters.least_bounce;
-        if !fast || s + velocity * parameters.dt >= 0.0 || point.normal_mass[lane] <= 0.0 {
-            return 0.0;
-        }
-        let fall = 2.0 * closing * s;
-        let approach = late - velocity;
-        let meet = positive(approach * approach + fall);
-        positive(restitution * restitution * meet - fall).sqrt() + late
-    });
-    (targets != [0.0; 2]).then_some(targets)
 }
 
 fn positive(value: f32) -> f32 {
@@ -323,8 +299,8 @@ fn positive(value: f32) -> f32 {
 struct Leave<'a> {
     parameters: &'a Parameters,
     rows: SharedRows<'a>,
-    blocks: &'a [BounceBlock],
-    points: &'a mut [[BouncePoint; 2]],
+    blocks: &'a mut [ConstraintBlock],
+    aims: &'a [Aims],
 }
 
 impl LaneKernel for Leave<'_> {
@@ -332,49 +308,34 @@ impl LaneKernel for Leave<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, token: L::Token) {
-        let Self { parameters, rows, blocks, points } = self;
+        let Self { parameters, rows, blocks, aims } = self;
         let constants = Constants::<L>::new(token, parameters);
-        for (block, points) in blocks.iter().zip(points) {
+        for (block, aims) in blocks.iter_mut().zip(aims) {
             for at in (0..BLOCK).step_by(L::WIDTH) {
-                leave(&Stride { token, rows, at, constants: &constants }, block, points);
+                leave(&Stride { token, rows, at, constants: &constants }, block, aims);
             }
         }
     }
 }
 
-impl BounceBlock {
-    #[inline(always)]
-    fn pair<L: Lanes>(&self, stride: &Stride<'_, L>) -> Pair<L> {
-        Pair::gather(stride, [&self.body_a, &self.body_b], [&self.normal_x, &self.normal_y])
-    }
-}
-
-/// Lets points leave at the speeds that [`aim`] found, rubbed by what that takes.
+/// Lets points leave at the speeds that [`Search::aim`] found, rubbed by what that takes.
 #[inline(always)]
-fn leave<L: Lanes>(stride: &Stride<'_, L>, block: &BounceBlock, points: &mut [BouncePoint; 2]) {
+fn leave<L: Lanes>(stride: &Stride<'_, L>, block: &mut ConstraintBlock, aims: &Aims) {
     let zero = stride.constants.zero;
-    let mut pair = block.pair(stride);
+    let mut pair = Pair::load(stride, block);
     let friction = stride.load(&block.friction);
-    let surface_speed = stride.load(&block.tangent_speed);
-    for point in points {
+    for (point, targets) in block.points.iter_mut().zip(&aims.targets) {
         let (arm_a, arm_b) = (stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b));
-        let target = stride.load(&point.target);
-        let hits = zero.lt(target);
+        let target = stride.load(targets);
         let old = stride.load(&point.normal_impulse);
         let missing = target - pair.normal_velocity(arm_a, arm_b);
         let impulse = (old + stride.load(&point.normal_mass) * missing).max(zero);
-        let impulse = L::select(hits, impulse, old);
+        // What does not hit keeps its nothing, and so is not rubbed.
+        let impulse = L::select(zero.lt(target), impulse, old);
         stride.store(impulse, &mut point.normal_impulse);
+        stride.store(impulse, &mut point.load);
         pair.push(impulse - old, arm_a, arm_b);
-
-        let (arm_a, arm_b) = (stride.load(&point.tangent_arm_a), stride.load(&point.tangent_arm_b));
-        let old = stride.load(&point.tangent_impulse);
-        let slip = pair.tangent_velocity(arm_a, arm_b) + surface_speed;
-        let limit = friction * impulse;
-        let rubbed = (old - stride.load(&point.tangent_mass) * slip).clamp(-limit, limit);
-        let rubbed = L::select(hits, rubbed, old);
-        stride.store(rubbed, &mut point.tangent_impulse);
-        pair.rub(rubbed - old, arm_a, arm_b);
+        solve_friction(stride, &mut pair, point, friction, Some(&aims.tangent_speed));
     }
-    pair.scatter(stride, [&block.body_a, &block.body_b], ALL_BODIES);
+    pair.store(stride, block);
 }

@@ -1,24 +1,23 @@
 //! Friction and rolling resistance.
 
 use super::pair::{Pair, Stride};
-use crate::dynamics::{ConstraintBlock, PointLanes, Slot, SurfaceBlock, flags};
-use crate::simd::Lanes;
+use crate::dynamics::{ConstraintBlock, PointLanes, Slot, SurfaceBlock};
+use crate::simd::{BLOCK, Lanes};
 
-/// Tangent impulse of one point, within the friction cone.
+/// Tangent impulse of one point, within the friction cone. `belt` is the speed of the surface, if any moves.
 #[inline(always)]
 pub(super) fn solve_friction<L: Lanes>(
     stride: &Stride<'_, L>,
     pair: &mut Pair<L>,
     point: &mut PointLanes,
     friction: L,
-    surface: &SurfaceBlock,
-    flags: u8,
+    belt: Option<&[f32; BLOCK]>,
 ) {
     let (arm_a, arm_b) = (stride.load(&point.tangent_arm_a), stride.load(&point.tangent_arm_b));
     let old = stride.load(&point.tangent_impulse);
     let mut velocity = pair.tangent_velocity(arm_a, arm_b);
-    if flags & flags::TANGENT_SPEED != 0 {
-        velocity = velocity + stride.load(&surface.tangent_speed);
+    if let Some(belt) = belt {
+        velocity = velocity + stride.load(belt);
     }
     let limit = friction * stride.load(&point.load);
     let impulse = (old - stride.load(&point.tangent_mass) * velocity).clamp(-limit, limit);

@@ -34,9 +34,7 @@ mod pair;
 
 pub(crate) use bounce::{Memory as BounceMemory, run as run_bounces};
 
-use crate::dynamics::{
-    BlockHead, Bucket, COLOURS, ConstraintBlock, Graph, SurfaceBlock, colour_at, flags,
-};
+use crate::dynamics::{BlockHead, COLOURS, ConstraintBlock, Graph, SurfaceBlock, colour_at, flags};
 use crate::geometry::manifold::PairClass;
 use crate::math::Vec2;
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
@@ -87,8 +85,6 @@ pub(crate) struct Parameters {
     pub(crate) fast_approach: f32,
     /// What approaches more slowly does not bounce, metres a second.
     pub(crate) restitution_threshold: f32,
-    /// What would leave more slowly does not bounce, metres a second.
-    pub(crate) least_bounce: f32,
     /// Metres a second squared.
     pub(crate) gravity: Vec2,
     /// Lengths of substep and step, seconds.
@@ -123,54 +119,26 @@ pub(crate) fn run(
 ) {
     for &(place, class) in places {
         let bucket = &mut graph.buckets[place][class as usize];
-        let points = class.max_points();
-        if colour_at(place) == COLOURS {
-            run_in_order(pass, parameters, rows, bucket, points);
-        } else {
-            run_colour(team, level, pass, parameters, rows, bucket, points);
-        }
+        let (level, chunk) = share(level, place);
+        let block_count = bucket.constraints.len();
+        let constraints = SharedSlice::new(&mut bucket.constraints);
+        let surfaces = SharedSlice::new(&mut bucket.surfaces);
+        let heads = &bucket.heads;
+        team.for_each_chunk(block_count, chunk, |range| {
+            let blocks = Blocks {
+                constraints: constraints.range(range.clone()),
+                surfaces: surfaces.range(range.clone()),
+                heads: &heads[range],
+            };
+            run_blocks(level, RunPass { pass, parameters, rows, blocks }, class.max_points());
+        });
     }
 }
 
-/// Runs a pass over a bucket of one colour, in lanes. `points` is 1 for the classes that never have a
-/// second point.
-fn run_colour(
-    team: &Team,
-    level: SimdLevel,
-    pass: Pass,
-    parameters: &Parameters,
-    rows: SharedRows<'_>,
-    bucket: &mut Bucket,
-    points: usize,
-) {
-    let block_count = bucket.constraints.len();
-    let constraints = SharedSlice::new(&mut bucket.constraints);
-    let surfaces = SharedSlice::new(&mut bucket.surfaces);
-    let heads = &bucket.heads;
-    team.for_each_chunk(block_count, CHUNK, |range| {
-        let blocks = Blocks {
-            constraints: constraints.range(range.clone()),
-            surfaces: surfaces.range(range.clone()),
-            heads: &heads[range],
-        };
-        run_blocks(level, RunPass { pass, parameters, rows, blocks }, points);
-    });
-}
-
-/// Runs a pass over a bucket of the overflow: the one-lane instance, contact after contact.
-fn run_in_order(
-    pass: Pass,
-    parameters: &Parameters,
-    rows: SharedRows<'_>,
-    bucket: &mut Bucket,
-    points: usize,
-) {
-    let blocks = Blocks {
-        constraints: &mut bucket.constraints,
-        surfaces: &mut bucket.surfaces,
-        heads: &bucket.heads,
-    };
-    run_blocks(SimdLevel::Scalar, RunPass { pass, parameters, rows, blocks }, points);
+/// How the blocks of a place are shared out: in lanes and chunks; an overflow, whose contacts have bodies in
+/// common, one by one and by one member.
+fn share(level: SimdLevel, place: usize) -> (SimdLevel, usize) {
+    if colour_at(place) == COLOURS { (SimdLevel::Scalar, usize::MAX) } else { (level, CHUNK) }
 }
 
 fn run_blocks(level: SimdLevel, work: RunPass<'_>, points: usize) {
@@ -253,7 +221,7 @@ fn warm_start<L: Lanes, const POINTS: usize, const FIRST: bool>(
         let impulse = stride.load(&surface.rolling_impulse);
         roll(&mut pair, impulse);
     }
-    pair.scatter(stride, [&block.body_a, &block.body_b], only);
+    pair.store_only(stride, block, only);
 }
 
 /// Normal impulses with bias.
@@ -286,8 +254,9 @@ fn relax<L: Lanes, const POINTS: usize>(
 ) {
     let mut pair = Pair::load(stride, block);
     let friction = stride.load(&block.friction);
+    let belt = if flags & flags::TANGENT_SPEED != 0 { Some(&surface.tangent_speed) } else { None };
     for point in &mut block.points[..POINTS] {
-        solve_friction(stride, &mut pair, point, friction, surface, flags);
+        solve_friction(stride, &mut pair, point, friction, belt);
     }
     if flags & flags::ROLLING != 0 {
         solve_rolling::<L, POINTS>(stride, &mut pair, block, surface);

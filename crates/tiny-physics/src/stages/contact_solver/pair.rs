@@ -65,43 +65,33 @@ pub(super) struct Pair<L: Lanes> {
 impl<L: Lanes> Pair<L> {
     #[inline(always)]
     pub(super) fn load(stride: &Stride<'_, L>, block: &ConstraintBlock) -> Self {
-        Self::gather(stride, [&block.body_a, &block.body_b], [&block.normal_x, &block.normal_y])
-    }
-
-    #[inline(always)]
-    pub(super) fn gather(
-        stride: &Stride<'_, L>,
-        bodies: [&[u32; BLOCK]; 2],
-        normal: [&[f32; BLOCK]; 2],
-    ) -> Self {
-        // Closures of `map` would not be compiled for the kernel's instruction set.
         Self {
-            a: L::gather(stride.token, stride.rows, &bodies[0][stride.at..]),
-            b: L::gather(stride.token, stride.rows, &bodies[1][stride.at..]),
-            normal: [stride.load(normal[0]), stride.load(normal[1])],
+            a: L::gather(stride.token, stride.rows, &block.body_a[stride.at..]),
+            b: L::gather(stride.token, stride.rows, &block.body_b[stride.at..]),
+            normal: [stride.load(&block.normal_x), stride.load(&block.normal_y)],
         }
     }
 
     /// Writes the velocities back, except to bodies that nothing moves.
     #[inline(always)]
     pub(super) fn store(self, stride: &Stride<'_, L>, block: &ConstraintBlock) {
-        self.scatter(stride, [&block.body_a, &block.body_b], ALL_BODIES);
+        self.store_only(stride, block, ALL_BODIES);
     }
 
     /// The same for the lanes in `only`.
     #[inline(always)]
-    pub(super) fn scatter(
+    pub(super) fn store_only(
         self,
         stride: &Stride<'_, L>,
-        bodies: [&[u32; BLOCK]; 2],
+        block: &ConstraintBlock,
         only: (u32, u32),
     ) {
         let zero = stride.constants.zero;
         let mask = |body: &[L; 8]| L::bits(zero.lt(body[Slot::INV_MASS] + body[Slot::INV_INERTIA]));
         let (write_a, write_b) = (mask(&self.a) & only.0, mask(&self.b) & only.1);
         let half = |body: [L; 8]| [body[0], body[1], body[2], body[3]];
-        L::scatter(half(self.a), stride.rows, &bodies[0][stride.at..], write_a);
-        L::scatter(half(self.b), stride.rows, &bodies[1][stride.at..], write_b);
+        L::scatter(half(self.a), stride.rows, &block.body_a[stride.at..], write_a);
+        L::scatter(half(self.b), stride.rows, &block.body_b[stride.at..], write_b);
     }
 
     /// Relative velocity of a point along the normal.
