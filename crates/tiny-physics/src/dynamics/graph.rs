@@ -32,6 +32,16 @@ pub(crate) fn colour_at(place: usize) -> usize {
     place % PER_PACE
 }
 
+/// Is a place an overflow, whose contacts may have bodies in common?
+pub(crate) fn is_overflow(place: usize) -> bool {
+    place != IDLE && colour_at(place) == COLOURS
+}
+
+/// The places of a pace in the order in which they are solved: the overflow, then the colours.
+pub(crate) fn places_of(pace: usize) -> impl Iterator<Item = usize> {
+    core::iter::once(COLOURS).chain(0..COLOURS).map(move |colour| pace * PER_PACE + colour)
+}
+
 /// The pace of a place below [`IDLE`].
 pub(crate) fn pace_at(place: usize) -> usize {
     place / PER_PACE
@@ -258,20 +268,6 @@ impl Graph {
         self.touching
     }
 
-    /// Lists the buckets of a pace that the solver has to visit, in its order: the overflow, then colour by
-    /// colour.
-    pub(crate) fn list_occupied(&self, pace: usize, occupied: &mut Vec<(usize, PairClass)>) {
-        occupied.clear();
-        for colour in core::iter::once(COLOURS).chain(0..COLOURS) {
-            let place = pace * PER_PACE + colour;
-            for (bucket, class) in self.buckets[place].iter().zip(PairClass::ALL) {
-                if !bucket.contacts.is_empty() {
-                    occupied.push((place, class));
-                }
-            }
-        }
-    }
-
     /// Puts a contact into the graph: into a colour if it touches, else among the idle ones.
     pub(crate) fn insert(&mut self, bodies: &mut Bodies, contacts: &mut Contacts, index: u32) {
         let contact = &mut contacts.records[index as usize];
@@ -308,7 +304,7 @@ impl Graph {
         });
     }
 
-    /// The blocks whose constraints are not written yet: colour, class, block.
+    /// The blocks whose constraints are not written yet.
     pub(crate) fn fresh(&self) -> &[BlockAddress] {
         &self.fresh
     }

@@ -7,13 +7,14 @@
 
 use super::surfaces::{self, LanePoints, Surroundings};
 use crate::dynamics::{
-    BlockHead, BodyInfo, Bucket, ConstraintBlock, ManifoldBlock, NULL, ShapeRecord, SurfaceBlock,
-    flags,
+    BlockHead, BodyInfo, Bucket, ConstraintBlock, Graph, ManifoldBlock, NULL, Schedule,
+    ShapeRecord, SurfaceBlock, flags,
 };
 use crate::geometry::manifold::{self, LaneManifold, LanePair, PairClass};
 use crate::math::{Pose, Rot, Transform, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, Row, SimdLevel, dispatch};
 use crate::threads::{SharedSlice, Team};
+use core::ops::Range;
 
 /// What the narrow phase reads.
 #[derive(Clone, Copy)]
@@ -43,64 +44,65 @@ struct Blocks<'a> {
 }
 
 /// Blocks that one member of the team updates at a time.
-const CHUNK: usize = 4;
+pub(crate) const CHUNK: usize = 4;
 
-/// Updates all blocks of a bucket.
-pub(crate) fn update_bucket(
-    team: &Team,
-    context: Context<'_>,
-    class: PairClass,
-    bucket: &mut Bucket,
-) {
-    let count = bucket.contacts.len();
-    let block_count = bucket.manifolds.len();
-    let manifolds = SharedSlice::new(&mut bucket.manifolds);
-    let heads = SharedSlice::new(&mut bucket.heads);
-    let constraints = SharedSlice::new(&mut bucket.constraints);
-    let surfaces = SharedSlice::new(&mut bucket.surfaces);
-    team.for_each_chunk(block_count, CHUNK, |range| {
-        let blocks = Blocks {
-            count: count.min(range.end * BLOCK) - range.start * BLOCK,
-            manifolds: manifolds.range(range.clone()),
-            heads: heads.range(range.clone()),
-            constraints: constraints.range(range.clone()),
-            surfaces: surfaces.range(range),
-        };
-        update(context, class, blocks);
-    });
+/// Updates the blocks of a schedule.
+pub(crate) fn run(team: &Team, context: Context<'_>, graph: &mut Graph, schedule: &Schedule) {
+    for (place, runs) in schedule.stages() {
+        let parts = graph.buckets[place].each_mut().map(Part::new);
+        team.for_each_chunk(runs.len(), 1, |range| {
+            for run in &runs[range] {
+                update(context, run.class, parts[run.class as usize].blocks(run.blocks.clone()));
+            }
+        });
+    }
 }
 
-/// Updates one block of a bucket of touching contacts.
-pub(crate) fn update_block(
-    context: Context<'_>,
-    class: PairClass,
-    bucket: &mut Bucket,
-    block: usize,
-) {
-    let range = block..block + 1;
-    let blocks = Blocks {
-        count: (bucket.contacts.len() - block * BLOCK).min(BLOCK),
-        manifolds: &mut bucket.manifolds[range.clone()],
-        heads: &mut bucket.heads[range.clone()],
-        constraints: &mut bucket.constraints[range.clone()],
-        surfaces: &mut bucket.surfaces[range],
-    };
-    update(context, class, blocks);
+/// A bucket, shared between members of the team.
+#[derive(Clone, Copy)]
+struct Part<'a> {
+    count: usize,
+    manifolds: SharedSlice<'a, ManifoldBlock>,
+    heads: SharedSlice<'a, BlockHead>,
+    constraints: SharedSlice<'a, ConstraintBlock>,
+    surfaces: SharedSlice<'a, SurfaceBlock>,
+}
+
+impl<'a> Part<'a> {
+    fn new(bucket: &'a mut Bucket) -> Self {
+        Self {
+            count: bucket.contacts.len(),
+            manifolds: SharedSlice::new(&mut bucket.manifolds),
+            heads: SharedSlice::new(&mut bucket.heads),
+            constraints: SharedSlice::new(&mut bucket.constraints),
+            surfaces: SharedSlice::new(&mut bucket.surfaces),
+        }
+    }
+
+    fn blocks(self, range: Range<usize>) -> Blocks<'a> {
+        Blocks {
+            count: self.count.min(range.end * BLOCK) - range.start * BLOCK,
+            manifolds: self.manifolds.range(range.clone()),
+            heads: self.heads.range(range.clone()),
+            constraints: self.constraints.range(range.clone()),
+            surfaces: self.surfaces.range(range),
+        }
+    }
 }
 
 fn update(context: Context<'_>, class: PairClass, blocks: Blocks<'_>) {
     match class {
-        PairClass::BoxBox => run::<BoxBox>(context, blocks),
-        PairClass::BoxCapsule => run::<BoxCapsule>(context, blocks),
-        PairClass::BoxCircle => run::<BoxCircle>(context, blocks),
-        PairClass::CapsuleCapsule => run::<CapsuleCapsule>(context, blocks),
-        PairClass::CapsuleCircle => run::<CapsuleCircle>(context, blocks),
-        PairClass::CircleCircle => run::<CircleCircle>(context, blocks),
-        PairClass::General => run::<General>(context, blocks),
+        PairClass::BoxBox => run_kernel::<BoxBox>(context, blocks),
+        PairClass::BoxCapsule => run_kernel::<BoxCapsule>(context, blocks),
+        PairClass::BoxCircle => run_kernel::<BoxCircle>(context, blocks),
+        PairClass::CapsuleCapsule => run_kernel::<CapsuleCapsule>(context, blocks),
+        PairClass::CapsuleCircle => run_kernel::<CapsuleCircle>(context, blocks),
+        PairClass::CircleCircle => run_kernel::<CircleCircle>(context, blocks),
+        PairClass::General => run_kernel::<General>(context, blocks),
     }
 }
 
-fn run<K: PairKernel>(context: Context<'_>, blocks: Blocks<'_>) {
+fn run_kernel<K: PairKernel>(context: Context<'_>, blocks: Blocks<'_>) {
     dispatch(context.level, Update::<K> { context, blocks, kernel: core::marker::PhantomData });
 }
 

@@ -42,11 +42,10 @@ pub use stats::{Stage, Stats};
 use crate::broad_phase::BroadPhase;
 use crate::describe::Settings;
 use crate::dynamics::{
-    Bodies, Contacts, Graph, JointGraph, JointLoad, Joints, Overlap, PACES, PLAIN, REFINEMENT,
-    Sensors, Shapes, Waiting,
+    Bodies, Contacts, Graph, IDLE, JointGraph, JointLoad, Joints, Overlap, PACES, PLAIN,
+    REFINEMENT, Schedule, Sensors, Shapes, Waiting, places_of,
 };
 use crate::error::Error;
-use crate::geometry::manifold::PairClass;
 use crate::math::Vec2;
 use crate::simd::SimdLevel;
 use crate::stages::contact_solver::{self, BounceMemory, Parameters, Pass, Softness};
@@ -136,7 +135,7 @@ struct Scratch {
     woken: Vec<u32>,
     hinges: Vec<u32>,
     listed: Vec<u32>,
-    occupied: Vec<(usize, PairClass)>,
+    schedule: Schedule,
     bounces: BounceMemory,
     overlaps: Vec<Overlap>,
     found_overlaps: Vec<Vec<Overlap>>,
@@ -228,7 +227,7 @@ impl World {
         watch.lap(&mut self.stats, Stage::Pairs);
         self.update_manifolds(team);
         watch.lap(&mut self.stats, Stage::NarrowPhase);
-        self.update_touching(lengths);
+        self.update_touching(team, lengths);
         self.call_pre_solve(team);
         watch.lap(&mut self.stats, Stage::Touching);
         self.solve(team, lengths);
@@ -310,17 +309,27 @@ impl World {
 
     /// Computes the manifolds and constraints of all contacts in the graph.
     fn update_manifolds(&mut self, team: &Team) {
+        let mut schedule = core::mem::take(&mut self.scratch.schedule);
+        schedule.fill(&self.graph, 0..=IDLE, narrow_phase::CHUNK);
         let (context, graph) = self.narrow_phase();
+        narrow_phase::run(team, context, graph, &schedule);
         graph.clear_fresh();
-        for buckets in &mut graph.buckets {
-            for (bucket, class) in buckets.iter_mut().zip(PairClass::ALL) {
-                narrow_phase::update_bucket(team, context, class, bucket);
-            }
-        }
+        self.scratch.schedule = schedule;
+    }
+
+    /// The same for the blocks that have got other contacts since.
+    fn update_fresh_manifolds(&mut self, team: &Team) {
+        let mut schedule = core::mem::take(&mut self.scratch.schedule);
+        self.graph.sort_fresh();
+        schedule.fill_with(self.graph.fresh(), narrow_phase::CHUNK);
+        let (context, graph) = self.narrow_phase();
+        narrow_phase::run(team, context, graph, &schedule);
+        graph.clear_fresh();
+        self.scratch.schedule = schedule;
     }
 
     /// Moves contacts that began or ended to where they belong; wakes what was touched.
-    fn update_touching(&mut self, lengths: StepLengths) {
+    fn update_touching(&mut self, team: &Team, lengths: StepLengths) {
         let mut changes = core::mem::take(&mut self.scratch.changes);
         touching::find_changes(&self.graph, &mut changes);
         changes.ended.iter().for_each(|&index| self.end_contact(index));
@@ -330,16 +339,7 @@ impl World {
         self.stats.contacts_begun = changes.began.len();
         self.stats.contacts_ended = changes.ended.len();
         self.scratch.changes = changes;
-
-        self.graph.sort_fresh();
-        let (context, graph) = self.narrow_phase();
-        for i in 0..graph.fresh().len() {
-            let (colour, class, block) = graph.fresh()[i];
-            let bucket = &mut graph.buckets[usize::from(colour)][usize::from(class)];
-            let class = PairClass::ALL[usize::from(class)];
-            narrow_phase::update_block(context, class, bucket, block as usize);
-        }
-        graph.clear_fresh();
+        self.update_fresh_manifolds(team);
     }
 
     /// Chooses which islands are solved more finely than others.
@@ -387,7 +387,7 @@ impl World {
     /// Integrates velocities and positions, and solves contacts and joints, substep by substep.
     fn solve_pace(&mut self, team: &Team, pace: usize, listed: &[u32], lengths: StepLengths) {
         let parameters = self.contact_parameters(lengths);
-        self.graph.list_occupied(pace, &mut self.scratch.occupied);
+        self.scratch.schedule.fill(&self.graph, places_of(pace), contact_solver::CHUNK);
         self.prepare_joints(team, pace, lengths.h);
         integrate::prepare(team, listed, &mut self.bodies, self.gravity, lengths.h);
         let max_speed = self.settings.max_speed * self.settings.length_unit;
@@ -414,8 +414,8 @@ impl World {
     /// Reflects what hits something bouncy.
     fn bounce(&mut self, team: &Team, parameters: &Parameters) {
         let Self { level, bodies, graph, scratch, .. } = self;
-        let Scratch { occupied, bounces, .. } = scratch;
-        contact_solver::run_bounces(team, *level, parameters, bodies, graph, occupied, bounces);
+        let Scratch { schedule, bounces, .. } = scratch;
+        contact_solver::run_bounces(team, *level, parameters, bodies, graph, schedule, bounces);
     }
 
     /// Stiffness of contacts for a substep length.
@@ -449,7 +449,7 @@ impl World {
         }
         let Self { bodies, graph, scratch, level, .. } = self;
         let rows = SharedRows::new(&mut bodies.rows);
-        contact_solver::run(team, *level, pass, parameters, rows, graph, &scratch.occupied);
+        contact_solver::run(team, *level, pass, parameters, rows, graph, &scratch.schedule);
     }
 
     /// Brings the joints' lanes in line with the poses.

@@ -34,11 +34,13 @@ mod pair;
 
 pub(crate) use bounce::{Memory as BounceMemory, run as run_bounces};
 
-use crate::dynamics::{BlockHead, COLOURS, ConstraintBlock, Graph, SurfaceBlock, colour_at, flags};
-use crate::geometry::manifold::PairClass;
+use crate::dynamics::{
+    BlockHead, Bucket, ConstraintBlock, Graph, Schedule, SurfaceBlock, flags, is_overflow,
+};
 use crate::math::Vec2;
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
 use crate::threads::{SharedRows, SharedSlice, Team};
+use core::ops::Range;
 use friction::{roll, solve_friction, solve_rolling};
 use normals::solve_normals;
 use pair::{ALL_BODIES, Constants, Pair, Stride};
@@ -105,9 +107,10 @@ pub(crate) enum Pass {
 }
 
 /// Blocks that one member of the team solves at a time.
-const CHUNK: usize = 8;
+pub(crate) const CHUNK: usize = 8;
 
-/// Runs a pass over these buckets in their order: the overflow contact after contact, colours in lanes.
+/// Runs a pass over the places of a schedule in their order: an overflow contact after contact, colours in
+/// lanes.
 pub(crate) fn run(
     team: &Team,
     level: SimdLevel,
@@ -115,30 +118,51 @@ pub(crate) fn run(
     parameters: &Parameters,
     rows: SharedRows<'_>,
     graph: &mut Graph,
-    places: &[(usize, PairClass)],
+    schedule: &Schedule,
 ) {
-    for &(place, class) in places {
-        let bucket = &mut graph.buckets[place][class as usize];
-        let (level, chunk) = share(level, place);
-        let block_count = bucket.constraints.len();
-        let constraints = SharedSlice::new(&mut bucket.constraints);
-        let surfaces = SharedSlice::new(&mut bucket.surfaces);
-        let heads = &bucket.heads;
-        team.for_each_chunk(block_count, chunk, |range| {
-            let blocks = Blocks {
-                constraints: constraints.range(range.clone()),
-                surfaces: surfaces.range(range.clone()),
-                heads: &heads[range],
-            };
-            run_blocks(level, RunPass { pass, parameters, rows, blocks }, class.max_points());
+    for (place, runs) in schedule.stages() {
+        let (level, chunk) = share(level, place, 1);
+        let parts = graph.buckets[place].each_mut().map(Part::new);
+        team.for_each_chunk(runs.len(), chunk, |range| {
+            for run in &runs[range] {
+                let blocks = parts[run.class as usize].blocks(run.blocks.clone());
+                let work = RunPass { pass, parameters, rows, blocks };
+                run_blocks(level, work, run.class.max_points());
+            }
         });
     }
 }
 
-/// How the blocks of a place are shared out: in lanes and chunks; an overflow, whose contacts have bodies in
+/// How the work of a place is shared out: in lanes and chunks; an overflow, whose contacts have bodies in
 /// common, one by one and by one member.
-fn share(level: SimdLevel, place: usize) -> (SimdLevel, usize) {
-    if colour_at(place) == COLOURS { (SimdLevel::Scalar, usize::MAX) } else { (level, CHUNK) }
+fn share(level: SimdLevel, place: usize, chunk: usize) -> (SimdLevel, usize) {
+    if is_overflow(place) { (SimdLevel::Scalar, usize::MAX) } else { (level, chunk) }
+}
+
+/// A bucket, shared between members of the team.
+#[derive(Clone, Copy)]
+struct Part<'a> {
+    constraints: SharedSlice<'a, ConstraintBlock>,
+    surfaces: SharedSlice<'a, SurfaceBlock>,
+    heads: &'a [BlockHead],
+}
+
+impl<'a> Part<'a> {
+    fn new(bucket: &'a mut Bucket) -> Self {
+        Self {
+            constraints: SharedSlice::new(&mut bucket.constraints),
+            surfaces: SharedSlice::new(&mut bucket.surfaces),
+            heads: &bucket.heads,
+        }
+    }
+
+    fn blocks(self, range: Range<usize>) -> Blocks<'a> {
+        Blocks {
+            constraints: self.constraints.range(range.clone()),
+            surfaces: self.surfaces.range(range.clone()),
+            heads: &self.heads[range],
+        }
+    }
 }
 
 fn run_blocks(level: SimdLevel, work: RunPass<'_>, points: usize) {

@@ -7,14 +7,16 @@
 //! Few contacts bounce at a time, so they are copied out of the graph into blocks of their own, colour by
 //! colour, and those are full.
 
+mod search;
+
 use super::friction::solve_friction;
 use super::pair::{Constants, Pair, Stride};
-use super::{Parameters, share};
-use crate::dynamics::{Bodies, Bucket, ConstraintBlock, Graph, Slot, flags};
+use super::{CHUNK, Parameters, share};
+use crate::dynamics::{Bodies, Bucket, ConstraintBlock, Graph, Schedule, flags};
 use crate::geometry::manifold::PairClass;
-use crate::math::Vec2;
-use crate::simd::{BLOCK, LaneKernel, Lanes, Row, SimdLevel, dispatch};
+use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
 use crate::threads::{SharedRows, SharedSlice, Team};
+use search::{Hit, Search};
 
 /// Rounds in a step: an impulse runs through this many bodies at once.
 const ROUNDS: usize = 8;
@@ -26,7 +28,7 @@ const HANDED_ON: f32 = 0.1;
 /// What a copied block has besides its constraints.
 #[derive(Clone, Copy, Debug)]
 struct Aims {
-    /// Speeds at which the points are to leave; 0 for one that does not hit. See [`Search::aim`].
+    /// Speeds at which the points are to leave; 0 for one that does not hit. See [`search`].
     targets: [[f32; BLOCK]; 2],
     tangent_speed: [f32; BLOCK],
 }
@@ -50,6 +52,7 @@ struct Batch {
 #[derive(Debug, Default)]
 pub(crate) struct Memory {
     batches: Vec<Batch>,
+    hits: Vec<Vec<Hit>>,
     /// Has a body bounced in the round before?
     marks: Vec<bool>,
     marked: Vec<u32>,
@@ -62,24 +65,26 @@ pub(crate) fn run(
     parameters: &Parameters,
     bodies: &mut Bodies,
     graph: &mut Graph,
-    occupied: &[(usize, PairClass)],
+    schedule: &Schedule,
     memory: &mut Memory,
 ) {
-    let Memory { batches, marks, marked } = memory;
+    let Memory { batches, hits, marks, marked } = memory;
     let threshold = parameters.restitution_threshold;
     marks.resize(bodies.infos.len(), false);
     for round in 0..ROUNDS {
-        let search = match round {
-            0 => Search { near: None, approach: threshold, leave: 0.0 },
-            _ => Search { near: Some(marks), approach: 0.0, leave: HANDED_ON * threshold },
+        let rows = SharedRows::new(&mut bodies.rows);
+        let (near, approach, leave) = match round {
+            0 => (None, threshold, 0.0),
+            _ => (Some(&marks[..]), 0.0, HANDED_ON * threshold),
         };
-        let count = search.collect(graph, occupied, &bodies.rows, parameters, batches);
+        let search = Search { graph, rows, parameters, near, approach, leave };
+        let hits = search.run(team, level, schedule.runs(), hits);
+        let count = copy_out(graph, hits, batches);
         marked.drain(..).for_each(|body| marks[body as usize] = false);
         if count == 0 {
             return;
         }
         let batches = &mut batches[..count];
-        let rows = SharedRows::new(&mut bodies.rows);
         for _ in 0..ITERATIONS {
             for batch in &mut *batches {
                 batch.run(team, level, parameters, rows);
@@ -93,88 +98,14 @@ pub(crate) fn run(
     marked.drain(..).for_each(|body| marks[body as usize] = false);
 }
 
-/// What bounces in a round.
-struct Search<'a> {
-    /// The bodies whose contacts are looked at; those of all where not said.
-    near: Option<&'a [bool]>,
-    /// What approaches no faster than this does not bounce, metres a second.
-    approach: f32,
-    /// Nor does what would leave no faster than this.
-    leave: f32,
-}
-
-impl Search<'_> {
-    /// Copies out what bounces. Gives the number of batches.
-    fn collect(
-        &self,
-        graph: &Graph,
-        occupied: &[(usize, PairClass)],
-        rows: &[Row],
-        parameters: &Parameters,
-        batches: &mut Vec<Batch>,
-    ) -> usize {
-        let mut count = 0;
-        for &(place, class) in occupied {
-            let bucket = &graph.buckets[place][class as usize];
-            for (block, head) in bucket.heads.iter().enumerate() {
-                if head.flags & flags::RESTITUTION == 0 {
-                    continue;
-                }
-                let mut lanes = match self.near {
-                    Some(marks) => near_lanes(bucket, block, marks),
-                    None => approaching_lanes(bucket, block, self.approach),
-                };
-                while lanes != 0 {
-                    let at = (block, lanes.trailing_zeros() as usize);
-                    lanes &= lanes - 1;
-                    if let Some(targets) = self.aim(bucket, at, rows, parameters) {
-                        batch_of(place, batches, &mut count).push(bucket, class, at, targets);
-                    }
-                }
-            }
-        }
-        count
+/// Copies out what bounces. Gives the number of batches.
+fn copy_out(graph: &Graph, hits: &[Vec<Hit>], batches: &mut Vec<Batch>) -> usize {
+    let mut count = 0;
+    for hit in hits.iter().flatten() {
+        let bucket = &graph.buckets[hit.place][hit.class as usize];
+        batch_of(hit.place, batches, &mut count).push(bucket, hit);
     }
-
-    /// How fast the points of a contact are to leave, if one of them hits in this step; 0 for one that does not.
-    ///
-    /// With approach v, separation s, closing acceleration c and restitution e, the surfaces meet at speed
-    /// `sqrt(v^2 + 2 c s)`. The bounce takes place here, at separation s, so the speed that has to be set is
-    /// `sqrt(e^2 (v^2 + 2 c s) - 2 c s)`. Velocities of the semi-implicit scheme are half a substep late:
-    /// `c h / 2` is missing from the approach and needed on top of the speed.
-    fn aim(
-        &self,
-        bucket: &Bucket,
-        (block, lane): (usize, usize),
-        rows: &[Row],
-        parameters: &Parameters,
-    ) -> Option<[f32; 2]> {
-        let constraint = &bucket.constraints[block];
-        let restitution = bucket.surfaces[block].restitution[lane];
-        let a = &rows[constraint.body_a[lane] as usize];
-        let b = &rows[constraint.body_b[lane] as usize];
-        let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
-        let along = normal.dot(Vec2::new(b[Slot::VX] - a[Slot::VX], b[Slot::VY] - a[Slot::VY]));
-        // What falls onto something fixed; what falls together does not close in.
-        let pull = normal.dot(parameters.gravity);
-        let pulled = |row: &Row, pull: f32| if row[Slot::INV_MASS] > 0.0 { 0.0 } else { pull };
-        let closing = positive(pulled(b, pull) - pulled(a, pull));
-        let late = closing * (0.5 * parameters.h);
-        let targets = constraint.points.each_ref().map(|point| {
-            let (arm_a, arm_b) = (point.normal_arm_a[lane], point.normal_arm_b[lane]);
-            let velocity = along + (arm_b * b[Slot::W] - arm_a * a[Slot::W]);
-            let s = point.separation[lane];
-            let fast = velocity < -self.approach && restitution * velocity < -self.leave;
-            if !fast || s + velocity * parameters.dt >= 0.0 || point.normal_mass[lane] <= 0.0 {
-                return 0.0;
-            }
-            let fall = 2.0 * closing * s;
-            let approach = late - velocity;
-            let meet = positive(approach * approach + fall);
-            positive(restitution * restitution * meet - fall).sqrt() + late
-        });
-        (targets != [0.0; 2]).then_some(targets)
-    }
+    count
 }
 
 /// The batch of a place: the last one of `count`, or another.
@@ -189,24 +120,6 @@ fn batch_of<'a>(place: usize, batches: &'a mut Vec<Batch>, count: &mut usize) ->
     &mut batches[*count - 1]
 }
 
-/// Lanes whose points approach faster than the threshold.
-fn approaching_lanes(bucket: &Bucket, block: usize, threshold: f32) -> u16 {
-    let surface = &bucket.surfaces[block];
-    (0..BLOCK).fold(0, |lanes, lane| {
-        let [first, second] = [surface.approach_1[lane], surface.approach_2[lane]];
-        lanes | u16::from((first < -threshold) | (second < -threshold)) << lane
-    })
-}
-
-/// Lanes with a marked body.
-fn near_lanes(bucket: &Bucket, block: usize, marks: &[bool]) -> u16 {
-    let block = &bucket.constraints[block];
-    (0..BLOCK).fold(0, |lanes, lane| {
-        let [a, b] = [block.body_a[lane], block.body_b[lane]].map(|body| marks[body as usize]);
-        lanes | u16::from(a | b) << lane
-    })
-}
-
 impl Batch {
     fn start(&mut self, place: usize) {
         self.place = place;
@@ -216,19 +129,14 @@ impl Batch {
     }
 
     /// Copies a contact out of the graph, with the speeds at which its points are to leave.
-    fn push(
-        &mut self,
-        bucket: &Bucket,
-        class: PairClass,
-        (from, at): (usize, usize),
-        targets: [f32; 2],
-    ) {
+    fn push(&mut self, bucket: &Bucket, hit: &Hit) {
         let lane = self.sources.len() % BLOCK;
         if lane == 0 {
             self.blocks.push(ConstraintBlock::NULL);
             self.aims.push(Aims::NULL);
         }
-        self.sources.push((class, (from * BLOCK + at) as u32));
+        self.sources.push((hit.class, hit.slot));
+        let (from, at) = (hit.slot as usize / BLOCK, hit.slot as usize % BLOCK);
         if let (Some(block), Some(aims)) = (self.blocks.last_mut(), self.aims.last_mut()) {
             block.copy_lane(lane, &bucket.constraints[from], at);
             for point in &mut block.points {
@@ -236,7 +144,7 @@ impl Batch {
                 point.tangent_impulse[lane] = 0.0;
             }
             aims.tangent_speed[lane] = bucket.surfaces[from].tangent_speed[at];
-            for (lanes, target) in aims.targets.iter_mut().zip(targets) {
+            for (lanes, target) in aims.targets.iter_mut().zip(hit.targets) {
                 lanes[lane] = target;
             }
         }
@@ -282,7 +190,7 @@ impl Batch {
         parameters: &Parameters,
         rows: SharedRows<'_>,
     ) {
-        let (level, chunk) = share(level, self.place);
+        let (level, chunk) = share(level, self.place, CHUNK);
         let aims = &self.aims;
         let blocks = SharedSlice::new(&mut self.blocks);
         team.for_each_chunk(aims.len(), chunk, |range| {
@@ -290,10 +198,6 @@ impl Batch {
             dispatch(level, Leave { parameters, rows, blocks, aims });
         });
     }
-}
-
-fn positive(value: f32) -> f32 {
-    if value > 0.0 { value } else { 0.0 }
 }
 
 struct Leave<'a> {
@@ -318,7 +222,7 @@ impl LaneKernel for Leave<'_> {
     }
 }
 
-/// Lets points leave at the speeds that [`Search::aim`] found, rubbed by what that takes.
+/// Lets points leave at the speeds that the [`search`] found, rubbed by what that takes.
 #[inline(always)]
 fn leave<L: Lanes>(stride: &Stride<'_, L>, block: &mut ConstraintBlock, aims: &Aims) {
     let zero = stride.constants.zero;

@@ -1,0 +1,163 @@
+//! Which contacts bounce in a round, and how fast their points are to leave.
+
+use crate::dynamics::{Bucket, ConstraintBlock, Graph, Run, Slot, flags};
+use crate::geometry::manifold::PairClass;
+use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
+use crate::stages::contact_solver::Parameters;
+use crate::stages::contact_solver::pair::{Constants, Pair, Stride};
+use crate::threads::{SharedRows, Team};
+
+/// Runs that one member of the team searches at a time.
+const CHUNK: usize = 4;
+
+/// A contact that bounces.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hit {
+    pub(super) place: usize,
+    pub(super) class: PairClass,
+    pub(super) slot: u32,
+    /// Speeds at which its points are to leave; 0 for one that does not hit.
+    pub(super) targets: [f32; 2],
+}
+
+/// What bounces in a round.
+#[derive(Clone, Copy)]
+pub(super) struct Search<'a> {
+    pub(super) graph: &'a Graph,
+    pub(super) rows: SharedRows<'a>,
+    pub(super) parameters: &'a Parameters,
+    /// The bodies whose contacts are looked at; those of all where not said.
+    pub(super) near: Option<&'a [bool]>,
+    /// What approaches no faster than this does not bounce, metres a second.
+    pub(super) approach: f32,
+    /// Nor does what would leave no faster than this.
+    pub(super) leave: f32,
+}
+
+impl Search<'_> {
+    /// Lists what bounces, in the order of the runs.
+    pub(super) fn run<'h>(
+        self,
+        team: &Team,
+        level: SimdLevel,
+        runs: &[Run],
+        hits: &'h mut Vec<Vec<Hit>>,
+    ) -> &'h [Vec<Hit>] {
+        team.map_chunks(runs.len(), CHUNK, hits, |range, hits| {
+            hits.clear();
+            dispatch(level, Look { search: self, runs: &runs[range], hits });
+        })
+    }
+
+    /// The lanes of a block that may bounce, as bits.
+    fn candidates(&self, bucket: &Bucket, block: usize) -> u16 {
+        if bucket.heads[block].flags & flags::RESTITUTION == 0 {
+            return 0;
+        }
+        match self.near {
+            Some(marks) => near_lanes(&bucket.constraints[block], marks),
+            None => approaching_lanes(bucket, block, self.approach),
+        }
+    }
+}
+
+/// Lanes whose points approach faster than the threshold.
+fn approaching_lanes(bucket: &Bucket, block: usize, threshold: f32) -> u16 {
+    let surface = &bucket.surfaces[block];
+    (0..BLOCK).fold(0, |lanes, lane| {
+        let [first, second] = [surface.approach_1[lane], surface.approach_2[lane]];
+        lanes | u16::from((first < -threshold) | (second < -threshold)) << lane
+    })
+}
+
+/// Lanes with a marked body.
+fn near_lanes(block: &ConstraintBlock, marks: &[bool]) -> u16 {
+    (0..BLOCK).fold(0, |lanes, lane| {
+        let [a, b] = [block.body_a[lane], block.body_b[lane]].map(|body| marks[body as usize]);
+        lanes | u16::from(a | b) << lane
+    })
+}
+
+struct Look<'a> {
+    search: Search<'a>,
+    runs: &'a [Run],
+    hits: &'a mut Vec<Hit>,
+}
+
+impl LaneKernel for Look<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, token: L::Token) {
+        let Self { search, runs, hits } = self;
+        let Search { graph, rows, parameters, .. } = search;
+        let constants = Constants::<L>::new(token, parameters);
+        for run in runs {
+            let bucket = &graph.buckets[run.place][run.class as usize];
+            for block in run.blocks.clone() {
+                let mut lanes = search.candidates(bucket, block);
+                if lanes == 0 {
+                    continue;
+                }
+                let mut targets = [[0.0; BLOCK]; 2];
+                for at in (0..BLOCK).step_by(L::WIDTH) {
+                    let stride = Stride { token, rows, at, constants: &constants };
+                    aim(&search, &stride, bucket, block, &mut targets);
+                }
+                while lanes != 0 {
+                    let lane = lanes.trailing_zeros() as usize;
+                    lanes &= lanes - 1;
+                    let targets = [targets[0][lane], targets[1][lane]];
+                    if targets != [0.0; 2] {
+                        let slot = (block * BLOCK + lane) as u32;
+                        hits.push(Hit { place: run.place, class: run.class, slot, targets });
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// How fast the points are to leave that hit in this step; 0 for those that do not.
+///
+/// With approach v, separation s, closing acceleration c and restitution e, the surfaces meet at speed
+/// `sqrt(v^2 + 2 c s)`. The bounce takes place here, at separation s, so the speed that has to be set is
+/// `sqrt(e^2 (v^2 + 2 c s) - 2 c s)`. Velocities of the semi-implicit scheme are half a substep late:
+/// `c h / 2` is missing from the approach and needed on top of the speed.
+#[inline(always)]
+fn aim<L: Lanes>(
+    search: &Search<'_>,
+    stride: &Stride<'_, L>,
+    bucket: &Bucket,
+    block: usize,
+    targets: &mut [[f32; BLOCK]; 2],
+) {
+    let constraint = &bucket.constraints[block];
+    let Parameters { gravity, h, dt, .. } = *search.parameters;
+    let splat = |value| L::splat(stride.token, value);
+    let zero = stride.constants.zero;
+    let pair = Pair::load(stride, constraint);
+    let restitution = stride.load(&bucket.surfaces[block].restitution);
+    // What falls onto something fixed; what falls together does not close in.
+    let pull = pair.normal[0] * splat(gravity.x) + pair.normal[1] * splat(gravity.y);
+    let pull_a = L::select(zero.lt(pair.a[Slot::INV_MASS]), zero, pull);
+    let pull_b = L::select(zero.lt(pair.b[Slot::INV_MASS]), zero, pull);
+    let closing = (pull_b - pull_a).max(zero);
+    let late = closing * splat(0.5 * h);
+    for (point, targets) in constraint.points.iter().zip(targets) {
+        let arms = [stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b)];
+        let velocity = pair.normal_velocity(arms[0], arms[1]);
+        let s = stride.load(&point.separation);
+        let fast = L::and(
+            velocity.lt(splat(-search.approach)),
+            (restitution * velocity).lt(splat(-search.leave)),
+        );
+        let arrives = (s + velocity * splat(dt)).lt(zero);
+        let hits = L::and(L::and(fast, arrives), zero.lt(stride.load(&point.normal_mass)));
+        let fall = splat(2.0) * closing * s;
+        let approach = late - velocity;
+        let meet = (approach * approach + fall).max(zero);
+        let speed = (restitution * restitution * meet - fall).max(zero).sqrt() + late;
+        stride.store(L::select(hits, speed, zero), targets);
+    }
+}
