@@ -5,7 +5,8 @@
 //! bullet also to that with a dynamic one. Its velocity stays: the contact solver deals with it in the
 //! next step, when there is a contact. The time that is lost is at most a step.
 
-use super::finalize::{FastBody, update_boxes};
+use super::boxes::{self, Moved};
+use super::finalize::FastBody;
 use super::one_way;
 use super::pairs::PairRule;
 use super::surfaces::{self, Ground, Seams};
@@ -13,12 +14,14 @@ use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes};
 use crate::geometry::{Shape, Sweep, ToiState, distance, time_of_impact};
 use crate::math::{Aabb, Pose, Rot, Transform, Vec2};
-use crate::threads::Team;
+use crate::threads::{SharedSlice, Team};
 use core::ops::ControlFlow;
 
 /// What decides about pairs besides filters.
 #[derive(Clone, Copy)]
 pub(crate) struct Rules<'a> {
+    /// Joined bodies do not collide.
+    pub(crate) joints: &'a Joints,
     /// The user's word on a pair of shapes, if there is any.
     pub(crate) custom: Option<&'a dyn PairRule>,
     /// See [`Settings::length_unit`](crate::Settings).
@@ -28,47 +31,73 @@ pub(crate) struct Rules<'a> {
 /// Fast bodies that one member of the team sweeps at a time.
 const CHUNK: usize = 16;
 
-/// Sweeps the fast bodies, bullets last and one by one: they see where all others have ended.
+/// Sweeps the fast bodies, bullets last and one by one: they see where all others have ended. `moved` is
+/// memory.
 pub(crate) fn run(
     team: &Team,
     fast: &mut [FastBody],
     bodies: &mut Bodies,
     shapes: &mut Shapes,
-    joints: &Joints,
     broad_phase: &mut BroadPhase,
     rules: Rules<'_>,
+    moved: &mut Vec<Moved>,
 ) {
-    let is_bullet = |bodies: &Bodies, fast: &FastBody| bodies.infos[fast.body as usize].bullet;
-    let scene = Scene { bodies, shapes, joints, broad_phase, rules };
+    let scene = Scene { bodies, shapes, broad_phase, rules };
     team.for_each_chunk_mut(fast, CHUNK, |_, fast| {
-        for fast in fast.iter_mut().filter(|fast| !is_bullet(scene.bodies, fast)) {
+        for fast in fast.iter_mut().filter(|fast| !scene.is_bullet(fast)) {
             fast.fraction = Impact { fast, bullets: &[], index: 0, scene }.first_fraction();
         }
     });
-    for fast in &*fast {
-        if !is_bullet(bodies, fast) {
-            place(fast, bodies, shapes, broad_phase);
-        }
-    }
+    place_all_but_bullets(team, fast, bodies, shapes, broad_phase, moved);
     for index in 0..fast.len() {
-        if is_bullet(bodies, &fast[index]) {
-            let scene = Scene { bodies, shapes, joints, broad_phase, rules };
+        let scene = Scene { bodies, shapes, broad_phase, rules };
+        if scene.is_bullet(&fast[index]) {
             let impact = Impact { fast: &fast[index], bullets: fast, index, scene };
             fast[index].fraction = impact.first_fraction();
-            place(&fast[index], bodies, shapes, broad_phase);
+            let FastBody { body, motion, fraction, .. } = fast[index];
+            bodies.poses[body as usize] = end(&fast[index], bodies.poses[body as usize]);
+            if moved.is_empty() {
+                moved.push(Moved::new());
+            }
+            boxes::update(bodies, shapes, broad_phase, body, motion * fraction, &mut moved[0]);
         }
     }
 }
 
-/// Sets a body back to its first impact, if it has one, and updates its boxes.
-fn place(fast: &FastBody, bodies: &mut Bodies, shapes: &mut Shapes, broad_phase: &mut BroadPhase) {
-    let fraction = fast.fraction;
-    if fraction < 1.0 {
-        let position = fast.start.p + fast.motion * fraction;
-        let rotation = fast.start.q.integrate(fast.turn * fraction);
-        bodies.poses[fast.body as usize] = Pose::new(position, rotation);
+/// Sets bodies back to their first impacts, where they have one, and updates their boxes.
+fn place_all_but_bullets(
+    team: &Team,
+    fast: &[FastBody],
+    bodies: &mut Bodies,
+    shapes: &mut Shapes,
+    broad_phase: &mut BroadPhase,
+    moved: &mut Vec<Moved>,
+) {
+    let (infos, poses) = (&bodies.infos, SharedSlice::new(&mut bodies.poses));
+    let chunks = boxes::share(shapes, broad_phase, |boxes| {
+        team.map_chunks(fast.len(), CHUNK, moved, |range, moved| {
+            moved.clear();
+            for fast in &fast[range] {
+                let info = &infos[fast.body as usize];
+                if !info.bullet {
+                    let pose = end(fast, poses.read(fast.body));
+                    poses.write(fast.body, pose);
+                    boxes.follow(info.first_shape, pose, fast.motion * fast.fraction, moved);
+                }
+            }
+        })
+    });
+    chunks.iter().for_each(|moved| boxes::take_over(shapes, broad_phase, moved));
+}
+
+/// Where a fast body ends: at its first impact, or at the pose that it has.
+fn end(fast: &FastBody, pose: Pose) -> Pose {
+    if fast.fraction < 1.0 {
+        let position = fast.start.p + fast.motion * fast.fraction;
+        Pose::new(position, fast.start.q.integrate(fast.turn * fast.fraction))
+    } else {
+        pose
     }
-    update_boxes(bodies, shapes, broad_phase, fast.body, fast.motion * fraction);
 }
 
 /// A disk about the middle of a shape, half as thick as it. What a shape touches already at the start of
@@ -114,9 +143,14 @@ impl Inner {
 struct Scene<'a> {
     bodies: &'a Bodies,
     shapes: &'a Shapes,
-    joints: &'a Joints,
     broad_phase: &'a BroadPhase,
     rules: Rules<'a>,
+}
+
+impl Scene<'_> {
+    fn is_bullet(&self, fast: &FastBody) -> bool {
+        self.bodies.infos[fast.body as usize].bullet
+    }
 }
 
 /// The search for the first impact of a body.
@@ -266,6 +300,6 @@ impl Impact<'_> {
         other.body != record.body
             && !other.sensor
             && record.filter.collides(&other.filter)
-            && self.scene.joints.may_collide(self.scene.bodies, record.body, other.body)
+            && self.scene.rules.joints.may_collide(self.scene.bodies, record.body, other.body)
     }
 }

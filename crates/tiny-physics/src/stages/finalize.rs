@@ -1,9 +1,10 @@
 //! After the substeps: poses take up the motion, boxes follow, rest is timed.
 
+use super::boxes::{self, Boxes, Moved};
 use crate::broad_phase::BroadPhase;
 use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, BodyInfo, NULL, Shapes, Slot, guard};
-use crate::math::{Aabb, Pose, Vec2};
+use crate::dynamics::{Bodies, BodyInfo, Shapes, Slot};
+use crate::math::{Pose, Vec2};
 use crate::simd::Row;
 use crate::threads::{SharedSlice, Team};
 
@@ -37,8 +38,7 @@ const CHUNK: usize = 128;
 /// What finalising a chunk of bodies found.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Findings {
-    /// Shapes that left their fat boxes, and the new ones.
-    moved: Vec<(u32, Aabb)>,
+    moved: Moved,
     /// Fast bodies: their boxes are left for the continuous stage.
     pub(crate) fast: Vec<FastBody>,
     /// Bodies whose numbers are no longer finite.
@@ -59,32 +59,26 @@ pub(crate) fn run(
     let previous = SharedSlice::new(previous);
     let (rows, poses, infos) =
         (SharedSlice::new(rows), SharedSlice::new(poses), SharedSlice::new(infos));
-    let mut tight = core::mem::take(&mut shapes.tight);
-    let tight_boxes = SharedSlice::new(&mut tight);
-    let (old_shapes, boxes) = (&*shapes, &*broad_phase);
-    let chunks = team.map_chunks(awake.len(), CHUNK, found, |range, found| {
-        found.moved.clear();
-        found.fast.clear();
-        found.broken.clear();
-        for &index in &awake[range] {
-            rows.update(index, |row| {
-                poses.update(index, |pose| {
-                    previous.write(index, *pose);
-                    infos.update(index, |info| {
-                        let body = FinalBody { index, row, pose, info };
-                        let scene = Scene { shapes: old_shapes, tight_boxes, boxes };
-                        finalize_body(body, scene, options, found);
+    let chunks = boxes::share(shapes, broad_phase, |boxes| {
+        team.map_chunks(awake.len(), CHUNK, found, |range, found| {
+            found.moved.clear();
+            found.fast.clear();
+            found.broken.clear();
+            for &index in &awake[range] {
+                rows.update(index, |row| {
+                    poses.update(index, |pose| {
+                        previous.write(index, *pose);
+                        infos.update(index, |info| {
+                            let body = FinalBody { index, row, pose, info };
+                            finalize_body(body, boxes, options, found);
+                        });
                     });
                 });
-            });
-        }
+            }
+        })
     });
-    shapes.tight = tight;
     for chunk in &*chunks {
-        for &(shape, fat) in &chunk.moved {
-            broad_phase.set_fat_aabb(shapes.proxy(shape), fat);
-            shapes.fat[shape as usize] = fat;
-        }
+        boxes::take_over(shapes, broad_phase, &chunk.moved);
     }
     chunks.len()
 }
@@ -97,17 +91,8 @@ struct FinalBody<'a> {
     info: &'a mut BodyInfo,
 }
 
-/// Where its shapes are.
-#[derive(Clone, Copy)]
-struct Scene<'a> {
-    shapes: &'a Shapes,
-    /// [`Shapes::tight`], to be written.
-    tight_boxes: SharedSlice<'a, Aabb>,
-    boxes: &'a BroadPhase,
-}
-
 #[inline]
-fn finalize_body(body: FinalBody<'_>, scene: Scene<'_>, options: Options, found: &mut Findings) {
+fn finalize_body(body: FinalBody<'_>, boxes: Boxes<'_>, options: Options, found: &mut Findings) {
     let FinalBody { index, row, pose, info } = body;
     let motion = Vec2::new(row[Slot::DX], row[Slot::DY]);
     let turn = row[Slot::DA];
@@ -129,16 +114,7 @@ fn finalize_body(body: FinalBody<'_>, scene: Scene<'_>, options: Options, found:
         found.fast.push(FastBody { body: index, start, motion, turn, fraction: 1.0 });
         return;
     }
-    let Scene { shapes, tight_boxes, boxes } = scene;
-    for shape in shapes.of_body(info.first_shape) {
-        let tight = shape_box(shapes, shape, *pose);
-        tight_boxes.write(shape, tight);
-        if !shapes.fat[shape as usize].contains(&tight)
-            && let Some(fat) = boxes.needed_fat_aabb(shapes.proxy(shape), tight, motion)
-        {
-            found.moved.push((shape, fat));
-        }
-    }
+    boxes.follow(info.first_shape, *pose, motion, &mut found.moved);
 }
 
 /// How far turning takes the outline of a body into what was free before, metres: no further than its points
@@ -164,51 +140,4 @@ fn time_rest(row: &Row, [way, turn]: [f32; 2], info: &mut BodyInfo, dt: f32) {
     } else {
         info.sleep_time = 0.0;
     }
-}
-
-/// Tells the broad phase where the shapes of a body are. `motion` is that of the last step, metres:
-/// the best guess of the next.
-pub(crate) fn update_boxes(
-    bodies: &Bodies,
-    shapes: &mut Shapes,
-    broad_phase: &mut BroadPhase,
-    index: u32,
-    motion: Vec2,
-) {
-    let pose = bodies.poses[index as usize];
-    let mut shape = bodies.infos[index as usize].first_shape;
-    while shape != NULL {
-        let proxy = shapes.proxy(shape);
-        let tight = shape_box(shapes, shape, pose);
-        shapes.tight[shape as usize] = tight;
-        if let Some(fat) = broad_phase.needed_fat_aabb(proxy, tight, motion) {
-            broad_phase.set_fat_aabb(proxy, fat);
-            shapes.fat[shape as usize] = fat;
-        }
-        shape = shapes.records[shape as usize].next;
-    }
-}
-
-/// The box of a shape on a body whose centre of mass has this pose.
-pub(crate) fn shape_box(shapes: &Shapes, shape: u32, pose: Pose) -> Aabb {
-    let row = &shapes.rows[shape as usize];
-    if guard::exact(row[7]) == 1.0 {
-        rounded_box(row, pose)
-    } else {
-        let record = &shapes.records[shape as usize];
-        record.shape.world_aabb(pose.compose(record.central))
-    }
-}
-
-/// The box of a rounded box.
-#[inline]
-fn rounded_box(row: &Row, pose: Pose) -> Aabb {
-    let center = pose.apply(Vec2::new(row[0], row[1]));
-    let (c, s) = (pose.q.c * row[2] - pose.q.s * row[3], pose.q.s * row[2] + pose.q.c * row[3]);
-    let (c, s) = (c.abs(), s.abs());
-    let extent = Vec2::new(c * row[4] + s * row[5] + row[6], s * row[4] + c * row[5] + row[6]);
-    // Rounding 64 bits to 32 and adding takes at most three halves of a last place; this is four.
-    let near = center.to_vec2();
-    let slack = (near.abs() + extent) * (2.0 * f32::EPSILON);
-    Aabb::new(near - extent - slack, near + extent + slack)
 }

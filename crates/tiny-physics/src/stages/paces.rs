@@ -181,6 +181,9 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
                     continue;
                 }
                 let island = &mut found[islands.root(a) as usize];
+                if island.bodies > rules.most_bodies {
+                    continue;
+                }
                 let speed = (bodies.velocity(b) - bodies.velocity(a)).length();
                 island.lively |= speed > LIVELY * rules.length_unit;
                 if speed < SETTLED * rules.length_unit {

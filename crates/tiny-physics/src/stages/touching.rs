@@ -1,7 +1,11 @@
-//! Which contacts began and which ended: the serial part after the narrow phase.
+//! Which contacts began and which ended: between the narrow phase and the solver.
 
-use crate::dynamics::{Graph, IDLE};
+use crate::dynamics::{Graph, IDLE, Run, Schedule};
 use crate::simd::BLOCK;
+use crate::threads::Team;
+
+/// Runs of blocks that one member of the team looks at at a time.
+const CHUNK: usize = 4;
 
 /// Contacts whose state changed in the narrow phase, each list ascending.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -10,28 +14,48 @@ pub(crate) struct Changes {
     pub(crate) ended: Vec<u32>,
 }
 
-/// Compares what the narrow phase found with where the contacts are.
-pub(crate) fn find_changes(graph: &Graph, changes: &mut Changes) {
-    changes.began.clear();
-    changes.ended.clear();
-    for (colour, buckets) in graph.buckets.iter().enumerate() {
-        for bucket in buckets {
-            for (block, head) in bucket.heads.iter().enumerate() {
-                let touching = head.touching;
-                let first = block * BLOCK;
-                let lanes = (bucket.contacts.len() - first).min(BLOCK);
-                let all = if lanes == BLOCK { u16::MAX } else { (1 << lanes) - 1 };
-                let (changed, list) = if colour == IDLE {
-                    (touching, &mut changes.began)
-                } else {
-                    (!touching & all, &mut changes.ended)
-                };
-                push_lanes(changed, &bucket.contacts[first..first + lanes], list);
-            }
-        }
+/// Compares what the narrow phase found with where the contacts are. The schedule has all blocks of the graph.
+pub(crate) fn find_changes(
+    team: &Team,
+    graph: &Graph,
+    schedule: &Schedule,
+    found: &mut Vec<Changes>,
+    changes: &mut Changes,
+) {
+    changes.clear();
+    let runs = schedule.runs();
+    for found in team.map_chunks(runs.len(), CHUNK, found, |range, found| {
+        found.clear();
+        runs[range].iter().for_each(|run| found.look(graph, run));
+    }) {
+        changes.began.extend_from_slice(&found.began);
+        changes.ended.extend_from_slice(&found.ended);
     }
     changes.began.sort_unstable();
     changes.ended.sort_unstable();
+}
+
+impl Changes {
+    fn clear(&mut self) {
+        self.began.clear();
+        self.ended.clear();
+    }
+
+    fn look(&mut self, graph: &Graph, run: &Run) {
+        let bucket = &graph.buckets[run.place][run.class as usize];
+        for block in run.blocks.clone() {
+            let touching = bucket.heads[block].touching;
+            let first = block * BLOCK;
+            let lanes = (bucket.contacts.len() - first).min(BLOCK);
+            let all = if lanes == BLOCK { u16::MAX } else { (1 << lanes) - 1 };
+            let (changed, list) = if run.place == IDLE {
+                (touching, &mut self.began)
+            } else {
+                (!touching & all, &mut self.ended)
+            };
+            push_lanes(changed, &bucket.contacts[first..first + lanes], list);
+        }
+    }
 }
 
 fn push_lanes(mut bits: u16, contacts: &[u32], list: &mut Vec<u32>) {

@@ -6,7 +6,7 @@ use super::ids::{BodyId, ShapeId};
 use crate::describe::BodyKind;
 use crate::dynamics::BodyInfo;
 use crate::math::{DVec2, Pose, Rot, Vec2};
-use crate::stages::{finalize, sleep};
+use crate::stages::sleep;
 
 /// Velocities, forces, impulses beyond this are refused, in any unit.
 const MAX_NUMBER: f32 = 1.0e15;
@@ -174,13 +174,7 @@ impl BodyMut<'_> {
         world.note_ground_of(index);
         world.bodies.set_origin_pose(index, pose.p, pose.q.normalized());
         world.mark_shapes_changed(index);
-        finalize::update_boxes(
-            &world.bodies,
-            &mut world.shapes,
-            &mut world.broad_phase,
-            index,
-            Vec2::ZERO,
-        );
+        world.update_boxes(index);
         world.note_ground_of(index);
     }
 

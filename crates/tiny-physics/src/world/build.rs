@@ -10,7 +10,7 @@ use crate::geometry::manifold::{RoundedBox, ShapeClass};
 use crate::geometry::{MassProperties, Shape};
 use crate::math::{Pose, Rot, Transform, Vec2};
 use crate::simd::Row;
-use crate::stages::finalize;
+use crate::stages::boxes;
 
 /// Coordinates beyond this are refused: 64-bit positions would lose millimetres.
 pub(super) const MAX_COORDINATE: f64 = 1.0e12;
@@ -248,12 +248,17 @@ impl World {
         self.update_central_frames(index);
         if shifted {
             // Shapes have stayed where they were, but for rounding, which a far centre of mass makes visible.
-            let Self { bodies, shapes, broad_phase, .. } = self;
-            finalize::update_boxes(bodies, shapes, broad_phase, index, Vec2::ZERO);
+            self.update_boxes(index);
         }
         for (joint, _) in self.joints.of_body(self.bodies.infos[index as usize].first_joint) {
             self.joint_graph.refresh(&self.joints, joint);
         }
+    }
+
+    /// Brings the boxes of a body's shapes to where they are.
+    pub(super) fn update_boxes(&mut self, index: u32) {
+        let Self { bodies, shapes, broad_phase, .. } = self;
+        boxes::update(bodies, shapes, broad_phase, index, Vec2::ZERO, &mut boxes::Moved::new());
     }
 
     /// Mass properties of all shapes in the body's frame, and whether one of them must not turn.
@@ -315,7 +320,7 @@ impl World {
             }
             let (category, mask) = record.filter.reach();
             let def = ProxyDef { kind, category, mask, user: shape, margin };
-            let tight = finalize::shape_box(&self.shapes, shape, pose);
+            let tight = boxes::shape_box(&self.shapes, shape, pose);
             let proxy = self.broad_phase.create_proxy(def, tight);
             self.shapes.tight[shape as usize] = tight;
             self.shapes.records[shape as usize].proxy = proxy.0;

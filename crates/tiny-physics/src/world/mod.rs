@@ -48,6 +48,7 @@ use crate::dynamics::{
 use crate::error::Error;
 use crate::math::Vec2;
 use crate::simd::SimdLevel;
+use crate::stages::boxes::Moved;
 use crate::stages::contact_solver::{self, BounceMemory, Parameters, Pass, Softness};
 use crate::stages::finalize::{FastBody, Findings};
 use crate::stages::islands::Stores;
@@ -127,8 +128,10 @@ pub struct World {
 struct Scratch {
     search: pairs::Search,
     changes: Changes,
+    found_changes: Vec<Changes>,
     findings: Vec<Findings>,
     fast: Vec<FastBody>,
+    moved: Vec<Moved>,
     islands: Vec<u32>,
     sets: sleep::Sets,
     paces: paces::Memory,
@@ -328,10 +331,12 @@ impl World {
         self.scratch.schedule = schedule;
     }
 
-    /// Moves contacts that began or ended to where they belong; wakes what was touched.
+    /// Moves contacts that began or ended to where they belong; wakes what was touched. The schedule is still
+    /// that of the narrow phase.
     fn update_touching(&mut self, team: &Team, lengths: StepLengths) {
         let mut changes = core::mem::take(&mut self.scratch.changes);
-        touching::find_changes(&self.graph, &mut changes);
+        let Scratch { schedule, found_changes, .. } = &mut self.scratch;
+        touching::find_changes(team, &self.graph, schedule, found_changes, &mut changes);
         changes.ended.iter().for_each(|&index| self.end_contact(index));
         changes.began.retain(|&index| self.may_begin(index, lengths.dt));
         changes.began.iter().for_each(|&index| self.begin_contact(index));
@@ -506,9 +511,13 @@ impl World {
     /// Stops fast bodies where they would have gone through something.
     fn sweep_fast_bodies(&mut self, team: &Team) {
         let Self { bodies, shapes, broad_phase, joints, hooks, scratch, settings, .. } = self;
-        let rules =
-            continuous::Rules { custom: hooks.pair_filter(), length_unit: settings.length_unit };
-        continuous::run(team, &mut scratch.fast, bodies, shapes, joints, broad_phase, rules);
+        let rules = continuous::Rules {
+            joints,
+            custom: hooks.pair_filter(),
+            length_unit: settings.length_unit,
+        };
+        let Scratch { fast, moved, .. } = scratch;
+        continuous::run(team, fast, bodies, shapes, broad_phase, rules, moved);
     }
 
     /// Looks for islands at rest now and then, and lets them sleep.

@@ -3,7 +3,7 @@
 use super::World;
 use crate::describe::BodyKind;
 use crate::dynamics::{COLOURS, IDLE, JointPlace, JointRecord, NULL, PLAIN, Place, colour_at};
-use crate::stages::{finalize, pairs};
+use crate::stages::{boxes, pairs};
 use core::ops::ControlFlow;
 use std::collections::HashSet;
 
@@ -128,7 +128,7 @@ impl World {
             let record = &self.shapes.records[shape as usize];
             let (tight, fat) = (self.shapes.tight[shape as usize], self.shapes.fat[shape as usize]);
             let now =
-                finalize::shape_box(&self.shapes, shape, self.bodies.poses[record.body as usize]);
+                boxes::shape_box(&self.shapes, shape, self.bodies.poses[record.body as usize]);
             let room = 1.0e-5 * (1.0 + now.center().length() + now.half_extents().length());
             if !tight.grown(room).contains(&now) || !now.grown(room).contains(&tight) {
                 return Err(format!("shape {shape} is not where its box is"));

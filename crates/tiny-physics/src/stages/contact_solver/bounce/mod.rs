@@ -44,8 +44,10 @@ struct Batch {
     /// Their constraints; the impulses are those of the bounce.
     blocks: Vec<ConstraintBlock>,
     aims: Vec<Aims>,
-    /// Where each lane is in the graph.
+    /// Where each lane is in the graph: class and slot.
     sources: Vec<(PairClass, u32)>,
+    /// Speeds at which its points are to leave.
+    targets: Vec<[f32; 2]>,
 }
 
 /// Lists that [`run`] fills anew; kept for their memory.
@@ -79,7 +81,7 @@ pub(crate) fn run(
         };
         let search = Search { graph, rows, parameters, near, approach, leave };
         let hits = search.run(team, level, schedule.runs(), hits);
-        let count = copy_out(graph, hits, batches);
+        let count = copy_out(team, graph, hits, batches);
         marked.drain(..).for_each(|body| marks[body as usize] = false);
         if count == 0 {
             return;
@@ -98,26 +100,24 @@ pub(crate) fn run(
     marked.drain(..).for_each(|body| marks[body as usize] = false);
 }
 
-/// Copies out what bounces. Gives the number of batches.
-fn copy_out(graph: &Graph, hits: &[Vec<Hit>], batches: &mut Vec<Batch>) -> usize {
+/// Copies out what bounces, place by place. Gives the number of batches.
+fn copy_out(team: &Team, graph: &Graph, hits: &[Vec<Hit>], batches: &mut Vec<Batch>) -> usize {
     let mut count = 0;
     for hit in hits.iter().flatten() {
-        let bucket = &graph.buckets[hit.place][hit.class as usize];
-        batch_of(hit.place, batches, &mut count).push(bucket, hit);
-    }
-    count
-}
-
-/// The batch of a place: the last one of `count`, or another.
-fn batch_of<'a>(place: usize, batches: &'a mut Vec<Batch>, count: &mut usize) -> &'a mut Batch {
-    if *count == 0 || batches[*count - 1].place != place {
-        if batches.len() == *count {
-            batches.push(Batch::default());
+        if count == 0 || batches[count - 1].place != hit.place {
+            if batches.len() == count {
+                batches.push(Batch::default());
+            }
+            batches[count].start(hit.place);
+            count += 1;
         }
-        batches[*count].start(place);
-        *count += 1;
+        batches[count - 1].sources.push((hit.class, hit.slot));
+        batches[count - 1].targets.push(hit.targets);
     }
-    &mut batches[*count - 1]
+    team.for_each_chunk_mut(&mut batches[..count], 1, |_, batches| {
+        batches.iter_mut().for_each(|batch| batch.fill(&graph.buckets[batch.place]));
+    });
+    count
 }
 
 impl Batch {
@@ -126,26 +126,29 @@ impl Batch {
         self.blocks.clear();
         self.aims.clear();
         self.sources.clear();
+        self.targets.clear();
     }
 
-    /// Copies a contact out of the graph, with the speeds at which its points are to leave.
-    fn push(&mut self, bucket: &Bucket, hit: &Hit) {
-        let lane = self.sources.len() % BLOCK;
-        if lane == 0 {
-            self.blocks.push(ConstraintBlock::NULL);
-            self.aims.push(Aims::NULL);
-        }
-        self.sources.push((hit.class, hit.slot));
-        let (from, at) = (hit.slot as usize / BLOCK, hit.slot as usize % BLOCK);
-        if let (Some(block), Some(aims)) = (self.blocks.last_mut(), self.aims.last_mut()) {
+    /// Copies the contacts out of the graph, with the speeds at which their points are to leave.
+    fn fill(&mut self, buckets: &[Bucket; PairClass::COUNT]) {
+        let Self { blocks, aims, sources, targets, .. } = self;
+        for (index, (&(class, slot), targets)) in sources.iter().zip(targets).enumerate() {
+            let (from, at) = (slot as usize / BLOCK, slot as usize % BLOCK);
+            let lane = index % BLOCK;
+            if lane == 0 {
+                blocks.push(ConstraintBlock::NULL);
+                aims.push(Aims::NULL);
+            }
+            let (Some(block), Some(aims)) = (blocks.last_mut(), aims.last_mut()) else { return };
+            let bucket = &buckets[class as usize];
             block.copy_lane(lane, &bucket.constraints[from], at);
             for point in &mut block.points {
                 point.normal_impulse[lane] = 0.0;
                 point.tangent_impulse[lane] = 0.0;
             }
             aims.tangent_speed[lane] = bucket.surfaces[from].tangent_speed[at];
-            for (lanes, target) in aims.targets.iter_mut().zip(hit.targets) {
-                lanes[lane] = target;
+            for (lanes, target) in aims.targets.iter_mut().zip(targets) {
+                lanes[lane] = *target;
             }
         }
     }

@@ -102,7 +102,8 @@ impl LaneKernel for Look<'_> {
                 let mut targets = [[0.0; BLOCK]; 2];
                 for at in (0..BLOCK).step_by(L::WIDTH) {
                     let stride = Stride { token, rows, at, constants: &constants };
-                    aim(&search, &stride, bucket, block, &mut targets);
+                    let targets = &mut targets[..run.class.max_points()];
+                    aim(&search, &stride, bucket, block, targets);
                 }
                 while lanes != 0 {
                     let lane = lanes.trailing_zeros() as usize;
@@ -130,7 +131,7 @@ fn aim<L: Lanes>(
     stride: &Stride<'_, L>,
     bucket: &Bucket,
     block: usize,
-    targets: &mut [[f32; BLOCK]; 2],
+    targets: &mut [[f32; BLOCK]],
 ) {
     let constraint = &bucket.constraints[block];
     let Parameters { gravity, h, dt, .. } = *search.parameters;

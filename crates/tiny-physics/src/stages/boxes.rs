@@ -1,0 +1,97 @@
+//! Boxes that follow their shapes: tight ones at once, fat ones where they were left.
+
+use crate::broad_phase::BroadPhase;
+use crate::dynamics::{Bodies, Shapes, guard};
+use crate::math::{Aabb, Pose, Vec2};
+use crate::simd::Row;
+use crate::threads::SharedSlice;
+
+/// Shapes that left their fat boxes, and the new ones.
+pub(crate) type Moved = Vec<(u32, Aabb)>;
+
+/// The boxes of all shapes, for members of a team that each have bodies of their own.
+#[derive(Clone, Copy)]
+pub(crate) struct Boxes<'a> {
+    shapes: &'a Shapes,
+    tight: SharedSlice<'a, Aabb>,
+    broad_phase: &'a BroadPhase,
+}
+
+/// Shares the boxes out for as long as `work` lasts.
+pub(crate) fn share<R>(
+    shapes: &mut Shapes,
+    broad_phase: &BroadPhase,
+    work: impl FnOnce(Boxes<'_>) -> R,
+) -> R {
+    // Out of the shapes, which are read meanwhile.
+    let mut tight = core::mem::take(&mut shapes.tight);
+    let result = work(Boxes { shapes, tight: SharedSlice::new(&mut tight), broad_phase });
+    shapes.tight = tight;
+    result
+}
+
+impl Boxes<'_> {
+    /// Brings the tight boxes of a body's shapes to its pose, and notes which of them have left their fat boxes.
+    /// `motion` is that of the last step, metres: the best guess of the next.
+    #[inline]
+    pub(crate) fn follow(self, first_shape: u32, pose: Pose, motion: Vec2, moved: &mut Moved) {
+        let Self { shapes, tight: tight_boxes, broad_phase } = self;
+        for shape in shapes.of_body(first_shape) {
+            let tight = shape_box(shapes, shape, pose);
+            tight_boxes.write(shape, tight);
+            if !shapes.fat[shape as usize].contains(&tight)
+                && let Some(fat) = broad_phase.needed_fat_aabb(shapes.proxy(shape), tight, motion)
+            {
+                moved.push((shape, fat));
+            }
+        }
+    }
+}
+
+/// Gives shapes the fat boxes that they need.
+pub(crate) fn take_over(shapes: &mut Shapes, broad_phase: &mut BroadPhase, moved: &[(u32, Aabb)]) {
+    for &(shape, fat) in moved {
+        broad_phase.set_fat_aabb(shapes.proxy(shape), fat);
+        shapes.fat[shape as usize] = fat;
+    }
+}
+
+/// Brings all boxes of a body to its pose; see [`Boxes::follow`].
+pub(crate) fn update(
+    bodies: &Bodies,
+    shapes: &mut Shapes,
+    broad_phase: &mut BroadPhase,
+    index: u32,
+    motion: Vec2,
+    moved: &mut Moved,
+) {
+    moved.clear();
+    let first_shape = bodies.infos[index as usize].first_shape;
+    let pose = bodies.poses[index as usize];
+    share(shapes, broad_phase, |boxes| boxes.follow(first_shape, pose, motion, moved));
+    take_over(shapes, broad_phase, moved);
+}
+
+/// The box of a shape on a body whose centre of mass has this pose.
+pub(crate) fn shape_box(shapes: &Shapes, shape: u32, pose: Pose) -> Aabb {
+    let row = &shapes.rows[shape as usize];
+    if guard::exact(row[7]) == 1.0 {
+        rounded_box(row, pose)
+    } else {
+        let record = &shapes.records[shape as usize];
+        record.shape.world_aabb(pose.compose(record.central))
+    }
+}
+
+/// The box of a rounded box.
+#[inline]
+fn rounded_box(row: &Row, pose: Pose) -> Aabb {
+    let center = pose.apply(Vec2::new(row[0], row[1]));
+    let (c, s) = (pose.q.c * row[2] - pose.q.s * row[3], pose.q.s * row[2] + pose.q.c * row[3]);
+    let (c, s) = (c.abs(), s.abs());
+    let extent = Vec2::new(c * row[4] + s * row[5] + row[6], s * row[4] + c * row[5] + row[6]);
+    // Rounding 64 bits to 32 and adding takes at most three halves of a last place; this is four.
+    let near = center.to_vec2();
+    let slack = (near.abs() + extent) * (2.0 * f32::EPSILON);
+    Aabb::new(near - extent - slack, near + extent + slack)
+}
