@@ -12,7 +12,11 @@ use super::{BoxCast, DynamicTree, sort_pairs};
 use crate::codec::{Data, Reader, Sink, bad, data, data_enum};
 use crate::error::Error;
 use crate::math::{Aabb, Vec2};
+use crate::threads::{SharedSlice, Team};
 use core::ops::{ControlFlow, Range};
+
+/// Moved proxies that one member of a team forgets at a time.
+const MOVED_CHUNK: usize = 1024;
 
 /// The leaf of a shape in the broad phase.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -506,13 +510,23 @@ impl BroadPhase {
 
     /// Forgets which proxies moved. Call it after all groups have been queried.
     pub fn clear_moved(&mut self) {
+        self.forget_moved(&Team::alone());
+    }
+
+    /// The same by all members of a team.
+    pub(crate) fn forget_moved(&mut self, team: &Team) {
         let Self { proxies, moved, trees, .. } = self;
-        for id in moved.drain(..) {
-            let proxy = &mut proxies[id.0 as usize];
-            let tree = proxy.kind.map(|kind| &trees[kind as usize]);
-            proxy.asked = tree.and_then(|tree| tree.get(id.0)).unwrap_or(Aabb::EMPTY);
-            proxy.moved = false;
-        }
+        let proxies = SharedSlice::new(proxies);
+        team.for_each_chunk(moved.len(), MOVED_CHUNK, |range| {
+            for id in &moved[range] {
+                proxies.update(id.0, |proxy| {
+                    let tree = proxy.kind.map(|kind| &trees[kind as usize]);
+                    proxy.asked = tree.and_then(|tree| tree.get(id.0)).unwrap_or(Aabb::EMPTY);
+                    proxy.moved = false;
+                });
+            }
+        });
+        moved.clear();
         self.groups.clear();
     }
 

@@ -19,6 +19,7 @@ use crate::codec::{Data, Reader, Sink};
 use crate::error::Error;
 use crate::geometry::manifold::PairClass;
 use crate::simd::BLOCK;
+use crate::threads::SharedSlice;
 
 /// Number of colours.
 pub(crate) const COLOURS: usize = 24;
@@ -69,12 +70,11 @@ impl Bucket {
         (block.body_a[slot % BLOCK], block.body_b[slot % BLOCK])
     }
 
-    /// Appends a contact and gives its slot.
-    fn push(&mut self, index: u32, contact: &Contact, constrained: bool) -> u32 {
+    /// Makes room for a contact and gives its slot.
+    fn reserve(&mut self, index: u32, constrained: bool) -> u32 {
         let slot = self.contacts.len();
-        let (block, lane) = (slot / BLOCK, slot % BLOCK);
         self.contacts.push(index);
-        if lane == 0 {
+        if slot.is_multiple_of(BLOCK) {
             self.manifolds.push(ManifoldBlock::NULL);
             self.heads.push(BlockHead::default());
             if constrained {
@@ -82,6 +82,12 @@ impl Bucket {
                 self.surfaces.push(SurfaceBlock::NULL);
             }
         }
+        slot as u32
+    }
+
+    /// Writes a contact into its slot.
+    pub(super) fn fill(&mut self, slot: u32, contact: &Contact) {
+        let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
         let manifold = &mut self.manifolds[block];
         manifold.body_a[lane] = contact.body_a;
         manifold.body_b[lane] = contact.body_b;
@@ -91,10 +97,9 @@ impl Bucket {
         manifold.id_1[lane] = contact.saved[0].id;
         manifold.id_2[lane] = contact.saved[1].id;
         self.heads[block].touching |= u16::from(contact.touching) << lane;
-        if constrained {
+        if !self.constraints.is_empty() {
             self.fill_constraint(block, lane, contact);
         }
-        slot as u32
     }
 
     fn fill_constraint(&mut self, block: usize, lane: usize, contact: &Contact) {
@@ -155,6 +160,18 @@ impl Bucket {
             self.heads.pop();
         }
         self.contacts.get(slot as usize).copied()
+    }
+
+    /// Takes the contact at a slot out, which keeps its impulses in its record.
+    pub(super) fn take_out(&mut self, place: usize, slot: u32, records: SharedSlice<'_, Contact>) {
+        records.update(self.contacts[slot as usize], |contact| {
+            contact.saved = self.saved(slot);
+            contact.place = Place::Asleep;
+        });
+        if let Some(moved) = self.swap_remove(slot) {
+            let place = Place::Graph { colour: place as u8, slot };
+            records.update(moved, |contact| contact.place = place);
+        }
     }
 
     /// The impulses of all slots, in order; nothing for contacts that do not touch.
@@ -271,8 +288,19 @@ impl Graph {
     /// Puts a contact into the graph: into a colour if it touches, else among the idle ones.
     pub(crate) fn insert(&mut self, bodies: &mut Bodies, contacts: &mut Contacts, index: u32) {
         let contact = &mut contacts.records[index as usize];
+        let (place, slot) = self.admit(bodies, contact, index);
+        self.buckets[place][contact.class as usize].fill(slot, contact);
+    }
+
+    /// Chooses where a contact goes and makes room for it there.
+    pub(super) fn admit(
+        &mut self,
+        bodies: &mut Bodies,
+        contact: &mut Contact,
+        index: u32,
+    ) -> (usize, u32) {
         debug_assert_eq!(contact.place, Place::Asleep);
-        let colour = if contact.touching {
+        let place = if contact.touching {
             self.touching += 1;
             let (a, b) = (contact.body_a, contact.body_b);
             self.mixed |= bodies.are_mixed(a, b);
@@ -281,12 +309,12 @@ impl Graph {
         } else {
             IDLE
         };
-        let bucket = &mut self.buckets[colour][contact.class as usize];
-        let slot = bucket.push(index, contact, colour != IDLE);
-        contact.place = Place::Graph { colour: colour as u8, slot };
-        if colour != IDLE {
-            self.fresh.push((colour as u8, contact.class as u8, slot / BLOCK as u32));
+        let slot = self.buckets[place][contact.class as usize].reserve(index, place != IDLE);
+        contact.place = Place::Graph { colour: place as u8, slot };
+        if place != IDLE {
+            self.fresh.push((place as u8, contact.class as u8, slot / BLOCK as u32));
         }
+        (place, slot)
     }
 
     /// Forgets which blocks are fresh: the narrow phase has visited them, or is about to visit all.
@@ -311,20 +339,26 @@ impl Graph {
 
     /// Takes a contact out of the graph, if it is there, and saves its impulses in the record.
     pub(crate) fn remove(&mut self, bodies: &mut Bodies, contacts: &mut Contacts, index: u32) {
-        let contact = &mut contacts.records[index as usize];
-        let Place::Graph { colour, slot } = contact.place else { return };
-        let colour = usize::from(colour);
-        let bucket = &mut self.buckets[colour][contact.class as usize];
-        contact.saved = bucket.saved(slot);
-        contact.place = Place::Asleep;
-        let (body_a, body_b) = (contact.body_a, contact.body_b);
-        if let Some(moved) = bucket.swap_remove(slot) {
-            contacts.records[moved as usize].place = Place::Graph { colour: colour as u8, slot };
+        let contact = &contacts.records[index as usize];
+        if let Some((place, slot)) = self.dismiss(bodies, contact) {
+            let bucket = &mut self.buckets[place][contact.class as usize];
+            bucket.take_out(place, slot, SharedSlice::new(&mut contacts.records));
         }
-        if colour != IDLE {
+    }
+
+    /// Gives back the colour of a contact that is about to leave. Says where it is, if it is in the graph.
+    pub(super) fn dismiss(
+        &mut self,
+        bodies: &mut Bodies,
+        contact: &Contact,
+    ) -> Option<(usize, u32)> {
+        let Place::Graph { colour, slot } = contact.place else { return None };
+        let place = usize::from(colour);
+        if place != IDLE {
             self.touching -= 1;
-            give_colour_back(bodies, body_a, body_b, colour_at(colour));
+            give_colour_back(bodies, contact.body_a, contact.body_b, colour_at(place));
         }
+        Some((place, slot))
     }
 }
 

@@ -20,6 +20,9 @@ mod pair_table;
 mod schedule;
 mod sensors;
 mod shapes;
+#[cfg(test)]
+mod transfer_tests;
+mod transfers;
 mod waiting;
 
 pub(crate) use blocks::{
@@ -36,7 +39,8 @@ pub(crate) use joint_forest::{JointTree, TreeLink, TreeNode, TreeRow};
 pub(crate) use joint_graph::{JOINT_PLACES, JointBlocks, JointBucket, JointColour, JointGraph};
 pub(crate) use joints::{JointLoad, JointPlace, JointRecord, Joints};
 pub(crate) use pace::{PACES, PLAIN, REFINEMENT};
-pub(crate) use schedule::{Run, Schedule};
+pub(crate) use schedule::{Run, Schedule, Stage};
 pub(crate) use sensors::{Overlap, Sensors};
 pub(crate) use shapes::{ShapeRecord, Shapes, guard};
+pub(crate) use transfers::Transfers;
 pub(crate) use waiting::Waiting;

@@ -8,7 +8,7 @@
 use super::surfaces::{self, LanePoints, Surroundings};
 use crate::dynamics::{
     BlockHead, BodyInfo, Bucket, ConstraintBlock, Graph, ManifoldBlock, NULL, Schedule,
-    ShapeRecord, SurfaceBlock, flags,
+    ShapeRecord, Stage, SurfaceBlock, flags,
 };
 use crate::geometry::manifold::{self, LaneManifold, LanePair, PairClass};
 use crate::math::{Pose, Rot, Transform, Vec2};
@@ -48,9 +48,9 @@ pub(crate) const CHUNK: usize = 4;
 
 /// Updates the blocks of a schedule.
 pub(crate) fn run(team: &Team, context: Context<'_>, graph: &mut Graph, schedule: &Schedule) {
-    for (place, runs) in schedule.stages() {
+    for Stage { place, runs, chunk } in schedule.stages() {
         let parts = graph.buckets[place].each_mut().map(Part::new);
-        team.for_each_chunk(runs.len(), 1, |range| {
+        team.for_each_chunk(runs.len(), chunk, |range| {
             for run in &runs[range] {
                 update(context, run.class, parts[run.class as usize].blocks(run.blocks.clone()));
             }

@@ -220,7 +220,10 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
     };
     order.clear();
     for &body in bodies.awake.iter().filter(|&&body| bodies.is_dynamic(body)) {
-        if (2..=rules.most_bodies).contains(&found[islands.root(body) as usize].bodies) {
+        let island = &found[islands.root(body) as usize];
+        // A lively one stays at the plain pace whatever lies on what.
+        let matters = !island.lively || usize::from(island.pace) != PLAIN;
+        if matters && (2..=rules.most_bodies).contains(&island.bodies) {
             order.push((height(body), body));
         }
     }

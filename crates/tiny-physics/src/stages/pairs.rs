@@ -12,12 +12,15 @@ use crate::dynamics::{
 };
 use crate::geometry::manifold::PairClass;
 use crate::simd::BLOCK;
-use crate::threads::Team;
+use crate::threads::{SharedSlice, Team};
+use core::sync::atomic::{AtomicBool, Ordering};
 
 /// Groups of moved shapes whose partners one member of the team looks for at a time.
 const CHUNK: usize = 8;
 /// Waiting pairs that one member of the team looks at at a time.
 const WAITING_CHUNK: usize = 1024;
+/// Moved shapes that one member of the team looks at at a time.
+const MOVED_CHUNK: usize = 1024;
 /// Blocks of contacts that one member of the team looks through at a time.
 const SCANNED: usize = 32;
 
@@ -74,28 +77,32 @@ impl Search {
         graph: &Graph,
         waiting: &mut Waiting,
     ) {
-        self.note_moved(broad_phase, partners);
+        self.note_moved(team, broad_phase, partners);
         self.find_parted(team, broad_phase, partners, graph);
         self.find_near(team, broad_phase, partners, waiting);
-        self.forget_moved(broad_phase, partners.shapes);
+        self.forget_moved(team, broad_phase);
     }
 
-    fn note_moved(&mut self, broad_phase: &BroadPhase, partners: &Partners<'_>) {
+    fn note_moved(&mut self, team: &Team, broad_phase: &BroadPhase, partners: &Partners<'_>) {
         let Partners { shapes, bodies, .. } = partners;
         self.moved.resize(shapes.records.len(), motion::NONE);
-        self.sleeper_moved = false;
-        for (shape, proxy) in moved_shapes(broad_phase) {
+        let moved = SharedSlice::new(&mut self.moved);
+        let sleeper_moved = AtomicBool::new(false);
+        for_each_moved(team, broad_phase, |shape, proxy| {
             let anew = broad_phase.asks_anew(proxy);
-            self.moved[shape as usize] = if anew { motion::ANEW } else { motion::MOVED };
+            moved.write(shape, if anew { motion::ANEW } else { motion::MOVED });
             let body = shapes.records[shape as usize].body;
-            self.sleeper_moved |= !bodies.infos[body as usize].awake;
-        }
+            if !bodies.infos[body as usize].awake {
+                sleeper_moved.store(true, Ordering::Relaxed);
+            }
+        });
+        self.sleeper_moved = sleeper_moved.into_inner();
     }
 
-    fn forget_moved(&mut self, broad_phase: &mut BroadPhase, shapes: &Shapes) {
-        debug_assert_eq!(self.moved.len(), shapes.records.len());
-        moved_shapes(broad_phase).for_each(|(shape, _)| self.moved[shape as usize] = motion::NONE);
-        broad_phase.clear_moved();
+    fn forget_moved(&mut self, team: &Team, broad_phase: &mut BroadPhase) {
+        let moved = SharedSlice::new(&mut self.moved);
+        for_each_moved(team, broad_phase, |shape, _| moved.write(shape, motion::NONE));
+        broad_phase.forget_moved(team);
     }
 
     /// Sorts waiting pairs and the partners of moved shapes into those that need a contact and those that wait.
@@ -149,7 +156,7 @@ impl Search {
         let Partners { shapes, bodies, contacts, .. } = partners;
         self.parted.clear();
         let much = broad_phase.moved().len() * 64 > graph.len();
-        for (shape, _) in moved_shapes(broad_phase) {
+        for shape in moved_shapes(broad_phase) {
             let body = &bodies.infos[shapes.records[shape as usize].body as usize];
             if much && body.awake {
                 continue;
@@ -171,8 +178,8 @@ impl Search {
 
     fn find_parted_in_graph(&mut self, team: &Team, shapes: &Shapes, graph: &Graph) {
         self.schedule.fill(graph, 0..=IDLE, SCANNED);
-        let (runs, moved) = (self.schedule.runs(), &self.moved);
-        let chunks = team.map_chunks(runs.len(), 1, &mut self.found_parted, |range, parted| {
+        let ((runs, chunk), moved) = (self.schedule.runs(SCANNED), &self.moved);
+        let chunks = team.map_chunks(runs.len(), chunk, &mut self.found_parted, |range, parted| {
             parted.clear();
             for run in &runs[range] {
                 let bucket = &graph.buckets[run.place][run.class as usize];
@@ -193,9 +200,21 @@ impl Search {
     }
 }
 
-/// Shapes that left their fat boxes, and their leaves.
-fn moved_shapes(broad_phase: &BroadPhase) -> impl Iterator<Item = (u32, ProxyId)> + '_ {
-    broad_phase.moved().iter().filter_map(|&proxy| Some((broad_phase.user(proxy)?, proxy)))
+/// Shapes that left their fat boxes.
+fn moved_shapes(broad_phase: &BroadPhase) -> impl Iterator<Item = u32> + '_ {
+    broad_phase.moved().iter().filter_map(|&proxy| broad_phase.user(proxy))
+}
+
+/// Calls `work` with each shape that left its fat box, and its leaf.
+fn for_each_moved(team: &Team, broad_phase: &BroadPhase, work: impl Fn(u32, ProxyId) + Sync) {
+    let moved = broad_phase.moved();
+    team.for_each_chunk(moved.len(), MOVED_CHUNK, |range| {
+        for &proxy in &moved[range] {
+            if let Some(shape) = broad_phase.user(proxy) {
+                work(shape, proxy);
+            }
+        }
+    });
 }
 
 impl Found {
@@ -268,21 +287,22 @@ impl Partners<'_> {
     }
 }
 
-/// Creates the contacts of new pairs of shapes.
+/// Creates the contacts of new pairs of shapes. `created` gets those that are awake.
 pub(crate) fn create_contacts(
     pairs: &[(u32, u32)],
     settings: &Settings,
     shapes: &Shapes,
     bodies: &mut Bodies,
     contacts: &mut Contacts,
-    graph: &mut Graph,
+    created: &mut Vec<u32>,
 ) {
+    created.clear();
     for &(a, b) in pairs {
         let contact = new_contact(a, b, settings, shapes);
         let awake = is_awake(bodies, &contact);
         let index = contacts.insert(bodies, contact);
         if awake {
-            graph.insert(bodies, contacts, index);
+            created.push(index);
         }
     }
 }

@@ -4,8 +4,8 @@ use crate::dynamics::{Graph, IDLE, Run, Schedule};
 use crate::simd::BLOCK;
 use crate::threads::Team;
 
-/// Runs of blocks that one member of the team looks at at a time.
-const CHUNK: usize = 4;
+/// Blocks that one member of the team looks at at a time.
+const CHUNK: usize = 128;
 
 /// Contacts whose state changed in the narrow phase, each list ascending.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,8 +23,8 @@ pub(crate) fn find_changes(
     changes: &mut Changes,
 ) {
     changes.clear();
-    let runs = schedule.runs();
-    for found in team.map_chunks(runs.len(), CHUNK, found, |range, found| {
+    let (runs, chunk) = schedule.runs(CHUNK);
+    for found in team.map_chunks(runs.len(), chunk, found, |range, found| {
         found.clear();
         runs[range].iter().for_each(|run| found.look(graph, run));
     }) {

@@ -4,11 +4,13 @@ use super::World;
 use super::events::{ContactBegin, ContactEnd, Hit};
 use super::ids::{BodyId, ShapeId};
 use crate::describe::BodyKind;
-use crate::dynamics::{Bucket, IDLE, NULL, Place, flags};
+use crate::dynamics::{Bucket, IDLE, NULL, flags};
 use crate::math::{DVec2, Vec2};
 use crate::simd::BLOCK;
 use crate::stages::islands::Stores;
+use crate::stages::touching::Changes;
 use crate::stages::{one_way, pairs, sleep};
+use crate::threads::Team;
 
 /// One point of a contact.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -157,9 +159,27 @@ impl World {
         })
     }
 
-    /// A contact of the graph no longer touches.
-    pub(super) fn end_contact(&mut self, index: u32) {
-        self.graph.remove(&mut self.bodies, &mut self.contacts, index);
+    /// Moves contacts that began or ended to where they belong in the graph, and wakes what was touched.
+    pub(super) fn transfer(&mut self, team: &Team, changes: &Changes) {
+        let mut transfers = core::mem::take(&mut self.scratch.transfers);
+        let Changes { began, ended } = changes;
+        let both = || ended.iter().chain(began).copied();
+        let Self { graph, bodies, contacts, .. } = self;
+        transfers.remove(team, graph, bodies, contacts, both());
+        ended.iter().for_each(|&index| self.end_contact(index));
+        began.iter().for_each(|&index| self.begin_contact(index));
+        // What wakes takes its contacts into the graph, by what has begun and ended.
+        for &index in began {
+            let contact = &self.contacts.records[index as usize];
+            self.wake_dynamic([contact.body_a, contact.body_b]);
+        }
+        let Self { graph, bodies, contacts, .. } = self;
+        transfers.insert(team, graph, bodies, contacts, both());
+        self.scratch.transfers = transfers;
+    }
+
+    /// A contact no longer touches.
+    fn end_contact(&mut self, index: u32) {
         let contact = &mut self.contacts.records[index as usize];
         contact.touching = false;
         contact.saved = [crate::dynamics::SavedPoint::NONE; 2];
@@ -170,7 +190,6 @@ impl World {
         // Changes of the shapes' events take effect between an end and the next begin.
         let contact = &mut self.contacts.records[index as usize];
         pairs::mix_materials(contact, &self.settings, &self.shapes);
-        self.graph.insert(&mut self.bodies, &mut self.contacts, index);
     }
 
     /// May a contact that touches now begin? One-way platforms turn some down.
@@ -185,21 +204,22 @@ impl World {
         one_way::may_begin(contact, &self.bodies, &self.shapes, limits)
     }
 
-    /// A contact of the graph has begun to touch.
-    pub(super) fn begin_contact(&mut self, index: u32) {
-        self.graph.remove(&mut self.bodies, &mut self.contacts, index);
+    /// A contact has begun to touch.
+    fn begin_contact(&mut self, index: u32) {
         let contact = &mut self.contacts.records[index as usize];
         contact.touching = true;
-        let (body_a, body_b) = (contact.body_a, contact.body_b);
-        let (shape_a, shape_b) = (contact.shape_a, contact.shape_b);
         if contact.events {
+            let (shape_a, shape_b) = (contact.shape_a, contact.shape_b);
             let (shape_a, shape_b) = (self.shape_id(shape_a), self.shape_id(shape_b));
             self.events.contact_begin.push(ContactBegin { shape_a, shape_b });
         }
-        self.wake_dynamic([body_a, body_b]);
-        if self.contacts.records[index as usize].place == Place::Asleep {
-            self.graph.insert(&mut self.bodies, &mut self.contacts, index);
-        }
+    }
+
+    /// Removes contacts for good.
+    pub(super) fn destroy_contacts(&mut self, team: &Team, indices: &[u32]) {
+        let Self { graph, bodies, contacts, scratch, .. } = self;
+        scratch.transfers.remove(team, graph, bodies, contacts, indices.iter().copied());
+        indices.iter().for_each(|&index| self.destroy_contact(index));
     }
 
     /// Removes a contact for good. What rested on it wakes.

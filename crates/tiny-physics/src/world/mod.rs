@@ -43,7 +43,7 @@ use crate::broad_phase::BroadPhase;
 use crate::describe::Settings;
 use crate::dynamics::{
     Bodies, Contacts, Graph, IDLE, JointGraph, JointLoad, Joints, Overlap, PACES, PLAIN,
-    REFINEMENT, Schedule, Sensors, Shapes, Waiting, places_of,
+    REFINEMENT, Schedule, Sensors, Shapes, Transfers, Waiting, places_of,
 };
 use crate::error::Error;
 use crate::math::Vec2;
@@ -127,6 +127,8 @@ pub struct World {
 #[derive(Debug, Default)]
 struct Scratch {
     search: pairs::Search,
+    created: Vec<u32>,
+    transfers: Transfers,
     changes: Changes,
     found_changes: Vec<Changes>,
     findings: Vec<Findings>,
@@ -267,16 +269,18 @@ impl World {
 
         let search = core::mem::take(&mut self.scratch.search);
         self.stats.candidate_pairs = search.pairs.len();
-        search.parted.iter().for_each(|&index| self.destroy_contact(index));
+        self.destroy_contacts(team, &search.parted);
         self.events.flush_pending();
+        let Self { settings, shapes, bodies, contacts, graph, scratch, .. } = self;
         pairs::create_contacts(
             &search.pairs,
-            &self.settings,
-            &self.shapes,
-            &mut self.bodies,
-            &mut self.contacts,
-            &mut self.graph,
+            settings,
+            shapes,
+            bodies,
+            contacts,
+            &mut scratch.created,
         );
+        scratch.transfers.insert(team, graph, bodies, contacts, scratch.created.iter().copied());
         self.scratch.search = search;
     }
 
@@ -337,9 +341,8 @@ impl World {
         let mut changes = core::mem::take(&mut self.scratch.changes);
         let Scratch { schedule, found_changes, .. } = &mut self.scratch;
         touching::find_changes(team, &self.graph, schedule, found_changes, &mut changes);
-        changes.ended.iter().for_each(|&index| self.end_contact(index));
         changes.began.retain(|&index| self.may_begin(index, lengths.dt));
-        changes.began.iter().for_each(|&index| self.begin_contact(index));
+        self.transfer(team, &changes);
         self.assign_paces(lengths);
         self.stats.contacts_begun = changes.began.len();
         self.stats.contacts_ended = changes.ended.len();

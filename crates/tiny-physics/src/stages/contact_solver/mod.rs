@@ -35,7 +35,7 @@ mod pair;
 pub(crate) use bounce::{Memory as BounceMemory, run as run_bounces};
 
 use crate::dynamics::{
-    BlockHead, Bucket, ConstraintBlock, Graph, Schedule, SurfaceBlock, flags, is_overflow,
+    BlockHead, Bucket, ConstraintBlock, Graph, Schedule, Stage, SurfaceBlock, flags, is_overflow,
 };
 use crate::math::Vec2;
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
@@ -109,8 +109,8 @@ pub(crate) enum Pass {
 /// Blocks that one member of the team solves at a time.
 pub(crate) const CHUNK: usize = 8;
 
-/// Runs a pass over the places of a schedule in their order: an overflow contact after contact, colours in
-/// lanes.
+/// Runs a pass over the places of a schedule in their order: colours in lanes, an overflow, whose contacts have
+/// bodies in common, contact after contact.
 pub(crate) fn run(
     team: &Team,
     level: SimdLevel,
@@ -120,8 +120,8 @@ pub(crate) fn run(
     graph: &mut Graph,
     schedule: &Schedule,
 ) {
-    for (place, runs) in schedule.stages() {
-        let (level, chunk) = share(level, place, 1);
+    for Stage { place, runs, chunk } in schedule.stages() {
+        let level = if is_overflow(place) { SimdLevel::Scalar } else { level };
         let parts = graph.buckets[place].each_mut().map(Part::new);
         team.for_each_chunk(runs.len(), chunk, |range| {
             for run in &runs[range] {
@@ -131,12 +131,6 @@ pub(crate) fn run(
             }
         });
     }
-}
-
-/// How the work of a place is shared out: in lanes and chunks; an overflow, whose contacts have bodies in
-/// common, one by one and by one member.
-fn share(level: SimdLevel, place: usize, chunk: usize) -> (SimdLevel, usize) {
-    if is_overflow(place) { (SimdLevel::Scalar, usize::MAX) } else { (level, chunk) }
 }
 
 /// A bucket, shared between members of the team.

@@ -11,8 +11,8 @@ mod search;
 
 use super::friction::solve_friction;
 use super::pair::{Constants, Pair, Stride};
-use super::{CHUNK, Parameters, share};
-use crate::dynamics::{Bodies, Bucket, ConstraintBlock, Graph, Schedule, flags};
+use super::{CHUNK, Parameters};
+use crate::dynamics::{Bodies, Bucket, ConstraintBlock, Graph, Schedule, flags, is_overflow};
 use crate::geometry::manifold::PairClass;
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
 use crate::threads::{SharedRows, SharedSlice, Team};
@@ -20,7 +20,8 @@ use search::{Hit, Search};
 
 /// Rounds in a step: an impulse runs through this many bodies at once.
 const ROUNDS: usize = 8;
-/// Iterations in each of them, for points that hit at the same time.
+/// Iterations in each of them, for points that hit at the same time. Stopping where nothing changes by more than
+/// 1 mm/s was tried: among thousands of bodies that hit each other it never came before the last.
 const ITERATIONS: usize = 8;
 /// What would leave more slowly than this part of the threshold is not handed on.
 const HANDED_ON: f32 = 0.1;
@@ -80,7 +81,7 @@ pub(crate) fn run(
             _ => (Some(&marks[..]), 0.0, HANDED_ON * threshold),
         };
         let search = Search { graph, rows, parameters, near, approach, leave };
-        let hits = search.run(team, level, schedule.runs(), hits);
+        let hits = search.run(team, level, schedule, hits);
         let count = copy_out(team, graph, hits, batches);
         marked.drain(..).for_each(|body| marks[body as usize] = false);
         if count == 0 {
@@ -193,7 +194,8 @@ impl Batch {
         parameters: &Parameters,
         rows: SharedRows<'_>,
     ) {
-        let (level, chunk) = share(level, self.place, CHUNK);
+        let alone = is_overflow(self.place);
+        let (level, chunk) = if alone { (SimdLevel::Scalar, usize::MAX) } else { (level, CHUNK) };
         let aims = &self.aims;
         let blocks = SharedSlice::new(&mut self.blocks);
         team.for_each_chunk(aims.len(), chunk, |range| {

@@ -1,14 +1,14 @@
 //! Which contacts bounce in a round, and how fast their points are to leave.
 
-use crate::dynamics::{Bucket, ConstraintBlock, Graph, Run, Slot, flags};
+use crate::dynamics::{Bucket, ConstraintBlock, Graph, Run, Schedule, Slot, flags};
 use crate::geometry::manifold::PairClass;
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
 use crate::stages::contact_solver::Parameters;
 use crate::stages::contact_solver::pair::{Constants, Pair, Stride};
 use crate::threads::{SharedRows, Team};
 
-/// Runs that one member of the team searches at a time.
-const CHUNK: usize = 4;
+/// Blocks that one member of the team searches at a time.
+const CHUNK: usize = 32;
 
 /// A contact that bounces.
 #[derive(Clone, Copy, Debug)]
@@ -40,10 +40,11 @@ impl Search<'_> {
         self,
         team: &Team,
         level: SimdLevel,
-        runs: &[Run],
+        schedule: &Schedule,
         hits: &'h mut Vec<Vec<Hit>>,
     ) -> &'h [Vec<Hit>] {
-        team.map_chunks(runs.len(), CHUNK, hits, |range, hits| {
+        let (runs, chunk) = schedule.runs(CHUNK);
+        team.map_chunks(runs.len(), chunk, hits, |range, hits| {
             hits.clear();
             dispatch(level, Look { search: self, runs: &runs[range], hits });
         })
