@@ -98,7 +98,7 @@ fn many_at_once_are_as_one_by_one() {
         assert_eq!(many.contacts, single.contacts);
         many.check(0..COUNT);
 
-        let gone = |index: &u32| index % 3 == 0 || *index > 800;
+        let gone = |index: &u32| index.is_multiple_of(3) || *index > 800;
         many.remove(team, (0..COUNT).filter(gone));
         many.check((0..COUNT).filter(|index| !gone(index)));
         for index in (0..COUNT).filter(gone) {
