@@ -42,5 +42,6 @@ fn main() {
     println!("clone: {:.2} ms", time(|| drop(black_box(world.clone()))));
     println!("to_bytes: {:.2} ms", time(|| drop(black_box(world.to_bytes()))));
     println!("from_bytes: {:.2} ms", time(|| drop(black_box(World::from_bytes(&bytes)))));
+    println!("restore_bytes: {:.2} ms", time(|| _ = black_box(frame.restore_bytes(&bytes))));
     println!("state_hash: {:.2} ms", time(|| _ = black_box(world.state_hash())));
 }

@@ -8,7 +8,7 @@
 //! exactly when it is in the buffer; nodes hold the fat boxes below them.
 
 use super::boxes::WIDTH;
-use super::{BoxCast, DynamicTree, sort_pairs};
+use super::{BoxCast, DynamicTree, clamped, sort_pairs};
 use crate::codec::{Data, Reader, Sink, bad, data, data_enum};
 use crate::error::Error;
 use crate::math::{Aabb, Vec2};
@@ -285,6 +285,11 @@ impl BroadPhase {
     pub fn fat_aabb(&self, id: ProxyId) -> Option<Aabb> {
         let kind = self.proxies.get(id.0 as usize)?.kind?;
         self.trees[kind as usize].get(id.0)
+    }
+
+    /// Is this the fat box of a proxy, as far as the limits of coordinates let it be?
+    pub(crate) fn has_box(&self, id: ProxyId, fat: Aabb) -> bool {
+        self.fat_aabb(id) == Some(clamped(fat))
     }
 
     /// The fat box that a proxy needs for this tight box: `None` while the one it has is enough.
@@ -575,6 +580,18 @@ impl BroadPhase {
             if limit <= 0.0 {
                 return;
             }
+        }
+    }
+
+    /// Calls `visit` with the `user` numbers of every two proxies whose fat boxes overlap, the smaller first, once;
+    /// but not of two that are static or kinematic.
+    pub(crate) fn each_overlap(&self, mut visit: impl FnMut(u32, u32)) {
+        let dynamic = self.tree(ProxyKind::Dynamic);
+        for &kind in ProxyKind::Dynamic.partners() {
+            dynamic.join(self.tree(kind), |a, b| {
+                let (a, b) = ordered(self.proxies[a as usize].user, self.proxies[b as usize].user);
+                visit(a, b);
+            });
         }
     }
 

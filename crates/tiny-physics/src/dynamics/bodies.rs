@@ -1,6 +1,6 @@
 //! Bodies: hot rows for the solver, poses, and everything else.
 
-use super::clone::{Serial, cloned_data};
+use super::clone::{Serial, cloned_data, keep_serial};
 use super::pace::PLAIN;
 use crate::describe::{BodyKind, Locks};
 use crate::math::{DVec2, Pose, Rot, Vec2};
@@ -167,6 +167,7 @@ cloned_data!(Bodies {
     refined,
     serial
 });
+keep_serial!(Bodies);
 
 impl Bodies {
     pub(crate) fn new() -> Self {

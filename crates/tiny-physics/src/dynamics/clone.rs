@@ -43,6 +43,8 @@ impl Serial {
 }
 
 impl crate::codec::Data for Serial {
+    const SIZE: Option<usize> = Some(4);
+
     fn save(&self, sink: &mut impl crate::codec::Sink) {
         sink.apart(self.0);
     }
@@ -64,10 +66,22 @@ impl Clone for Serial {
     }
 }
 
+/// Gives a store a way to count on from where another of the same kind stands, for going back in place.
+macro_rules! keep_serial {
+    ($type:ident) => {
+        impl $type {
+            /// Generations go on from those of this store or the other, whichever has counted further.
+            pub(crate) fn keep_serial(&mut self, other: &Self) {
+                self.serial.clone_from(&other.serial);
+            }
+        }
+    };
+}
+
 impl PartialEq for Serial {
     fn eq(&self, _: &Self) -> bool {
         true
     }
 }
 
-pub(crate) use {clone_by_field, cloned_data};
+pub(crate) use {clone_by_field, cloned_data, keep_serial};

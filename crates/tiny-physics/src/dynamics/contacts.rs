@@ -83,13 +83,12 @@ impl Data for Contacts {
     fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
         let records: Vec<Contact> = Data::load(reader)?;
         let free = Data::load(reader)?;
-        let mut pairs = PairTable::default();
+        let mut pairs = PairTable::with_room_for(records.len());
         for (index, contact) in records.iter().enumerate().filter(|(_, contact)| contact.alive) {
             let (a, b) = (contact.shape_a, contact.shape_b);
-            if a == b || pairs.get(a, b).is_some() {
+            if a == b || !pairs.insert(a, b, index as u32) {
                 return Err(bad("two contacts are of the same shapes"));
             }
-            pairs.insert(a, b, index as u32);
         }
         Ok(Self { records, pairs, free })
     }
@@ -106,7 +105,8 @@ impl Contacts {
             self.records.push(contact);
             self.records.len() as u32 - 1
         };
-        self.pairs.insert(shape_a, shape_b, index);
+        let is_new = self.pairs.insert(shape_a, shape_b, index);
+        debug_assert!(is_new, "the pair has a contact already");
         edges::link(&mut self.records, bodies, index);
         index
     }

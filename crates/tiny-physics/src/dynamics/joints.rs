@@ -1,7 +1,7 @@
 //! Joint records: what the user asked for, and where the solver's copy of it is.
 
 use super::bodies::{Bodies, NULL};
-use super::clone::{Serial, cloned_data};
+use super::clone::{Serial, cloned_data, keep_serial};
 use super::edges::{self, edges};
 use super::joint_blocks::{Impulses, JointClass};
 use crate::describe::JointDef;
@@ -80,6 +80,7 @@ pub(crate) struct Joints {
 }
 
 cloned_data!(Joints { records, breakable, free, count, serial });
+keep_serial!(Joints);
 
 impl Joints {
     /// Joints alive.

@@ -29,7 +29,7 @@ pub(crate) use blocks::{
     BlockHead, ConstraintBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags,
 };
 pub(crate) use bodies::{Bodies, BodyInfo, Motion, NULL, Slot};
-pub(crate) use clone::{Serial, clone_by_field, cloned_data};
+pub(crate) use clone::{Serial, clone_by_field, cloned_data, keep_serial};
 pub(crate) use contacts::{Contact, Contacts, Place, SavedPoint};
 pub(crate) use disjoint_sets::DisjointSets;
 pub(crate) use edges::next_edge;

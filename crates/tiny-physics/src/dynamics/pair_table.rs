@@ -15,6 +15,12 @@ super::clone::clone_by_field!(PairTable { places, len });
 const EMPTY: u64 = u64::MAX;
 
 impl PairTable {
+    /// Without pairs, but with memory for as many.
+    pub(crate) fn with_room_for(pairs: usize) -> Self {
+        let places = if pairs == 0 { 0 } else { (pairs * 2).next_power_of_two().max(64) };
+        Self { places: vec![(EMPTY, 0); places], len: 0 }
+    }
+
     fn key(a: u32, b: u32) -> u64 {
         let (low, high) = if a < b { (a, b) } else { (b, a) };
         u64::from(high) << 32 | u64::from(low)
@@ -45,16 +51,19 @@ impl PairTable {
         (key != EMPTY).then_some(contact)
     }
 
-    /// Notes the contact of a pair that had none.
-    pub(crate) fn insert(&mut self, a: u32, b: u32, contact: u32) {
+    /// Notes the contact of a pair; false, and nothing noted, where it has one already.
+    pub(crate) fn insert(&mut self, a: u32, b: u32, contact: u32) -> bool {
         if (self.len + 1) * 2 > self.places.len() {
             self.grow();
         }
         let key = Self::key(a, b);
         let at = self.find(key);
-        debug_assert_eq!(self.places[at].0, EMPTY, "the pair has a contact already");
+        if self.places[at].0 == key {
+            return false;
+        }
         self.places[at] = (key, contact);
         self.len += 1;
+        true
     }
 
     /// Forgets a pair, if it is there.
@@ -140,6 +149,18 @@ mod tests {
         }
         for (&(a, b), &contact) in &model {
             assert_eq!(table.get(a, b), Some(contact));
+        }
+    }
+
+    #[test]
+    fn notes_a_pair_once() {
+        for room in [0, 1, 100] {
+            let mut table = PairTable::with_room_for(room);
+            let places = table.places.len();
+            assert!((0..room as u32).all(|i| table.insert(i, i + 1, i)));
+            assert_eq!(table.places.len(), places);
+            assert!(table.insert(5000, 7, 1) && !table.insert(7, 5000, 2));
+            assert_eq!((table.get(7, 5000), table.len()), (Some(1), room + 1));
         }
     }
 

@@ -1,7 +1,7 @@
 //! Shapes: what hangs on bodies.
 
 use super::bodies::NULL;
-use super::clone::{Serial, cloned_data};
+use super::clone::{Serial, cloned_data, keep_serial};
 use crate::broad_phase::ProxyId;
 use crate::describe::{ChainLink, Filter, Material};
 use crate::geometry::Shape;
@@ -111,6 +111,7 @@ pub(crate) struct Shapes {
 }
 
 cloned_data!(Shapes { records, rows, tight, fat, guards, changed_ground, free, count, serial });
+keep_serial!(Shapes);
 
 impl Shapes {
     /// Shapes alive.

@@ -1,9 +1,11 @@
 //! Shapes as data of a saved frame. What is read is checked.
 
+use super::polygon::MAX_VERTICES;
 use super::{Polygon, Shape};
 use crate::codec::{Data, Reader, Sink, bad};
 use crate::error::Error;
 use crate::geometry::manifold::{PairClass, ShapeClass};
+use crate::math::Vec2;
 
 impl Data for Shape {
     fn save(&self, sink: &mut impl Sink) {
@@ -47,8 +49,13 @@ impl Data for Shape {
             }
             4 => {
                 let count = usize::from(u8::load(reader)?);
-                let vertices: Result<Vec<_>, _> = (0..count).map(|_| Data::load(reader)).collect();
-                let polygon = Polygon::convex(&vertices?)?;
+                let mut vertices = [Vec2::ZERO; MAX_VERTICES];
+                let vertices =
+                    vertices.get_mut(..count).ok_or(bad("a polygon has many corners"))?;
+                for vertex in &mut *vertices {
+                    *vertex = Data::load(reader)?;
+                }
+                let polygon = Polygon::convex(vertices)?;
                 Self::Polygon(polygon.rounded(Data::load(reader)?)?)
             }
             _ => return Err(bad("a kind of shape is unknown")),
@@ -58,6 +65,8 @@ impl Data for Shape {
 }
 
 impl Data for ShapeClass {
+    const SIZE: Option<usize> = Some(1);
+
     fn save(&self, sink: &mut impl Sink) {
         sink.u8(*self as u8);
     }
@@ -69,6 +78,8 @@ impl Data for ShapeClass {
 }
 
 impl Data for PairClass {
+    const SIZE: Option<usize> = Some(1);
+
     fn save(&self, sink: &mut impl Sink) {
         sink.u8(*self as u8);
     }

@@ -305,11 +305,7 @@ impl World {
         if !info.enabled {
             return;
         }
-        let kind = match info.kind {
-            BodyKind::Static => ProxyKind::Static,
-            BodyKind::Kinematic => ProxyKind::Kinematic,
-            BodyKind::Dynamic => ProxyKind::Dynamic,
-        };
+        let kind = proxy_kind(info.kind);
         let margin = super::FAT_MARGIN * self.settings.length_unit;
         let pose = self.bodies.poses[index as usize];
         let shapes: Vec<u32> = self.shapes.of_body(info.first_shape).collect();
@@ -399,6 +395,15 @@ impl LaneShape {
         let [x, y, radius] = extents;
         let row = [frame.p.x, frame.p.y, frame.q.c, frame.q.s, x, y, radius, exact];
         Self { row, box_frame, thickness }
+    }
+}
+
+/// The tree that the shapes of a body are in.
+pub(super) fn proxy_kind(kind: BodyKind) -> ProxyKind {
+    match kind {
+        BodyKind::Static => ProxyKind::Static,
+        BodyKind::Kinematic => ProxyKind::Kinematic,
+        BodyKind::Dynamic => ProxyKind::Dynamic,
     }
 }
 

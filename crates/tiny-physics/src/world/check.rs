@@ -49,7 +49,7 @@ impl World {
         self.check_joints()?;
         self.check_joint_graph()?;
         self.check_sensors()?;
-        self.validate().map_err(|_| "its parts contradict each other")
+        self.validate_state().map_err(|_| "its parts contradict each other")
     }
 
     fn is_body(&self, index: u32) -> bool {

@@ -22,6 +22,7 @@ impl Sink for Hasher {
     }
     /// Generations say how often the user went back, not what will happen.
     fn apart(&mut self, _: u32) {}
+    fn pad(&mut self, _: usize) {}
 }
 
 impl World {

@@ -4,7 +4,7 @@ use super::World;
 use super::ids::{BodyId, ShapeId, TileGridId};
 use crate::codec::{Data, Reader, Sink, bad, data};
 use crate::describe::{BLOCK_CELLS, Piece, TileGrid};
-use crate::dynamics::{Serial, clone_by_field};
+use crate::dynamics::{Serial, clone_by_field, keep_serial};
 use crate::error::Error;
 
 /// All tile grids of a world.
@@ -18,6 +18,7 @@ pub(super) struct TileGrids {
 
 clone_by_field!(TileGrids { slots, owners, serial });
 data!(TileGrids { slots, owners, serial });
+keep_serial!(TileGrids);
 
 impl TileGrids {
     fn place_of(&self, body: BodyId) -> Result<usize, usize> {

@@ -1,11 +1,13 @@
 //! A walk over all invariants, for tests.
 
 use super::World;
+use super::build::proxy_kind;
 use crate::describe::BodyKind;
 use crate::dynamics::{COLOURS, IDLE, JointPlace, JointRecord, NULL, PLAIN, Place, colour_at};
 use crate::stages::{boxes, pairs};
-use core::ops::ControlFlow;
-use std::collections::HashSet;
+
+/// Pairs of shapes that are looked at together.
+const BATCH: usize = 1024;
 
 impl World {
     /// Checks every invariant of the world's data: links, colours, places, finite numbers. Slow; for
@@ -15,35 +17,32 @@ impl World {
     /// Says which invariant is broken and where.
     pub fn validate(&self) -> Result<(), String> {
         self.broad_phase.validate()?;
+        self.validate_body_lists()?;
+        self.validate_contact_lists()?;
+        self.validate_state()
+    }
+
+    /// What lists and links alone do not show. They must be right.
+    pub(super) fn validate_state(&self) -> Result<(), String> {
         self.validate_bodies()?;
         self.validate_contacts()?;
+        self.validate_boxes()?;
         self.validate_pairs()?;
         self.validate_joints()?;
         self.validate_colours()
     }
 
-    fn validate_bodies(&self) -> Result<(), String> {
-        if self.bodies.rows[0] != [0.0; 8] {
-            return Err("row 0 has been written".into());
-        }
-        let is_refined = |i: &u32| usize::from(self.bodies.infos[*i as usize].pace) != PLAIN;
-        let refined = self.bodies.indices().filter(is_refined).count();
-        if refined != self.bodies.refined {
-            return Err(format!("{refined} bodies are refined, {} counted", self.bodies.refined));
-        }
+    fn validate_body_lists(&self) -> Result<(), String> {
+        let mut listed = vec![false; self.bodies.infos.len()];
+        self.bodies.awake.iter().for_each(|&index| listed[index as usize] = true);
         for index in self.bodies.indices() {
             let info = &self.bodies.infos[index as usize];
-            let listed = self.bodies.awake.contains(&index);
+            let listed = listed[index as usize];
             if info.awake != listed {
                 return Err(format!(
                     "body {index}: awake is {} but listed is {listed}",
                     info.awake
                 ));
-            }
-            if !self.bodies.poses[index as usize].is_finite()
-                || self.bodies.rows[index as usize].iter().any(|v| !v.is_finite())
-            {
-                return Err(format!("body {index} is not finite"));
             }
             let shapes = self.shapes.of_body(info.first_shape).count();
             if shapes != info.shape_count as usize {
@@ -56,7 +55,7 @@ impl World {
         Ok(())
     }
 
-    fn validate_contacts(&self) -> Result<(), String> {
+    fn validate_contact_lists(&self) -> Result<(), String> {
         let mut links = 0;
         for index in 0..self.bodies.infos.len() as u32 {
             let first = self.bodies.infos[index as usize].first_contact;
@@ -74,29 +73,11 @@ impl World {
         let mut alive = 0;
         for (index, contact) in self.contacts.records.iter().enumerate().filter(|(_, c)| c.alive) {
             alive += 1;
-            let awake = pairs::is_awake(&self.bodies, contact);
-            match contact.place {
-                Place::Asleep if awake => {
-                    return Err(format!("contact {index} is awake without a lane"));
+            if let Place::Graph { colour, slot } = contact.place {
+                let bucket = &self.graph.buckets[usize::from(colour)][contact.class as usize];
+                if bucket.contacts.get(slot as usize) != Some(&(index as u32)) {
+                    return Err(format!("contact {index} is not in its slot"));
                 }
-                Place::Graph { .. } if !awake => {
-                    return Err(format!("contact {index} sleeps in a lane"));
-                }
-                Place::Graph { colour, slot } => {
-                    let bucket = &self.graph.buckets[usize::from(colour)][contact.class as usize];
-                    if bucket.contacts.get(slot as usize) != Some(&(index as u32)) {
-                        return Err(format!("contact {index} is not in its slot"));
-                    }
-                    let asleep =
-                        |i: u32| self.bodies.is_dynamic(i) && !self.bodies.infos[i as usize].awake;
-                    if contact.touching && (asleep(contact.body_a) || asleep(contact.body_b)) {
-                        return Err(format!("contact {index} pushes a body that sleeps"));
-                    }
-                    if contact.touching != (usize::from(colour) != IDLE) {
-                        return Err(format!("contact {index}: touching does not match its colour"));
-                    }
-                }
-                Place::Asleep => {}
             }
             if self.contacts.pairs.get(contact.shape_a, contact.shape_b) != Some(index as u32) {
                 return Err(format!("contact {index} is not in the pair table"));
@@ -111,44 +92,102 @@ impl World {
         Ok(())
     }
 
-    /// Boxes are where the shapes are; of the pairs whose fat boxes overlap, none has been forgotten.
+    fn validate_bodies(&self) -> Result<(), String> {
+        let bodies = &self.bodies;
+        if bodies.rows[0] != [0.0; 8] {
+            return Err("row 0 has been written".into());
+        }
+        let mut refined = 0;
+        for index in bodies.indices() {
+            let i = index as usize;
+            refined += usize::from(usize::from(bodies.infos[i].pace) != PLAIN);
+            if !bodies.poses[i].is_finite() || bodies.rows[i].iter().any(|v| !v.is_finite()) {
+                return Err(format!("body {index} is not finite"));
+            }
+        }
+        if refined != bodies.refined {
+            return Err(format!("{refined} bodies are refined, {} counted", bodies.refined));
+        }
+        Ok(())
+    }
+
+    /// Contacts are in the graph where one of their bodies is awake, and push none that sleeps.
+    fn validate_contacts(&self) -> Result<(), String> {
+        let asleep = |i: u32| self.bodies.is_dynamic(i) && !self.bodies.infos[i as usize].awake;
+        for (index, contact) in self.contacts.records.iter().enumerate().filter(|(_, c)| c.alive) {
+            let awake = pairs::is_awake(&self.bodies, contact);
+            match contact.place {
+                Place::Asleep if awake => {
+                    return Err(format!("contact {index} is awake without a lane"));
+                }
+                Place::Graph { .. } if !awake => {
+                    return Err(format!("contact {index} sleeps in a lane"));
+                }
+                Place::Graph { colour, .. } => {
+                    if contact.touching && (asleep(contact.body_a) || asleep(contact.body_b)) {
+                        return Err(format!("contact {index} pushes a body that sleeps"));
+                    }
+                    if contact.touching != (usize::from(colour) != IDLE) {
+                        return Err(format!("contact {index}: touching does not match its colour"));
+                    }
+                }
+                Place::Asleep => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Of the pairs whose fat boxes overlap, none has been forgotten.
     fn validate_pairs(&self) -> Result<(), String> {
-        let waiting = &self.waiting;
-        let known: HashSet<(u32, u32)> = waiting.pairs.iter().copied().collect();
-        let fresh: HashSet<u32> =
-            self.broad_phase.moved().iter().filter_map(|&id| self.broad_phase.user(id)).collect();
-        let kind =
-            |shape: u32| self.bodies.infos[self.shapes.records[shape as usize].body as usize].kind;
-        let Self { shapes, bodies, contacts, joints, .. } = self;
+        let Self { shapes, bodies, contacts, joints, waiting, broad_phase, .. } = self;
+        let mut known = waiting.pairs.clone();
+        known.sort_unstable();
+        let mut asked = vec![waiting.stale; shapes.records.len()];
+        let moved = broad_phase.moved().iter().filter_map(|&id| broad_phase.user(id));
+        moved.for_each(|shape| asked[shape as usize] = true);
         let (custom, reach) = (self.hooks.pair_filter(), self.contact_reach());
         let partners = pairs::Partners { shapes, bodies, contacts, joints, custom, reach };
-        for shape in
-            self.shapes.indices().filter(|&i| self.shapes.records[i as usize].proxy != NULL)
-        {
-            let record = &self.shapes.records[shape as usize];
-            let (tight, fat) = (self.shapes.tight[shape as usize], self.shapes.fat[shape as usize]);
-            let now =
-                boxes::shape_box(&self.shapes, shape, self.bodies.poses[record.body as usize]);
+        let forgotten = |&&(a, b): &&(u32, u32)| {
+            let asked = asked[a as usize] || asked[b as usize];
+            !asked && partners.may_meet(a, b) && known.binary_search(&(a, b)).is_err()
+        };
+        // Most have a contact. Many look-ups in a row, with nothing between them, wait for memory together.
+        let (mut lost, mut batch) = (None, Vec::with_capacity(BATCH));
+        let mut look = |batch: &mut Vec<(u32, u32)>| {
+            batch.retain(|&(a, b)| contacts.pairs.get(a, b).is_none());
+            lost = lost.or(batch.iter().find(forgotten).copied());
+            batch.clear();
+        };
+        broad_phase.each_overlap(|a, b| {
+            batch.push((a, b));
+            if batch.len() == BATCH {
+                look(&mut batch);
+            }
+        });
+        look(&mut batch);
+        match lost {
+            Some((a, b)) => Err(format!("shapes {a} and {b} will not meet")),
+            None => Ok(()),
+        }
+    }
+
+    /// Boxes are where the shapes are, and the broad phase has the same.
+    fn validate_boxes(&self) -> Result<(), String> {
+        let Self { shapes, bodies, broad_phase, .. } = self;
+        for shape in shapes.indices().filter(|&i| shapes.records[i as usize].proxy != NULL) {
+            let body = shapes.records[shape as usize].body as usize;
+            let tight = shapes.tight[shape as usize];
+            let now = boxes::shape_box(shapes, shape, bodies.poses[body]);
             let room = 1.0e-5 * (1.0 + now.center().length() + now.half_extents().length());
             if !tight.grown(room).contains(&now) || !now.grown(room).contains(&tight) {
                 return Err(format!("shape {shape} is not where its box is"));
             }
-            let mut lost = None;
-            self.broad_phase.query(&fat, u64::MAX, |other| {
-                let dynamic = [shape, other].iter().any(|&i| kind(i) == BodyKind::Dynamic);
-                let asked = fresh.contains(&shape) || fresh.contains(&other) || waiting.stale;
-                if shape < other
-                    && dynamic
-                    && !asked
-                    && partners.may_meet(shape, other)
-                    && !known.contains(&(shape, other))
-                {
-                    lost = Some(other);
-                }
-                ControlFlow::Continue(())
-            });
-            if let Some(other) = lost {
-                return Err(format!("shapes {shape} and {other} will not meet"));
+            let proxy = shapes.proxy(shape);
+            if broad_phase.kind(proxy) != Some(proxy_kind(bodies.infos[body].kind)) {
+                return Err(format!("shape {shape} is in the tree of another kind"));
+            }
+            if !broad_phase.has_box(proxy, shapes.fat[shape as usize]) {
+                return Err(format!("shape {shape} has another fat box than its proxy"));
             }
         }
         Ok(())
@@ -180,19 +219,20 @@ impl World {
 
     /// No two contacts of a colour share a dynamic body, and the bodies know their colours.
     fn validate_colours(&self) -> Result<(), String> {
-        let mut used = vec![0_u32; self.bodies.infos.len()];
+        let infos = &self.bodies.infos;
+        let mut used = vec![0_u32; infos.len()];
+        let is_dynamic: Vec<bool> =
+            infos.iter().map(|info| info.kind == BodyKind::Dynamic).collect();
         for (place, buckets) in self.graph.buckets[..IDLE].iter().enumerate() {
             let colour = colour_at(place);
-            for bucket in buckets.iter().filter(|_| colour < COLOURS) {
-                for slot in 0..bucket.contacts.len() {
-                    let (a, b) = bucket.bodies(slot);
-                    for body in [a, b].into_iter().filter(|&body| self.bodies.is_dynamic(body)) {
-                        if used[body as usize] >> colour & 1 != 0 {
-                            return Err(format!("body {body} occurs twice in colour {colour}"));
-                        }
-                        used[body as usize] |= 1 << colour;
-                    }
+            // Empty lanes are of body 0, which is static.
+            let blocks = buckets.iter().flat_map(|bucket| &bucket.manifolds);
+            let lanes = blocks.flat_map(|block| block.body_a.iter().chain(&block.body_b));
+            for &body in lanes.filter(|&&i| colour < COLOURS && is_dynamic[i as usize]) {
+                if used[body as usize] >> colour & 1 != 0 {
+                    return Err(format!("body {body} occurs twice in colour {colour}"));
                 }
+                used[body as usize] |= 1 << colour;
             }
         }
         for index in self.bodies.indices().filter(|&i| self.bodies.is_dynamic(i)) {

@@ -11,6 +11,7 @@
 
 mod build;
 mod check;
+mod join;
 
 use super::boxes::{Boxes, WIDTH};
 use super::stack::Stack;
