@@ -2,11 +2,7 @@
 
 use crate::threads::SharedRows;
 use core::ops::{Add, Div, Mul, Neg, Sub};
-#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-use fearless_simd::{Avx2, Avx512};
-use fearless_simd::{
-    Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, f32x4, f32x8, f32x16,
-};
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f32x4};
 
 /// Lanes in one storage block: the widest level. Narrower levels walk a block in several strides, so
 /// the data layout does not depend on the level.
@@ -242,6 +238,9 @@ macro_rules! portable_operations {
     };
 }
 
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+pub(super) use portable_operations;
+
 /// Four lanes: SSE2, SSE4.2, NEON, wasm simd128.
 impl<S: Simd> Lanes for f32x4<S> {
     type Token = S;
@@ -292,7 +291,12 @@ fn transpose4<S: Simd>([a, b, c, d]: [f32x4<S>; 4]) -> [f32x4<S>; 4] {
 
 /// Writes four half rows where the bits say so.
 #[inline(always)]
-fn write_rows<S: Simd>(values: [f32x4<S>; 4], rows: SharedRows<'_>, indices: &[u32], write: u32) {
+pub(super) fn write_rows<S: Simd>(
+    values: [f32x4<S>; 4],
+    rows: SharedRows<'_>,
+    indices: &[u32],
+    write: u32,
+) {
     let indices = &indices[..4];
     for i in 0..4 {
         if write >> i & 1 != 0 {
@@ -300,205 +304,6 @@ fn write_rows<S: Simd>(values: [f32x4<S>; 4], rows: SharedRows<'_>, indices: &[u
             values[i].store_slice(&mut half);
             rows.write_half(indices[i], half);
         }
-    }
-}
-
-/// Half of row `i`, from float `AT` on.
-#[inline(always)]
-fn half_row<const AT: usize, S: Simd>(
-    token: S,
-    rows: impl RowSource,
-    indices: &[u32],
-    i: usize,
-) -> f32x4<S> {
-    f32x4::from_slice(token, &rows.read(indices[i])[AT..AT + 4])
-}
-
-/// Halves of rows `i` and `i + 4` side by side.
-#[inline(always)]
-fn half_rows_8<const AT: usize, S: Simd>(
-    token: S,
-    rows: impl RowSource,
-    indices: &[u32],
-    i: usize,
-) -> f32x8<S> {
-    half_row::<AT, S>(token, rows, indices, i).combine(half_row::<AT, S>(
-        token,
-        rows,
-        indices,
-        i + 4,
-    ))
-}
-
-/// Halves of rows `i`, `i + 4`, `i + 8` and `i + 12` side by side.
-#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-#[inline(always)]
-fn half_rows_16<const AT: usize, S: Simd>(
-    token: S,
-    rows: impl RowSource,
-    indices: &[u32],
-    i: usize,
-) -> f32x16<S> {
-    half_rows_8::<AT, S>(token, rows, indices, i).combine(half_rows_8::<AT, S>(
-        token,
-        rows,
-        indices,
-        i + 8,
-    ))
-}
-
-/// Eight lanes: AVX2.
-#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-impl Lanes for f32x8<Avx2> {
-    type Token = Avx2;
-    type Mask = <Self as SimdBase<Avx2>>::Mask;
-    portable_operations!(8);
-
-    #[inline(always)]
-    fn gather(token: Avx2, rows: impl RowSource, indices: &[u32]) -> [Self; 8] {
-        let [a, b, c, d] = transpose4_in_blocks_avx2(
-            token,
-            half_rows_8::<0, _>(token, rows, indices, 0),
-            half_rows_8::<0, _>(token, rows, indices, 1),
-            half_rows_8::<0, _>(token, rows, indices, 2),
-            half_rows_8::<0, _>(token, rows, indices, 3),
-        );
-        let [e, f, g, h] = transpose4_in_blocks_avx2(
-            token,
-            half_rows_8::<4, _>(token, rows, indices, 0),
-            half_rows_8::<4, _>(token, rows, indices, 1),
-            half_rows_8::<4, _>(token, rows, indices, 2),
-            half_rows_8::<4, _>(token, rows, indices, 3),
-        );
-        [a, b, c, d, e, f, g, h]
-    }
-
-    #[inline(always)]
-    fn scatter(values: [Self; 4], rows: SharedRows<'_>, indices: &[u32], write: u32) {
-        use fearless_simd::ExtractToken;
-        let [a, b, c, d] = values;
-        let t = transpose4_in_blocks_avx2(a.token(), a, b, c, d).map(SimdSplit::split);
-        write_rows([t[0].0, t[1].0, t[2].0, t[3].0], rows, indices, write);
-        write_rows([t[0].1, t[1].1, t[2].1, t[3].1], rows, &indices[4..], write >> 4);
-    }
-}
-
-#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-fearless_simd::kernel!(
-    /// Transposes the 4 x 4 squares in both halves: eight shuffles, where the portable zips, which
-    /// cross the halves, would take sixteen.
-    #[inline(always)]
-    fn transpose4_in_blocks_avx2(
-        token: Avx2,
-        a: f32x8<Avx2>,
-        b: f32x8<Avx2>,
-        c: f32x8<Avx2>,
-        d: f32x8<Avx2>,
-    ) -> [f32x8<Avx2>; 4] {
-        #[cfg(target_arch = "x86")]
-        use core::arch::x86::*;
-        #[cfg(target_arch = "x86_64")]
-        use core::arch::x86_64::*;
-        use fearless_simd::SimdInto;
-        let (a, b, c, d): (__m256, __m256, __m256, __m256) =
-            (a.into(), b.into(), c.into(), d.into());
-        let (ab_low, ab_high) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
-        let (cd_low, cd_high) = (_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
-        [
-            _mm256_shuffle_ps::<0b01_00_01_00>(ab_low, cd_low).simd_into(token),
-            _mm256_shuffle_ps::<0b11_10_11_10>(ab_low, cd_low).simd_into(token),
-            _mm256_shuffle_ps::<0b01_00_01_00>(ab_high, cd_high).simd_into(token),
-            _mm256_shuffle_ps::<0b11_10_11_10>(ab_high, cd_high).simd_into(token),
-        ]
-    }
-);
-
-/// Sixteen lanes: AVX-512.
-#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-impl Lanes for f32x16<Avx512> {
-    type Token = Avx512;
-    type Mask = <Self as SimdBase<Avx512>>::Mask;
-    portable_operations!(16);
-
-    #[inline(always)]
-    fn gather(token: Avx512, rows: impl RowSource, indices: &[u32]) -> [Self; 8] {
-        let [a, b, c, d] = transpose4_in_blocks_avx512(
-            token,
-            half_rows_16::<0, _>(token, rows, indices, 0),
-            half_rows_16::<0, _>(token, rows, indices, 1),
-            half_rows_16::<0, _>(token, rows, indices, 2),
-            half_rows_16::<0, _>(token, rows, indices, 3),
-        );
-        let [e, f, g, h] = transpose4_in_blocks_avx512(
-            token,
-            half_rows_16::<4, _>(token, rows, indices, 0),
-            half_rows_16::<4, _>(token, rows, indices, 1),
-            half_rows_16::<4, _>(token, rows, indices, 2),
-            half_rows_16::<4, _>(token, rows, indices, 3),
-        );
-        [a, b, c, d, e, f, g, h]
-    }
-
-    #[inline(always)]
-    fn scatter(values: [Self; 4], rows: SharedRows<'_>, indices: &[u32], write: u32) {
-        use fearless_simd::ExtractToken;
-        let [a, b, c, d] = values;
-        let t = transpose4_in_blocks_avx512(a.token(), a, b, c, d).map(|v| {
-            let (low, high) = v.split();
-            (low.split(), high.split())
-        });
-        write_rows([t[0].0.0, t[1].0.0, t[2].0.0, t[3].0.0], rows, indices, write);
-        write_rows([t[0].0.1, t[1].0.1, t[2].0.1, t[3].0.1], rows, &indices[4..], write >> 4);
-        write_rows([t[0].1.0, t[1].1.0, t[2].1.0, t[3].1.0], rows, &indices[8..], write >> 8);
-        write_rows([t[0].1.1, t[1].1.1, t[2].1.1, t[3].1.1], rows, &indices[12..], write >> 12);
-    }
-}
-
-#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-fearless_simd::kernel!(
-    /// Transposes the 4 x 4 squares in all four quarters.
-    #[inline(always)]
-    fn transpose4_in_blocks_avx512(
-        token: Avx512,
-        a: f32x16<Avx512>,
-        b: f32x16<Avx512>,
-        c: f32x16<Avx512>,
-        d: f32x16<Avx512>,
-    ) -> [f32x16<Avx512>; 4] {
-        #[cfg(target_arch = "x86")]
-        use core::arch::x86::*;
-        #[cfg(target_arch = "x86_64")]
-        use core::arch::x86_64::*;
-        use fearless_simd::SimdInto;
-        let (a, b, c, d): (__m512, __m512, __m512, __m512) =
-            (a.into(), b.into(), c.into(), d.into());
-        let (ab_low, ab_high) = (_mm512_unpacklo_ps(a, b), _mm512_unpackhi_ps(a, b));
-        let (cd_low, cd_high) = (_mm512_unpacklo_ps(c, d), _mm512_unpackhi_ps(c, d));
-        [
-            _mm512_shuffle_ps::<0b01_00_01_00>(ab_low, cd_low).simd_into(token),
-            _mm512_shuffle_ps::<0b11_10_11_10>(ab_low, cd_low).simd_into(token),
-            _mm512_shuffle_ps::<0b01_00_01_00>(ab_high, cd_high).simd_into(token),
-            _mm512_shuffle_ps::<0b11_10_11_10>(ab_high, cd_high).simd_into(token),
-        ]
-    }
-);
-
-#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-mod native {
-    use super::{Avx2, Avx512, Native, f32x4, f32x8, f32x16};
-    use fearless_simd::{Sse2, Sse4_2};
-
-    impl Native for Sse2 {
-        type Lanes = f32x4<Self>;
-    }
-    impl Native for Sse4_2 {
-        type Lanes = f32x4<Self>;
-    }
-    impl Native for Avx2 {
-        type Lanes = f32x8<Self>;
-    }
-    impl Native for Avx512 {
-        type Lanes = f32x16<Self>;
     }
 }
 

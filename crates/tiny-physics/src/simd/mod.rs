@@ -12,6 +12,8 @@
 //! does the compiler build them with the instruction set of the kernel that they end up in.
 
 mod lanes;
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+mod lanes_x86;
 mod level;
 
 pub(crate) use lanes::{BLOCK, Lanes, Row};
