@@ -304,7 +304,8 @@ impl Graph {
             self.touching += 1;
             let (a, b) = (contact.body_a, contact.body_b);
             self.mixed |= bodies.are_mixed(a, b);
-            self.news += u32::from(bodies.is_dynamic(a) && bodies.is_dynamic(b));
+            let both_move = bodies.is_dynamic(a) && bodies.is_dynamic(b);
+            self.news = self.news.saturating_add(u32::from(both_move));
             bodies.common_pace(a, b) * PER_PACE + take_colour(bodies, a, b)
         } else {
             IDLE

@@ -102,7 +102,7 @@ pub(crate) fn assign(mut stores: Stores<'_>, rules: Rules, memory: &mut Memory) 
 fn is_due(stores: &Stores<'_>, rules: Rules) -> bool {
     let Stores { bodies, graph, joint_graph, .. } = stores;
     let news = graph.news as usize;
-    let many = news >= MANY_NEWS && news * 4 > graph.touching_count();
+    let many = news >= MANY_NEWS && news > graph.touching_count() / 4;
     let look = rules.step.is_multiple_of(INTERVAL);
     graph.mixed
         || joint_graph.mixed

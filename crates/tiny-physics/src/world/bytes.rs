@@ -317,6 +317,23 @@ mod tests {
         assert!(error.contains("another version"), "{error}");
     }
 
+    /// Found by fuzzing: counters that are full already.
+    #[test]
+    fn full_counters_do_not_overflow() {
+        let mut world = busy_world();
+        world.graph.news = u32::MAX;
+        let mut other = World::from_bytes(&world.to_bytes()).expect("a frame");
+        for i in 0..4 {
+            let ball = ShapeDef::new(Shape::circle(0.61).unwrap());
+            let body = RigidBody::dynamic().position(Vec2::new(50.0, 1.2 * i as f32)).shape(ball);
+            other.add_body(body).unwrap();
+        }
+        (0..9).for_each(|_| other.step(1.0 / 60.0));
+        world.step_count = u64::MAX;
+        let error = World::from_bytes(&world.to_bytes()).unwrap_err().to_string();
+        assert!(error.contains("steps"), "{error}");
+    }
+
     /// Damage with a right hash is refused, or makes a world that can be used.
     #[test]
     fn survives_malice() {

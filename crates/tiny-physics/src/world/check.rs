@@ -42,6 +42,7 @@ fn blocks(slots: usize) -> usize {
 impl World {
     /// Says what is wrong with a world that was read.
     pub(super) fn check_loaded(&self) -> Check {
+        ensure(self.step_count <= u64::MAX / 2, "it has made more steps than any world can")?;
         self.check_bodies()?;
         self.check_shapes()?;
         self.check_contacts()?;

@@ -193,7 +193,7 @@ impl DynamicTree {
             self.places.resize(index + 1, NONE);
         }
         self.count += 1;
-        self.changes += 2;
+        self.changes = self.changes.saturating_add(2);
         self.link(Branch { aabb: clamped(aabb), category, child: id });
     }
 
@@ -215,7 +215,7 @@ impl DynamicTree {
         let Some((node, lane)) = self.place(id) else { return false };
         let aabb = clamped(aabb);
         self.boxes[node as usize].set(lane, aabb);
-        self.changes += 1;
+        self.changes = self.changes.saturating_add(1);
         self.grow(node, &aabb);
         true
     }
