@@ -334,6 +334,29 @@ mod tests {
         assert!(error.contains("steps"), "{error}");
     }
 
+    /// Found by fuzzing: a pair that waits for its contact the wrong way round as well.
+    #[test]
+    fn a_pair_waits_for_one_contact() {
+        let mut world = World::new(Vec2::new(0.0, -9.8));
+        let ground = RigidBody::fixed().shape(Shape::rect(20.0, 1.0).unwrap());
+        world.add_body(ground).unwrap();
+        let ball = RigidBody::dynamic().shape(Shape::circle(0.5).unwrap());
+        world.add_body(ball.position(Vec2::new(0.0, 2.0))).unwrap();
+        let waits = (0..60).any(|_| {
+            world.step(1.0 / 60.0);
+            !world.waiting.pairs.is_empty()
+        });
+        assert!(waits, "no pair has waited");
+        let (a, b) = world.waiting.pairs[0];
+        world.waiting.pairs.push((a, b));
+        let mut copy = World::from_bytes(&world.to_bytes()).unwrap();
+        (0..60).for_each(|_| copy.step(1.0 / 60.0));
+        assert_eq!((copy.contacts.records.len(), copy.validate()), (1, Ok(())));
+        world.waiting.pairs.push((b, a));
+        let error = World::from_bytes(&world.to_bytes()).unwrap_err().to_string();
+        assert!(error.contains("wait"), "{error}");
+    }
+
     /// Damage with a right hash is refused, or makes a world that can be used.
     #[test]
     fn survives_malice() {
