@@ -36,9 +36,8 @@ pub(crate) struct Schedule {
 impl Schedule {
     /// Lists the occupied ones of these places in their order, in runs of up to `len` blocks.
     ///
-    /// The runs of a colour go by where in their buckets they are: members of a team start from their own
-    /// parts of the list, so each comes by the same parts of all buckets, with contacts of about the same age,
-    /// and finds most of their bodies in its cache.
+    /// The runs of a colour go by where in their buckets they are, so that a member, which starts from its own part
+    /// of the list, comes by the same parts of all buckets. What that saves has not been measured by itself.
     pub(crate) fn fill(
         &mut self,
         graph: &Graph,
