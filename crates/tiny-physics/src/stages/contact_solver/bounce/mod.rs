@@ -23,6 +23,8 @@ const ROUNDS: usize = 8;
 /// Iterations in each of them, for points that hit at the same time. Stopping where nothing changes by more than
 /// 1 mm/s was tried: among thousands of bodies that hit each other it never came before the last.
 const ITERATIONS: usize = 8;
+/// Fewer hits than this are no reason to wake threads for copying them.
+const MANY: usize = 128;
 /// What would leave more slowly than this part of the threshold is not handed on.
 const HANDED_ON: f32 = 0.1;
 
@@ -115,7 +117,9 @@ fn copy_out(team: &Team, graph: &Graph, hits: &[Vec<Hit>], batches: &mut Vec<Bat
         batches[count - 1].sources.push((hit.class, hit.slot));
         batches[count - 1].targets.push(hit.targets);
     }
-    team.for_each_chunk_mut(&mut batches[..count], 1, |_, batches| {
+    let hit_count = hits.iter().map(Vec::len).sum::<usize>();
+    let chunk = if hit_count < MANY { usize::MAX } else { 1 };
+    team.for_each_chunk_mut(&mut batches[..count], chunk, |_, batches| {
         batches.iter_mut().for_each(|batch| batch.fill(&graph.buckets[batch.place]));
     });
     count
