@@ -595,6 +595,16 @@ impl BroadPhase {
         }
     }
 
+    /// Does [`BroadPhase::each_overlap`] visit these two proxies, which have these fat boxes?
+    pub(crate) fn would_pair(&self, a: (ProxyId, Aabb), b: (ProxyId, Aabb)) -> bool {
+        let dynamic = ProxyKind::Dynamic;
+        let pairs = match (self.kind(a.0), self.kind(b.0)) {
+            (Some(kind_a), Some(kind_b)) => kind_a == dynamic || kind_b == dynamic,
+            _ => false,
+        };
+        pairs && clamped(a.1).overlaps(&clamped(b.1))
+    }
+
     /// What decides which pairs the next update finds, besides the boxes.
     pub(crate) fn hash_lists(&self, sink: &mut impl Sink) {
         self.free.save(sink);

@@ -61,15 +61,15 @@ impl Sink for Writer {
         for group in items.chunks(GROUP / size + 1) {
             let start = self.0.len();
             self.0.resize(start + size * group.len(), 0);
-            Space(&mut self.0[start..]).items(group);
+            Space::<true>(&mut self.0[start..]).items(group);
         }
     }
 }
 
-/// Zeros to be written over. It is as long as what is written to it.
-struct Space<'a>(&'a mut [u8]);
+/// Zeros to be written over. It is as long as what is written to it. What is [`Sink::apart`] stays zero unless `WHOLE`.
+pub(super) struct Space<'a, const WHOLE: bool>(pub(super) &'a mut [u8]);
 
-impl<'a> Space<'a> {
+impl<'a, const WHOLE: bool> Space<'a, WHOLE> {
     #[inline(always)]
     fn take(&mut self, count: usize) -> &'a mut [u8] {
         let (head, rest) = core::mem::take(&mut self.0).split_at_mut(count);
@@ -83,7 +83,7 @@ impl<'a> Space<'a> {
     }
 }
 
-impl Sink for Space<'_> {
+impl<const WHOLE: bool> Sink for Space<'_, WHOLE> {
     #[inline(always)]
     fn u8(&mut self, value: u8) {
         self.put([value]);
@@ -98,7 +98,7 @@ impl Sink for Space<'_> {
     }
     #[inline(always)]
     fn apart(&mut self, value: u32) {
-        self.u32(value);
+        self.u32(if WHOLE { value } else { 0 });
     }
     #[inline(always)]
     fn pad(&mut self, count: usize) {
@@ -109,7 +109,7 @@ impl Sink for Space<'_> {
         let size = T::SIZE.unwrap_or(0);
         let places = self.take(size * items.len()).chunks_exact_mut(size);
         for (item, place) in items.iter().zip(places) {
-            let mut place = Space(place);
+            let mut place = Space::<WHOLE>(place);
             item.save(&mut place);
             debug_assert!(place.0.is_empty(), "an item is smaller than its size");
         }

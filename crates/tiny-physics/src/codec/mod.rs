@@ -9,10 +9,13 @@
 //! compiler knows that every number is there, and arrays of numbers become plain copies.
 
 mod bytes;
+mod hash;
 mod math;
 mod size;
 
+use bytes::Space;
 pub(crate) use bytes::{Counter, Reader, Writer};
+pub(crate) use hash::{Hasher, hash_bytes};
 pub(crate) use size::{largest, of_field, rest, sum};
 
 use crate::error::Error;

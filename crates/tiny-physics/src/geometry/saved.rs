@@ -29,7 +29,7 @@ impl Data for Shape {
             Self::Polygon(polygon) => {
                 sink.u8(4);
                 sink.u8(polygon.vertices().len() as u8);
-                polygon.vertices().iter().for_each(|vertex| vertex.save(sink));
+                sink.items(polygon.vertices());
                 polygon.radius().save(sink);
             }
         }

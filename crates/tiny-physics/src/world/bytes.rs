@@ -6,7 +6,7 @@
 
 use super::hooks::Hooks;
 use super::{Scratch, Stats, World};
-use crate::codec::{Counter, Data, Reader, Sink, Writer, bad};
+use crate::codec::{Counter, Data, Reader, Sink, Writer, bad, hash_bytes};
 use crate::error::Error;
 use crate::simd::SimdLevel;
 use crate::threads::Pool;
@@ -16,7 +16,7 @@ use std::sync::OnceLock;
 /// The first bytes of a frame.
 const MAGIC: [u8; 4] = *b"tpw1";
 /// Goes up whenever the bytes of the same world change.
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 /// Magic, version, length, hash.
 const HEADER: usize = 4 + 4 + 8 + 8;
 
@@ -92,25 +92,6 @@ fn check_header(bytes: &[u8]) -> Result<&[u8], Error> {
         return Err(bad("it is damaged"));
     }
     Ok(reader.0)
-}
-
-/// FNV-1a over words in eight independent lanes: it finds accidents, not attacks.
-fn hash_bytes(bytes: &[u8]) -> u64 {
-    const PRIME: u64 = 0x0000_0100_0000_01B3;
-    let mut lanes = [0xCBF2_9CE4_8422_2325_u64, 1, 2, 3, 4, 5, 6, 7];
-    let chunks = bytes.chunks_exact(64);
-    let rest = chunks.remainder();
-    for chunk in chunks {
-        for (lane, word) in lanes.iter_mut().zip(chunk.chunks_exact(8)) {
-            let word = word.try_into().map_or(0, u64::from_le_bytes);
-            *lane = (*lane ^ word).wrapping_mul(PRIME).rotate_left(23);
-        }
-    }
-    rest.iter().for_each(|&byte| lanes[0] = (lanes[0] ^ u64::from(byte)).wrapping_mul(PRIME));
-    lanes.iter().fold(bytes.len() as u64, |hash, lane| {
-        let mixed = (hash ^ lane).wrapping_mul(PRIME);
-        mixed ^ mixed >> 29
-    })
 }
 
 impl Data for World {

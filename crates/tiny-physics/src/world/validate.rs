@@ -6,9 +6,6 @@ use crate::describe::BodyKind;
 use crate::dynamics::{COLOURS, IDLE, JointPlace, JointRecord, NULL, PLAIN, Place, colour_at};
 use crate::stages::{boxes, pairs};
 
-/// Pairs of shapes that are looked at together.
-const BATCH: usize = 1024;
-
 impl World {
     /// Checks every invariant of the world's data: links, colours, places, finite numbers. Slow; for
     /// tests and for hunting bugs.
@@ -140,6 +137,10 @@ impl World {
     /// Of the pairs whose fat boxes overlap, none has been forgotten.
     fn validate_pairs(&self) -> Result<(), String> {
         let Self { shapes, bodies, contacts, joints, waiting, broad_phase, .. } = self;
+        let without = self.pairs_without_contact();
+        if without.iter().all(|&count| count == 0) {
+            return Ok(());
+        }
         let mut known = waiting.pairs.clone();
         known.sort_unstable();
         let mut asked = vec![waiting.stale; shapes.records.len()];
@@ -147,28 +148,35 @@ impl World {
         moved.for_each(|shape| asked[shape as usize] = true);
         let (custom, reach) = (self.hooks.pair_filter(), self.contact_reach());
         let partners = pairs::Partners { shapes, bodies, contacts, joints, custom, reach };
-        let forgotten = |&&(a, b): &&(u32, u32)| {
-            let asked = asked[a as usize] || asked[b as usize];
-            !asked && partners.may_meet(a, b) && known.binary_search(&(a, b)).is_err()
-        };
-        // Most have a contact. Many look-ups in a row, with nothing between them, wait for memory together.
-        let (mut lost, mut batch) = (None, Vec::with_capacity(BATCH));
-        let mut look = |batch: &mut Vec<(u32, u32)>| {
-            batch.retain(|&(a, b)| contacts.pairs.get(a, b).is_none());
-            lost = lost.or(batch.iter().find(forgotten).copied());
-            batch.clear();
-        };
+        let mut lost = None;
         broad_phase.each_overlap(|a, b| {
-            batch.push((a, b));
-            if batch.len() == BATCH {
-                look(&mut batch);
+            let looked_for = without[a as usize] == 0 || asked[a as usize] || asked[b as usize];
+            if !looked_for && partners.may_meet(a, b) && known.binary_search(&(a, b)).is_err() {
+                lost = Some((a, b));
             }
         });
-        look(&mut batch);
         match lost {
             Some((a, b)) => Err(format!("shapes {a} and {b} will not meet")),
             None => Ok(()),
         }
+    }
+
+    /// For each shape, the pairs with a higher one whose fat boxes overlap, less those that have a contact. No pair has
+    /// two contacts, so nothing has to be looked up to see where all have theirs.
+    fn pairs_without_contact(&self) -> Vec<u32> {
+        let Self { shapes, contacts, broad_phase, .. } = self;
+        let mut pairs = vec![0_u32; shapes.records.len()];
+        broad_phase.each_overlap(|a, _| pairs[a as usize] += 1);
+        let overlap = |a: u32, b: u32| {
+            let (fat_a, fat_b) = (shapes.fat[a as usize], shapes.fat[b as usize]);
+            broad_phase.would_pair((shapes.proxy(a), fat_a), (shapes.proxy(b), fat_b))
+        };
+        for contact in contacts.records.iter().filter(|contact| contact.alive) {
+            let (a, b) = (contact.shape_a, contact.shape_b);
+            let pairs = &mut pairs[a.min(b) as usize];
+            *pairs = pairs.wrapping_sub(overlap(a, b).into());
+        }
+        pairs
     }
 
     /// Boxes are where the shapes are, and the broad phase has the same.
