@@ -65,11 +65,16 @@ Examples:
 A B C A B C, so that what disturbs the machine disturbs all. Stages, median and p99 are wall
 time; ns/body is CPU time, with several threads wall time.
 
+--figures prints instead: what should cost next to nothing (rest: a world asleep, a level that nothing touches); bytes
+a body and a contact take (memory); nanoseconds to add and to remove a body, and of the steps after (changes); each
+stage by body in worlds of several sizes (stages); speed of the machine's memory (bandwidth).
+
 Examples:
   tiny-physics bench large_pyramid
   tiny-physics bench tumbler smash --simd avx2,avx512 --repeat 5
   tiny-physics bench scale --simd avx2 --steps 60 --repeat 1
   tiny-physics bench --figures
+  tiny-physics bench --figures=memory,stages --bodies 10000,1000000
   tiny-physics bench spinner --json > spinner.jsonl"
     )]
     Bench(BenchArgs),
@@ -260,12 +265,56 @@ pub struct BenchArgs {
     /// Steps of a run, the untimed first one included; the scene's own number where not said
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..))]
     pub steps: Option<u32>,
-    /// Measure what should cost next to nothing instead: a world asleep, a level that nothing touches
-    #[arg(long, conflicts_with = "scenes")]
-    pub figures: bool,
+    /// Print figures instead of timing scenes: all of them, or those named
+    #[arg(
+        long,
+        value_name = "FIGURE",
+        conflicts_with = "scenes",
+        value_enum,
+        value_delimiter = ',',
+        num_args = 0..,
+        require_equals = true,
+        default_missing_value = "all"
+    )]
+    pub figures: Vec<Figure>,
+    /// Sizes of the worlds that figures are measured on, in bodies
+    #[arg(
+        long,
+        value_name = "N",
+        value_delimiter = ',',
+        default_value = "1000,10000,100000",
+        value_parser = clap::value_parser!(u32).range(1..=1_000_000)
+    )]
+    pub bodies: Vec<u32>,
+    /// Sizes of the memory that the figure bandwidth goes through, 2^20 bytes
+    #[arg(
+        long,
+        value_name = "MIB",
+        value_delimiter = ',',
+        default_value = "1,16,64,256,1024",
+        value_parser = clap::value_parser!(u32).range(1..=4096)
+    )]
+    pub mebibytes: Vec<u32>,
     /// Print a JSON object a row
     #[arg(long)]
     pub json: bool,
+}
+
+/// What `bench --figures` prints.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Figure {
+    /// Everything below
+    All,
+    /// Time of a world asleep, and of a level that nothing touches: next to nothing
+    Rest,
+    /// Bytes a body and a contact take
+    Memory,
+    /// Time to add and remove bodies, and of the steps after
+    Changes,
+    /// Time of each stage by body, in worlds of several sizes
+    Stages,
+    /// Speed of the machine's memory, and what a step asks of it
+    Bandwidth,
 }
 
 /// Options of `quality`.

@@ -136,6 +136,83 @@ fn bench_prints_a_table() {
     assert_eq!(lines.len(), 3);
 }
 
+/// The rows of some figures, small and quick.
+fn figures(which: &str, more: &[&str]) -> Vec<serde_json::Value> {
+    let which = format!("--figures={which}");
+    let arguments = ["bench", &which, "--repeat", "1", "--bodies", "100,2000", "--json"];
+    let out = good(&[&arguments, more].concat());
+    out.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+fn number(row: &serde_json::Value, name: &str) -> f64 {
+    let parts = name.split('.').fold(row, |row, name| &row[name]);
+    parts.as_f64().unwrap_or_else(|| panic!("{name}: {row}"))
+}
+
+#[test]
+fn memory_is_told_by_body_and_by_contact() {
+    let rows = figures("memory", &[]);
+    let scenes: Vec<_> = rows.iter().map(|row| row["scene"].as_str().unwrap()).collect();
+    assert_eq!(scenes, ["large_pyramid", "pentagons", "circles", "circles"]);
+    for row in &rows {
+        let number = |name| number(row, name);
+        assert!((500.0..1500.0).contains(&number("body.used")), "{row}");
+        assert!((200.0..2000.0).contains(&number("contact.used")), "{row}");
+        assert!(number("body.held") >= number("body.used"), "{row}");
+        let parts = row["parts"].as_object().unwrap().iter();
+        // Constraints are a part of the graph.
+        let parts = parts.filter(|(name, _)| *name != "constraints").map(|(_, part)| &part["held"]);
+        let sum: f64 = parts.map(|held| held.as_f64().unwrap()).sum();
+        assert_eq!(number("total.held"), sum);
+        assert!(number("total.used") > number("body.used") * number("bodies") - number("bodies"));
+        assert!(!cfg!(target_os = "linux") || row["resident"].is_u64(), "{row}");
+    }
+}
+
+#[test]
+fn changes_and_stages_have_a_row_a_size() {
+    let rows = figures("changes,stages", &["--steps", "4"]);
+    let sizes: Vec<_> =
+        rows.iter().map(|row| row["added"].as_u64().or(row["bodies"].as_u64())).collect();
+    assert_eq!(sizes, [100, 2000, 100, 2000, 100, 2000].map(Some));
+    for row in &rows[..4] {
+        for time in
+            ["add_ns", "first_step_ns", "second_step_ns", "remove_ns", "next_step_ns", "again_ns"]
+        {
+            assert!(number(row, time) > 0.0, "{row}");
+        }
+    }
+    assert!(number(&rows[0], "before") == 0.0 && number(&rows[3], "before") == 2000.0);
+    for row in &rows[4..] {
+        let stages = row["stage_ns"].as_object().unwrap();
+        assert_eq!(stages.len(), Stage::ALL.len());
+        assert!(number(row, "total_ns") >= number(row, "stage_ns.solve"), "{row}");
+        assert!(number(row, "traffic.solve_in_order") > 176.0 && number(row, "megabytes") > 0.0);
+    }
+}
+
+#[test]
+fn bandwidth_has_a_row_a_size() {
+    let rows = figures("bandwidth", &["--mebibytes", "1,2"]);
+    assert_eq!(rows.len(), 2);
+    for (row, size) in rows.iter().zip([1.0, 2.0]) {
+        assert_eq!(number(row, "mebibytes"), size);
+        let line_gb = 64.0 / number(row, "gather_ns");
+        assert!((line_gb / number(row, "gather_gb") - 1.0).abs() < 1.0e-6, "{row}");
+        assert!(number(row, "read_gb") > 0.0 && number(row, "update_gb") > 0.0);
+    }
+}
+
+#[test]
+fn figures_are_tables_too() {
+    let arguments = ["--repeat", "1", "--bodies", "100", "--mebibytes", "1"];
+    let which = "--figures=memory,changes,stages,bandwidth";
+    let out = good(&[&["bench", which][..], &arguments].concat());
+    let lines: Vec<_> = out.lines().filter(|line| !line.is_empty()).collect();
+    assert_eq!(lines.len(), (2 + 3) + (2 + 2) + (2 + 1) + (2 + 1), "{out}");
+    assert!(lines[1].starts_with("scene") && lines[4].starts_with("circles"), "{out}");
+}
+
 #[test]
 fn bench_says_what_it_does_not_know() {
     let error = bad(&["bench", "stack", "large_piramid"]);
@@ -143,6 +220,8 @@ fn bench_says_what_it_does_not_know() {
     assert!(bad(&["bench", "stack", "--simd", "mmx"]).contains("mmx"));
     assert!(bad(&["bench", "stack", "--repeat", "0"]).contains("--repeat"));
     assert!(bad(&["bench", "stack", "--figures"]).contains("--figures"));
+    assert!(bad(&["bench", "--figures=memories"]).contains("memory"));
+    assert!(bad(&["bench", "--figures=memory", "--bodies", "0"]).contains("--bodies"));
 }
 
 #[test]

@@ -60,6 +60,7 @@ mod describe;
 mod dynamics;
 mod error;
 mod fixed_step;
+mod footprint;
 pub mod geometry;
 pub mod math;
 pub mod record;

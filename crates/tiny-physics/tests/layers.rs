@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// The layers, lowest first. Modules of one layer may know each other.
 const LAYERS: [&[&str]; 9] = [
-    &["error", "math", "codec"],
+    &["error", "math", "codec", "footprint"],
     &["simd", "threads"],
     &["geometry"],
     &["broad_phase"],

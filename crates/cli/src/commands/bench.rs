@@ -1,6 +1,6 @@
 //! `bench`: scenes timed stage by stage, on every SIMD level, levels taking turns.
 
-use super::bench_figures;
+use super::figures;
 use super::run::{Progress, Times};
 use crate::args::{BenchArgs, WorldArgs};
 use crate::failure::{Failure, Outcome};
@@ -69,8 +69,8 @@ struct Run {
 /// # Errors
 /// A scene that is not known, that the engine refuses, or that levels give different results of.
 pub fn run(args: &BenchArgs) -> Outcome {
-    if args.figures {
-        return bench_figures::run(args);
+    if !args.figures.is_empty() {
+        return figures::run(args);
     }
     let all = [tags::BENCHMARK.to_owned()];
     let words = if args.scenes.is_empty() { &all[..] } else { &args.scenes[..] };

@@ -1,8 +1,8 @@
 //! One file a command.
 
 mod bench;
-mod bench_figures;
 mod demo;
+mod figures;
 mod list;
 mod player;
 mod quality;

@@ -105,7 +105,7 @@ fn worked() -> Option<f64> {
 }
 
 /// Memory that the process holds, in units of 1024 bytes; Linux only.
-fn memory_kb() -> Option<u64> {
+pub(super) fn memory_kb() -> Option<u64> {
     let text = fs::read_to_string("/proc/self/status").ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
     line.split_whitespace().next()?.parse().ok()

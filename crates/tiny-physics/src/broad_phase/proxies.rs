@@ -11,6 +11,7 @@ use super::boxes::WIDTH;
 use super::{BoxCast, DynamicTree, clamped, sort_pairs};
 use crate::codec::{Data, Reader, Sink, bad, data, data_enum};
 use crate::error::Error;
+use crate::footprint::footprint;
 use crate::math::{Aabb, Vec2};
 use crate::threads::{SharedSlice, Team};
 use core::ops::{ControlFlow, Range};
@@ -200,6 +201,8 @@ pub struct BroadPhase {
     /// By [`ProxyKind`].
     trees: [DynamicTree; 3],
 }
+
+footprint!(BroadPhase { proxies, free, moved, groups } each { marks, trees });
 
 impl Clone for BroadPhase {
     fn clone(&self) -> Self {

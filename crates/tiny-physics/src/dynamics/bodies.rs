@@ -1,8 +1,11 @@
 //! Bodies: hot rows for the solver, poses, and everything else.
 
-use super::clone::{Serial, cloned_data, keep_serial};
+use super::clone::{Serial, clone_by_field, keep_serial};
 use super::pace::PLAIN;
+use crate::codec::{Data, Reader, Sink};
 use crate::describe::{BodyKind, Locks};
+use crate::error::Error;
+use crate::footprint::footprint;
 use crate::math::{DVec2, Pose, Rot, Vec2};
 use crate::simd::Row;
 
@@ -144,8 +147,10 @@ pub(crate) struct Bodies {
     pub(crate) infos: Vec<BodyInfo>,
     /// Moving (dynamic or kinematic) bodies that are awake and enabled, ascending.
     pub(crate) awake: Vec<u32>,
-    /// `awake` has been appended to since it was last sorted.
+    /// `awake` may not be ascending: it has been changed since it was last sorted.
     pub(crate) awake_unsorted: bool,
+    /// Where in `awake` each body is, or NULL.
+    pub(super) awake_places: Vec<u32>,
     pub(crate) free: Vec<u32>,
     pub(crate) count: usize,
     /// Bodies of another pace than the plain one, sleeping ones too.
@@ -153,7 +158,7 @@ pub(crate) struct Bodies {
     serial: Serial,
 }
 
-cloned_data!(Bodies {
+clone_by_field!(Bodies {
     rows,
     poses,
     previous,
@@ -162,12 +167,57 @@ cloned_data!(Bodies {
     infos,
     awake,
     awake_unsorted,
+    awake_places,
     free,
     count,
     refined,
     serial
 });
+footprint!(Bodies { rows, poses, previous, motions, starts, infos, awake, awake_places, free } none {
+    awake_unsorted, count, refined, serial
+});
 keep_serial!(Bodies);
+
+impl Data for Bodies {
+    fn save(&self, sink: &mut impl Sink) {
+        let Self { rows, poses, previous, motions, starts, infos, .. } = self;
+        rows.save(sink);
+        poses.save(sink);
+        previous.save(sink);
+        motions.save(sink);
+        starts.save(sink);
+        infos.save(sink);
+        // Where they are in the list follows from the list.
+        let Self { awake, awake_unsorted, awake_places: _, free, count, refined, serial, .. } =
+            self;
+        awake.save(sink);
+        awake_unsorted.save(sink);
+        free.save(sink);
+        count.save(sink);
+        refined.save(sink);
+        serial.save(sink);
+    }
+
+    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        let mut bodies = Self {
+            rows: Data::load(reader)?,
+            poses: Data::load(reader)?,
+            previous: Data::load(reader)?,
+            motions: Data::load(reader)?,
+            starts: Data::load(reader)?,
+            infos: Data::load(reader)?,
+            awake: Data::load(reader)?,
+            awake_unsorted: Data::load(reader)?,
+            awake_places: Vec::new(),
+            free: Data::load(reader)?,
+            count: Data::load(reader)?,
+            refined: Data::load(reader)?,
+            serial: Data::load(reader)?,
+        };
+        bodies.find_awake_places()?;
+        Ok(bodies)
+    }
+}
 
 impl Bodies {
     pub(crate) fn new() -> Self {
@@ -180,6 +230,7 @@ impl Bodies {
             infos: vec![BodyInfo::default()],
             awake: Vec::new(),
             awake_unsorted: false,
+            awake_places: vec![NULL],
             free: Vec::new(),
             count: 0,
             refined: 0,
@@ -217,6 +268,7 @@ impl Bodies {
             self.rows.push([0.0; 8]);
             self.motions.push(Motion::default());
             self.starts.push([0.0; 4]);
+            self.awake_places.push(NULL);
             self.infos.len() as u32 - 1
         }
     }
@@ -228,19 +280,6 @@ impl Bodies {
         self.infos[index as usize] = BodyInfo::default();
         self.rows[index as usize] = [0.0; 8];
         self.free.push(index);
-    }
-
-    /// Appends to the awake list.
-    pub(crate) fn push_awake(&mut self, index: u32) {
-        self.awake_unsorted |= self.awake.last().is_some_and(|&last| last > index);
-        self.awake.push(index);
-    }
-
-    /// Brings the awake list into ascending order.
-    pub(crate) fn sort_awake(&mut self) {
-        if core::mem::take(&mut self.awake_unsorted) {
-            self.awake.sort_unstable();
-        }
     }
 
     /// Is the body dynamic? Only those have inverse masses, colours and islands.

@@ -6,6 +6,7 @@ use super::edges::{self, edges};
 use super::pair_table::PairTable;
 use crate::codec::{Data, Reader, Sink, bad};
 use crate::error::Error;
+use crate::footprint::footprint;
 use crate::geometry::manifold::PairClass;
 
 /// Impulses of a contact point that is not in the graph at the moment.
@@ -72,6 +73,7 @@ pub(crate) struct Contacts {
 }
 
 clone_by_field!(Contacts { records, pairs, free });
+footprint!(Contacts { records, pairs, free });
 
 impl Data for Contacts {
     fn save(&self, sink: &mut impl Sink) {

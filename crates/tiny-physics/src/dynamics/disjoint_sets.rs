@@ -10,6 +10,8 @@ pub(crate) struct DisjointSets {
     parents: Vec<u32>,
 }
 
+crate::footprint::footprint!(DisjointSets { parents });
+
 impl DisjointSets {
     /// Puts each of the numbers below `count` into a set of its own.
     pub(crate) fn reset(&mut self, count: usize) {

@@ -17,6 +17,7 @@ use super::contacts::{Contact, Contacts, Place, SavedPoint};
 use super::pace::PACES;
 use crate::codec::{Data, Reader, Sink};
 use crate::error::Error;
+use crate::footprint::{Footprint, MemoryUse, each, footprint};
 use crate::geometry::manifold::PairClass;
 use crate::simd::BLOCK;
 use crate::threads::SharedSlice;
@@ -61,6 +62,7 @@ pub(crate) struct Bucket {
 }
 
 clone_by_field!(Bucket { contacts, manifolds, constraints, surfaces, heads });
+footprint!(Bucket { contacts, manifolds, constraints, surfaces, heads });
 
 impl Bucket {
     /// The two bodies of a slot.
@@ -242,6 +244,13 @@ pub(crate) struct Graph {
 
 clone_by_field!(Graph { buckets, touching, fresh, mixed, news });
 
+impl Footprint for Graph {
+    fn footprint(&self) -> MemoryUse {
+        let Self { buckets, touching: _, fresh, mixed: _, news: _ } = self;
+        [buckets.footprint(), each(buckets.iter().flatten()), fresh.footprint()].into_iter().sum()
+    }
+}
+
 impl Data for Graph {
     fn save(&self, sink: &mut impl Sink) {
         // Fresh blocks are those of the step at work.
@@ -278,6 +287,11 @@ impl Graph {
     /// Contacts in the graph, touching or not.
     pub(crate) fn len(&self) -> usize {
         self.touching + self.buckets[IDLE].iter().map(|bucket| bucket.contacts.len()).sum::<usize>()
+    }
+
+    /// Memory of the constraints alone: what every pass of the solver goes through.
+    pub(crate) fn constraints_footprint(&self) -> MemoryUse {
+        each(self.buckets.iter().flatten().map(|bucket| &bucket.constraints))
     }
 
     /// Contacts that touch and are awake.

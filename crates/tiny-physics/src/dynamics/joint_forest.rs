@@ -19,6 +19,7 @@ use super::joints::{JointPlace, Joints};
 use crate::codec::{Data, Reader, Sink};
 use crate::describe::{JointDef, JointKind};
 use crate::error::Error;
+use crate::footprint::footprint;
 
 /// Fewer joints than these are solved in lanes.
 const LEAST_LINKS: usize = 2;
@@ -162,6 +163,7 @@ pub(crate) struct JointTree {
 }
 
 clone_by_field!(JointTree { nodes, dynamic, links, axes, pace, fresh, factored });
+footprint!(JointTree { nodes, links, axes } none { dynamic, pace, fresh, factored });
 
 /// All trees of a world.
 #[derive(Debug, Default)]
@@ -179,6 +181,7 @@ pub(crate) struct JointForest {
 }
 
 clone_by_field!(JointForest { trees, free, tree_of, dirty, all_dirty, walk });
+footprint!(JointForest { free, tree_of, dirty, walk } each { trees } none { all_dirty });
 
 /// It follows from the records.
 impl PartialEq for JointForest {
@@ -316,6 +319,9 @@ struct Walk {
     found: Component,
     waiting: Vec<u32>,
 }
+
+footprint!(Walk { places, met, found, waiting });
+footprint!(Component { bodies, joints });
 
 impl Clone for Walk {
     fn clone(&self) -> Self {

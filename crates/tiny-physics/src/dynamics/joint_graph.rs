@@ -14,6 +14,7 @@ use super::joint_blocks::{
 use super::joint_forest::{JointForest, JointTree, is_rigid};
 use super::joints::{JointPlace, JointRecord, Joints};
 use super::pace::{PACES, PLAIN};
+use crate::footprint::footprint;
 use crate::simd::BLOCK;
 use crate::threads::Team;
 
@@ -35,6 +36,7 @@ pub(crate) struct JointBucket<B> {
 }
 
 clone_by_field!(JointBucket<B: Copy> { joints, blocks, stale });
+footprint!(JointBucket<B> { joints, blocks, stale });
 
 impl<B> Default for JointBucket<B> {
     fn default() -> Self {
@@ -103,6 +105,7 @@ pub(crate) struct JointColour {
 }
 
 clone_by_field!(JointColour { distance, revolute, prismatic, weld, wheel, drive, pulley, gear });
+footprint!(JointColour { distance, revolute, prismatic, weld, wheel, drive, pulley, gear });
 
 /// Does something with the bucket of a class.
 macro_rules! with_bucket {
@@ -212,6 +215,7 @@ pub(crate) struct JointGraph {
 }
 
 cloned_data!(JointGraph { colours, described_h, any_stale, count, mixed, forest });
+footprint!(JointGraph { forest } each { colours } none { described_h, any_stale, count, mixed });
 
 impl JointGraph {
     pub(crate) fn new() -> Self {

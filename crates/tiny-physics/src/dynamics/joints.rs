@@ -80,6 +80,7 @@ pub(crate) struct Joints {
 }
 
 cloned_data!(Joints { records, breakable, free, count, serial });
+crate::footprint::footprint!(Joints { records, breakable, free } none { count, serial });
 keep_serial!(Joints);
 
 impl Joints {

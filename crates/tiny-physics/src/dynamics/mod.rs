@@ -3,6 +3,7 @@
 //! Nothing here decides anything about physics: stores keep records and the links between them
 //! consistent, the [`stages`](crate::stages) read and write them.
 
+mod awake;
 mod blocks;
 mod bodies;
 mod clone;

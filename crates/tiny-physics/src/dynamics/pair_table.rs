@@ -11,6 +11,7 @@ pub(crate) struct PairTable {
 }
 
 super::clone::clone_by_field!(PairTable { places, len });
+crate::footprint::footprint!(PairTable { places } none { len });
 
 const EMPTY: u64 = u64::MAX;
 

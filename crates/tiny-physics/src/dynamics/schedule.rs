@@ -33,6 +33,8 @@ pub(crate) struct Schedule {
     blocks: usize,
 }
 
+crate::footprint::footprint!(Schedule { runs, stages } none { blocks });
+
 impl Schedule {
     /// Lists the occupied ones of these places in their order, in runs of up to `len` blocks.
     ///

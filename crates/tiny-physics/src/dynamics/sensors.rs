@@ -29,6 +29,7 @@ pub(crate) struct Sensors {
 }
 
 cloned_data!(Sensors { shapes, overlaps, changed, any_changed });
+crate::footprint::footprint!(Sensors { shapes, overlaps, changed } none { any_changed });
 
 impl Sensors {
     /// Notes that a shape has become a sensor.

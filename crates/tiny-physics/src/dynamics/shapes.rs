@@ -4,6 +4,7 @@ use super::bodies::NULL;
 use super::clone::{Serial, cloned_data, keep_serial};
 use crate::broad_phase::ProxyId;
 use crate::describe::{ChainLink, Filter, Material};
+use crate::footprint::footprint;
 use crate::geometry::Shape;
 use crate::geometry::manifold::ShapeClass;
 use crate::math::{Aabb, Transform, Vec2};
@@ -111,6 +112,7 @@ pub(crate) struct Shapes {
 }
 
 cloned_data!(Shapes { records, rows, tight, fat, guards, changed_ground, free, count, serial });
+footprint!(Shapes { records, rows, tight, fat, guards, changed_ground, free } none { count, serial });
 keep_serial!(Shapes);
 
 impl Shapes {

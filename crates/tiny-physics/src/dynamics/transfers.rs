@@ -22,6 +22,8 @@ pub(crate) struct Transfers {
     groups: Vec<Range<usize>>,
 }
 
+crate::footprint::footprint!(Transfers { moves, groups });
+
 impl Transfers {
     /// Puts contacts into the graph, in this order: each into a colour if it touches, else among the idle ones.
     /// Those that are in it already stay where they are.

@@ -14,3 +14,4 @@ pub(crate) struct Waiting {
 }
 
 cloned_data!(Waiting { pairs, stale });
+crate::footprint::footprint!(Waiting { pairs } none { stale });

@@ -45,6 +45,8 @@ pub(crate) struct Findings {
     pub(crate) broken: Vec<u32>,
 }
 
+crate::footprint::footprint!(Findings { moved, fast, broken });
+
 /// Takes the motion of the step over into poses and boxes. `found` gets the findings by chunk, in the order of
 /// the bodies; entries past the returned count are left over from other steps.
 pub(crate) fn run(

@@ -19,6 +19,8 @@ pub(crate) struct Islands {
     sets: DisjointSets,
 }
 
+crate::footprint::footprint!(Islands { sets });
+
 impl Islands {
     /// Joins all dynamic bodies that touch or are joined.
     pub(crate) fn find_all(&mut self, bodies: &Bodies, graph: &Graph, joints: &Joints) {

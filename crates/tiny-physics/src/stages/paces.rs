@@ -63,6 +63,17 @@ pub(crate) struct Memory {
     moved_joints: Vec<(u32, usize)>,
 }
 
+crate::footprint::footprint!(Memory {
+    islands,
+    found,
+    order,
+    loads,
+    below,
+    changed,
+    moved_contacts,
+    moved_joints
+});
+
 /// Lists the awake bodies that are integrated at a pace: what is not dynamic is at every one.
 pub(crate) fn list_bodies(bodies: &Bodies, pace: usize, listed: &mut Vec<u32>) {
     let concerns = |&&i: &&u32| {

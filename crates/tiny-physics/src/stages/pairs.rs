@@ -10,6 +10,7 @@ use crate::dynamics::{
     Bodies, Contact, Contacts, Graph, IDLE, Joints, NULL, Place, SavedPoint, Schedule, Shapes,
     Waiting,
 };
+use crate::footprint::footprint;
 use crate::geometry::manifold::PairClass;
 use crate::simd::BLOCK;
 use crate::threads::{SharedSlice, Team};
@@ -55,6 +56,9 @@ struct Found {
     near: Vec<(u32, u32)>,
     waiting: Vec<(u32, u32)>,
 }
+
+footprint!(Found { near, waiting });
+footprint!(Search { parted, pairs, moved, schedule } each { found, found_parted } none { sleeper_moved });
 
 /// What becomes of a pair whose fat boxes overlap.
 enum Fate {

@@ -23,6 +23,8 @@ pub(crate) struct Sets {
     resting: Vec<(u32, u32)>,
 }
 
+crate::footprint::footprint!(Sets { islands, restless, resting });
+
 /// Finds islands at rest and lists their bodies in `found`, each island ended by [`NULL`]: those in which every
 /// body has rested and none is moved by what it lies on.
 pub(crate) fn find_resting(
@@ -120,8 +122,7 @@ pub(crate) fn put_to_sleep(islands: &[u32], mut stores: Stores<'_>, hinges: &mut
     for island in islands.split(|&body| body == NULL).filter(|island| !island.is_empty()) {
         put_island_to_sleep(island, &mut stores, hinges);
     }
-    let Bodies { awake, infos, .. } = stores.bodies;
-    awake.retain(|&i| infos[i as usize].awake);
+    stores.bodies.retain_awake();
 }
 
 fn put_island_to_sleep(island: &[u32], stores: &mut Stores<'_>, hinges: &mut Vec<u32>) {

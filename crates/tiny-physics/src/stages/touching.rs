@@ -14,6 +14,8 @@ pub(crate) struct Changes {
     pub(crate) ended: Vec<u32>,
 }
 
+crate::footprint::footprint!(Changes { began, ended });
+
 /// Compares what the narrow phase found with where the contacts are. The schedule has all blocks of the graph.
 pub(crate) fn find_changes(
     team: &Team,

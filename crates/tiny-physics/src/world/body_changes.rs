@@ -178,7 +178,7 @@ impl World {
         }
         self.waiting.stale = true;
         self.bodies.infos[index as usize].awake = false;
-        self.bodies.awake.retain(|&i| i != index);
+        self.bodies.remove_awake(index);
     }
 
     /// Puts a body back that was taken out, awake if it can be; does nothing to one that is not enabled.

@@ -73,7 +73,7 @@ impl World {
         while self.bodies.infos[index as usize].first_shape != NULL {
             self.unlink_shape(self.bodies.infos[index as usize].first_shape);
         }
-        self.bodies.awake.retain(|&i| i != index);
+        self.bodies.remove_awake(index);
         self.bodies.remove(index);
         Ok(())
     }

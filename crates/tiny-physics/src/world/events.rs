@@ -109,6 +109,19 @@ pub struct Events {
     pub(crate) pending_asleep: Vec<BodyId>,
 }
 
+crate::footprint::footprint!(Events {
+    contact_begin,
+    contact_end,
+    hits,
+    sensor_begin,
+    sensor_end,
+    joint_breaks,
+    woke,
+    fell_asleep,
+    pending_end,
+    pending_woke,
+    pending_asleep
+});
 data!(ContactBegin { shape_a, shape_b });
 data!(ContactEnd { shape_a, shape_b });
 data!(SensorBegin { sensor, visitor });

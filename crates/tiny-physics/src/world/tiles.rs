@@ -6,6 +6,7 @@ use crate::codec::{Data, Reader, Sink, bad, data};
 use crate::describe::{BLOCK_CELLS, Piece, TileGrid};
 use crate::dynamics::{Serial, clone_by_field, keep_serial};
 use crate::error::Error;
+use crate::footprint::{Footprint, MemoryUse, each, footprint};
 
 /// All tile grids of a world.
 #[derive(Debug, Default)]
@@ -19,6 +20,8 @@ pub(super) struct TileGrids {
 clone_by_field!(TileGrids { slots, owners, serial });
 data!(TileGrids { slots, owners, serial });
 keep_serial!(TileGrids);
+
+footprint!(TileGrids { owners } each { slots } none { serial });
 
 impl TileGrids {
     fn place_of(&self, body: BodyId) -> Result<usize, usize> {
@@ -94,6 +97,20 @@ struct BlockBody {
 
 clone_by_field!(BlockBody { body, shapes });
 data!(BlockBody { body, shapes });
+
+footprint!(BlockBody { shapes } none { body });
+
+impl Footprint for Slot {
+    fn footprint(&self) -> MemoryUse {
+        let placed = self.grid.iter();
+        placed
+            .map(|Placed { grid, blocks }| {
+                let lists = [grid.palette.footprint(), grid.cells.footprint(), blocks.footprint()];
+                lists.into_iter().chain([each(blocks)]).sum()
+            })
+            .sum()
+    }
+}
 
 impl World {
     /// Adds a tile map. It is made of static bodies, one for each block of 16 by 16 cells that is not

@@ -30,6 +30,9 @@ impl World {
     }
 
     fn validate_body_lists(&self) -> Result<(), String> {
+        if !self.bodies.knows_awake_places() {
+            return Err("a body is elsewhere in the list of those that are awake".into());
+        }
         let mut listed = vec![false; self.bodies.infos.len()];
         self.bodies.awake.iter().for_each(|&index| listed[index as usize] = true);
         for index in self.bodies.indices() {

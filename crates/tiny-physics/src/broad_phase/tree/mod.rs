@@ -18,6 +18,7 @@ use super::stack::Stack;
 use super::{BoxCast, NONE, clamped};
 use crate::codec::{Data, Reader, Sink, data};
 use crate::error::Error;
+use crate::footprint::{Footprint, MemoryUse, footprint};
 use crate::math::Aabb;
 use core::ops::ControlFlow;
 
@@ -47,6 +48,7 @@ impl Node {
 }
 
 data!(Node { category, child, parent, lane, level, count });
+footprint!(DynamicTree { boxes, nodes, places, spare } none { root, free, count, changes, built_cost });
 data!(DynamicTree { boxes, nodes, places, root, free, count, changes, built_cost, spare });
 
 /// A child with its box: what is moved about when nodes are cut and built.
@@ -94,6 +96,12 @@ pub struct DynamicTree {
 /// Memory for rebuilding; empty otherwise, and no part of what a tree is.
 #[derive(Debug, Default)]
 struct Spare(Vec<Branch>);
+
+impl Footprint for Spare {
+    fn footprint(&self) -> MemoryUse {
+        self.0.footprint()
+    }
+}
 
 impl Data for Spare {
     fn save(&self, _: &mut impl Sink) {}

@@ -13,6 +13,7 @@ use super::friction::solve_friction;
 use super::pair::{Constants, Pair, Stride};
 use super::{CHUNK, Parameters};
 use crate::dynamics::{Bodies, Bucket, ConstraintBlock, Graph, Schedule, flags, is_overflow};
+use crate::footprint::footprint;
 use crate::geometry::manifold::PairClass;
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
 use crate::threads::{SharedRows, SharedSlice, Team};
@@ -62,6 +63,9 @@ pub(crate) struct Memory {
     marks: Vec<bool>,
     marked: Vec<u32>,
 }
+
+footprint!(Batch { blocks, aims, sources, targets } none { place });
+footprint!(Memory { marks, marked } each { batches, hits });
 
 /// Reflects what hits something bouncy, round by round.
 pub(crate) fn run(

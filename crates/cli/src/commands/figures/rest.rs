@@ -1,14 +1,15 @@
-//! `bench --figures`: what should cost next to nothing, and does it?
+//! What should cost next to nothing, and does it? A world asleep, and a level that nothing touches.
 
-use super::bench::{levels, median, milliseconds};
-use crate::args::{BenchArgs, WorldArgs};
+use super::{at_level, built_in, print};
+use crate::args::BenchArgs;
+use crate::commands::bench::{levels, median, milliseconds};
 use crate::failure::{Failure, Outcome};
 use crate::simulation::Simulation;
 use serde::Serialize;
-use std::io::{Write, stdout};
+use std::io::Write;
 use std::time::Instant;
 use tiny_physics::{BodyKind, SimdLevel, Vec2};
-use tiny_physics_scenes::{Options, Scene, find};
+use tiny_physics_scenes::Scene;
 
 /// Most steps until a world must be asleep.
 const UNTIL_ASLEEP: u32 = 1200;
@@ -51,48 +52,30 @@ struct Level {
 }
 
 /// Measures and prints both figures for each level.
-///
-/// # Errors
-/// A world that does not fall asleep, or standard output's.
-pub fn run(args: &BenchArgs) -> Outcome {
-    let mut out = stdout().lock();
+pub fn run(args: &BenchArgs, out: &mut impl Write) -> Outcome {
     for level in levels(args) {
-        let asleep = asleep(level, args)?;
-        let tiles = tiles(level, args)?;
-        if args.json {
-            writeln!(out, "{}", serde_json::to_string(&asleep)?)?;
-            writeln!(out, "{}", serde_json::to_string(&tiles)?)?;
-            continue;
-        }
-        let Asleep { simd, bodies, us, us_max, .. } = asleep;
-        writeln!(
-            out,
+        let row = asleep(level, args)?;
+        let Asleep { simd, bodies, us, us_max, .. } = row;
+        let text = format!(
             "{simd}: a step of {bodies} bodies asleep takes {us:.2} us ({us_max:.2} at most)"
-        )?;
-        let Level { movers, boxes, far_boxes, ms, ms_with_far, far_percent, .. } = tiles;
-        writeln!(
-            out,
+        );
+        print(out, args, &row, &text)?;
+        let row = tiles(level, args)?;
+        let Level { movers, boxes, far_boxes, ms, ms_with_far, far_percent, .. } = row;
+        let text = format!(
             "{simd}: a step of {movers} movers in a level of {boxes} boxes takes {ms:.4} ms; with {far_boxes} \
              boxes more that nothing touches {ms_with_far:.4} ms ({far_percent:+.1} %)"
-        )?;
+        );
+        print(out, args, &row, &text)?;
     }
     Ok(())
 }
 
-fn how(level: SimdLevel, args: &BenchArgs) -> WorldArgs {
-    WorldArgs { seed: 1, threads: args.threads, simd: Some(level) }
-}
-
-fn built_in(name: &str) -> Outcome<Scene> {
-    let entry = find(name).map_err(|error| Failure::new(error.to_string()))?;
-    Ok(entry.build(Options::default()))
-}
-
 /// The small pyramids, when all have fallen asleep.
 fn asleep(level: SimdLevel, args: &BenchArgs) -> Outcome<Asleep> {
-    let mut scene = built_in("many_pyramids")?;
+    let mut scene = built_in("many_pyramids", 0)?;
     scene.settings.sleep = true;
-    let mut simulation = Simulation::new(scene, &how(level, args))?;
+    let mut simulation = Simulation::new(scene, &at_level(Some(level), args))?;
     for _ in 0..UNTIL_ASLEEP {
         if simulation.world().awake_body_count() == 0 {
             break;
@@ -124,9 +107,9 @@ fn asleep(level: SimdLevel, args: &BenchArgs) -> Outcome<Asleep> {
 
 /// The level with its movers, alone and with many boxes out of reach, step by step in turns.
 fn tiles(level: SimdLevel, args: &BenchArgs) -> Outcome<Level> {
-    let near = built_in("tiles")?;
+    let near = built_in("tiles", 0)?;
     let (far, far_boxes) = with_far_copies(&near);
-    let how = how(level, args);
+    let how = at_level(Some(level), args);
     let mut worlds = [Simulation::new(near, &how)?, Simulation::new(far, &how)?];
     let mut step_ms = [Vec::new(), Vec::new()];
     for _ in 0..args.steps.unwrap_or(600) {
