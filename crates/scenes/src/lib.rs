@@ -40,4 +40,4 @@ pub use script::{
     Act, Character, Deed, Key, Leg, Pull, Queries, Rain, Ride, Script, Terrain, Timeline,
     WakeSleepers, Walkers, When, lead_progress,
 };
-pub use world_host::{Run, WorldHost};
+pub use world_host::{CommandHost, Commanded, Run, WorldHost};

@@ -3,10 +3,11 @@
 use crate::host::{Host, Player};
 use crate::scene::Scene;
 use crate::script::{Deed, Pull, lead_progress};
+use tiny_physics::record::{BodyCommand, Command, FilterData, Made, Recorder, ShapeCommand};
 use tiny_physics::{
-    Aabb, Body, BodyId, BodyMut, CharacterMover, DVec2, Error, Explosion, ForceZone, JointDef,
-    JointId, MoverInput, Pose, QueryFilter, RigidBody, Rot, Settings, Shape, ShapeId, Transform,
-    Vec2, Water, Wind, World, ZoneForce,
+    Aabb, Body, BodyId, CharacterMover, DVec2, Error, Explosion, ForceZone, JointDef, JointId,
+    MoverInput, Pose, QueryFilter, RigidBody, Rot, Settings, Shape, ShapeId, Transform, Vec2,
+    Water, Wind, World, ZoneForce,
 };
 
 /// A scene that runs in a [`World`].
@@ -45,10 +46,51 @@ impl Run {
     }
 }
 
-/// A world with numbers for its bodies and joints, in the order in which they were added.
+/// What commands are sent to: a [`World`] does them, a [`Recorder`] notes them as well.
+pub trait Commanded {
+    /// The world, to read.
+    fn world(&self) -> &World;
+    /// Does something to it.
+    ///
+    /// # Errors
+    /// As [`Command::apply`].
+    fn apply(&mut self, command: Command) -> Result<Made, Error>;
+    /// Moves it on by `dt` seconds.
+    fn step(&mut self, dt: f32);
+}
+
+impl Commanded for World {
+    fn world(&self) -> &World {
+        self
+    }
+    fn apply(&mut self, command: Command) -> Result<Made, Error> {
+        command.apply(self)
+    }
+    fn step(&mut self, dt: f32) {
+        self.step(dt);
+    }
+}
+
+impl Commanded for Recorder {
+    fn world(&self) -> &World {
+        self.world()
+    }
+    fn apply(&mut self, command: Command) -> Result<Made, Error> {
+        self.apply(command)
+    }
+    fn step(&mut self, dt: f32) {
+        self.step(dt);
+    }
+}
+
+/// Plays scenes in a world that is not recorded.
+pub type WorldHost = CommandHost<World>;
+
+/// Plays scenes in a world, with numbers for its bodies and joints in the order in which they were added. All that
+/// it does are commands, so what is recorded is what happens without recording.
 #[derive(Clone)]
-pub struct WorldHost {
-    world: World,
+pub struct CommandHost<T> {
+    target: T,
     bodies: Vec<Option<BodyId>>,
     joints: Vec<Option<JointId>>,
     error: Option<Error>,
@@ -57,23 +99,41 @@ pub struct WorldHost {
 impl WorldHost {
     /// An empty world.
     pub fn new(gravity: Vec2, settings: Settings) -> Self {
-        let world = World::with_settings(gravity, settings);
-        Self { world, bodies: Vec::new(), joints: Vec::new(), error: None }
-    }
-
-    /// The world.
-    pub fn world(&self) -> &World {
-        &self.world
+        Self::on(World::with_settings(gravity, settings))
     }
 
     /// The world, to act on.
     pub fn world_mut(&mut self) -> &mut World {
-        &mut self.world
+        &mut self.target
     }
 
     /// The world, for good.
     pub fn into_world(self) -> World {
-        self.world
+        self.target
+    }
+}
+
+impl CommandHost<Recorder> {
+    /// Records what is played in an empty world.
+    pub fn recording(gravity: Vec2, settings: Settings) -> Self {
+        Self::on(Recorder::new(World::with_settings(gravity, settings)))
+    }
+
+    /// What records.
+    pub fn recorder(&self) -> &Recorder {
+        &self.target
+    }
+}
+
+impl<T: Commanded> CommandHost<T> {
+    /// Sends commands to something in whose world nothing is yet.
+    fn on(target: T) -> Self {
+        Self { target, bodies: Vec::new(), joints: Vec::new(), error: None }
+    }
+
+    /// The world.
+    pub fn world(&self) -> &World {
+        self.target.world()
     }
 
     /// The world's handle of a body.
@@ -92,21 +152,32 @@ impl WorldHost {
     }
 
     fn body(&self, body: usize) -> Option<Body<'_>> {
-        self.body_id(body).and_then(|id| self.world.body(id))
+        self.body_id(body).and_then(|id| self.world().body(id))
     }
 
-    fn body_mut(&mut self, body: usize) -> Option<BodyMut<'_>> {
-        self.body_id(body).and_then(|id| self.world.body_mut(id))
+    /// Does it, and keeps the first error.
+    fn apply(&mut self, command: Command) -> Made {
+        self.target.apply(command).unwrap_or_else(|error| {
+            self.error.get_or_insert(error);
+            Made::Nothing
+        })
+    }
+
+    /// Does it to a body; nothing where that has been removed.
+    fn tell(&mut self, body: usize, command: BodyCommand) {
+        if let Some(id) = self.body(body).map(|body| body.id()) {
+            self.apply(Command::Body(id, command));
+        }
     }
 
     /// Does what is done to a place; `None` for what is done to a body.
     fn act_on_place(&mut self, deed: &Deed, dt: f32) -> Option<()> {
-        let all = QueryFilter::new();
-        match *deed {
+        let all = FilterData::default();
+        let command = match *deed {
             Deed::Explode { center, radius, falloff, impulse_per_metre } => {
                 let center = center.into();
                 let blast = Explosion { center, radius, falloff, impulse_per_metre };
-                self.world.explode(&blast, &all);
+                Command::Explode(blast, all)
             }
             Deed::Water { surface, between, density, flow } => {
                 let area = between.map(|(left, right)| Aabb {
@@ -115,7 +186,7 @@ impl WorldHost {
                 });
                 let surface = DVec2::new(0.0, surface.into());
                 let water = Water { surface, density, flow, area, ..Water::default() };
-                self.world.apply_water(&water, &all, dt);
+                Command::ApplyWater(water, all, dt)
             }
             Deed::Zone { shape, position, force } => {
                 let pose = Pose::new(position.into(), Rot::IDENTITY);
@@ -126,51 +197,43 @@ impl WorldHost {
                     }
                     Pull::Slow(linear, angular) => ZoneForce::Damping { linear, angular },
                 };
-                self.world.apply_zone(&ForceZone { shape, pose, force, wakes: true }, &all, dt);
+                Command::ApplyZone(ForceZone { shape, pose, force, wakes: true }, all, dt)
             }
             _ => return None,
-        }
+        };
+        self.apply(command);
         Some(())
     }
 
     /// Does what is done to a body; nothing where it has been removed.
-    fn act_on_body(&mut self, deed: &Deed, time: f32, dt: f32) -> Result<(), Error> {
+    fn act_on_body(&mut self, deed: &Deed, time: f32, dt: f32) {
         match *deed {
             Deed::SetVelocity { body, velocity, angular_velocity } => {
-                let Some(mut body) = self.body_mut(body) else { return Ok(()) };
-                body.set_velocity(velocity);
-                body.set_angular_velocity(angular_velocity);
+                self.tell(body, BodyCommand::SetVelocity(velocity));
+                self.tell(body, BodyCommand::SetAngularVelocity(angular_velocity));
             }
-            Deed::SetKind { body, kind } => {
-                let Some(mut body) = self.body_mut(body) else { return Ok(()) };
-                body.set_kind(kind);
-            }
+            Deed::SetKind { body, kind } => self.tell(body, BodyCommand::SetKind(kind)),
             Deed::SetShape { body, shape } => {
-                let first = self.shapes_of(body).first().copied();
-                let Some(mut first) = first.and_then(|id| self.world.shape_mut(id)) else {
-                    return Ok(());
-                };
-                first.set_shape(shape)?;
+                if let Some(first) = self.shapes_of(body).first() {
+                    self.apply(Command::Shape(*first, ShapeCommand::SetShape(shape)));
+                }
             }
             Deed::SetMaterial { body, material } => {
                 for id in self.shapes_of(body) {
-                    let shape = self.world.shape_mut(id);
-                    shape.map_or(Ok(()), |mut shape| shape.set_material(material))?;
+                    self.apply(Command::Shape(id, ShapeCommand::SetMaterial(material)));
                 }
             }
             Deed::Lead { body, from, to, turn, period } => {
                 let done = lead_progress(time + dt, period);
                 let target = Transform::from_angle(from + (to - from) * done, turn * done);
-                let Some(mut body) = self.body_mut(body) else { return Ok(()) };
-                body.set_target(target, dt);
+                self.tell(body, BodyCommand::SetTarget(target.into(), dt));
             }
             Deed::Wind { body, velocity } => {
-                let Some(mut body) = self.body_mut(body) else { return Ok(()) };
-                body.apply_wind(&Wind { velocity, ..Wind::default() }, dt);
+                let wind = Wind { velocity, ..Wind::default() };
+                self.tell(body, BodyCommand::ApplyWind(wind, dt));
             }
             _ => {}
         }
-        Ok(())
     }
 
     /// The shapes of a body in the order in which it was described.
@@ -180,45 +243,34 @@ impl WorldHost {
         shapes.sort_unstable_by_key(|id| id.index());
         shapes
     }
-
-    /// Keeps the first error.
-    fn keep<T>(&mut self, result: Result<T, Error>) -> Option<T> {
-        result.map_err(|error| self.error.get_or_insert(error)).ok()
-    }
 }
 
-impl Host for WorldHost {
+impl<T: Commanded> Host for CommandHost<T> {
     fn add_body(&mut self, body: &RigidBody) -> usize {
-        let added = self.world.add_body(body.clone());
-        let id = self.keep(added);
-        self.bodies.push(id);
+        let made = self.apply(Command::AddBody(body.clone()));
+        self.bodies.push(if let Made::Body(id) = made { Some(id) } else { None });
         self.bodies.len() - 1
     }
 
     fn remove_body(&mut self, body: usize) {
         if let Some(id) = self.body_id(body) {
-            let removed = self.world.remove_body(id);
-            self.keep(removed);
+            self.apply(Command::RemoveBody(id));
             self.bodies[body] = None;
         }
     }
 
     fn add_joint(&mut self, a: usize, b: usize, def: &JointDef) -> usize {
-        let joint = match (self.body_id(a), self.body_id(b)) {
-            (Some(a), Some(b)) => {
-                let added = self.world.add_joint(a, b, *def);
-                self.keep(added)
-            }
-            _ => None,
+        let made = match (self.body_id(a), self.body_id(b)) {
+            (Some(a), Some(b)) => self.apply(Command::AddJoint(a, b, *def)),
+            _ => Made::Nothing,
         };
-        self.joints.push(joint);
+        self.joints.push(if let Made::Joint(id) = made { Some(id) } else { None });
         self.joints.len() - 1
     }
 
     fn remove_joint(&mut self, joint: usize) {
         if let Some(id) = self.joint_id(joint) {
-            let removed = self.world.remove_joint(id);
-            self.keep(removed);
+            self.apply(Command::RemoveJoint(id));
             self.joints[joint] = None;
         }
     }
@@ -232,21 +284,21 @@ impl Host for WorldHost {
     }
 
     fn set_velocity(&mut self, body: usize, velocity: Vec2) {
-        if let Some(mut body) = self.body_mut(body) {
-            body.set_velocity(velocity);
-        }
+        self.tell(body, BodyCommand::SetVelocity(velocity));
     }
 
     fn set_angular_velocity(&mut self, body: usize, radians_per_second: f32) {
-        if let Some(mut body) = self.body_mut(body)
-            && body.as_ref().angular_velocity() != radians_per_second
-        {
-            body.set_angular_velocity(radians_per_second);
+        let now = self.body(body).map(|body| body.angular_velocity());
+        if now.is_some_and(|now| now != radians_per_second) {
+            self.tell(body, BodyCommand::SetAngularVelocity(radians_per_second));
         }
     }
 
     fn move_character(&mut self, mover: &mut CharacterMover, input: MoverInput, dt: f32) {
-        mover.update(&mut self.world, input, dt);
+        let command = Command::MoveCharacter(mover.clone(), input, dt);
+        if let Made::Character(moved) = self.apply(command) {
+            *mover = moved;
+        }
     }
 
     fn is_awake(&self, body: usize) -> bool {
@@ -254,18 +306,16 @@ impl Host for WorldHost {
     }
 
     fn wake(&mut self, body: usize) {
-        if let Some(mut body) = self.body_mut(body) {
-            body.wake();
-        }
+        self.tell(body, BodyCommand::Wake);
     }
 
     fn step(&mut self, dt: f32) {
-        self.world.step(dt);
+        self.target.step(dt);
     }
 
     fn ray_cast(&mut self, origin: Vec2, translation: Vec2, mask: u64) -> Option<f32> {
         let filter = QueryFilter::default().mask(mask);
-        self.world.ray_cast(origin, translation, &filter).map(|hit| hit.fraction)
+        self.world().ray_cast(origin, translation, &filter).map(|hit| hit.fraction)
     }
 
     fn circle_cast(
@@ -277,26 +327,24 @@ impl Host for WorldHost {
     ) -> Option<f32> {
         let (shape, filter) = (Shape::Circle { radius }, QueryFilter::default().mask(mask));
         let pose = Transform::new(center, Rot::IDENTITY);
-        self.world.cast_shape(&shape, pose, translation, &filter).map(|hit| hit.fraction)
+        self.world().cast_shape(&shape, pose, translation, &filter).map(|hit| hit.fraction)
     }
 
     fn count_overlaps(&mut self, lower: Vec2, upper: Vec2, mask: u64) -> usize {
         let filter = QueryFilter::default().mask(mask);
-        self.world.overlap_aabb(Aabb { min: lower, max: upper }, &filter).len()
+        self.world().overlap_aabb(Aabb { min: lower, max: upper }, &filter).len()
     }
 
     fn act(&mut self, deed: &Deed, time: f32, dt: f32) {
-        let result = match self.act_on_place(deed, dt) {
-            Some(()) => Ok(()),
-            None => self.act_on_body(deed, time, dt),
-        };
-        self.keep(result);
+        if self.act_on_place(deed, dt).is_none() {
+            self.act_on_body(deed, time, dt);
+        }
     }
 
     fn is_entered(&mut self, body: usize) -> bool {
         let Some(body) = self.body(body) else {
             return false;
         };
-        body.shapes().any(|shape| self.world.sensor_overlaps(shape).next().is_some())
+        body.shapes().any(|shape| self.world().sensor_overlaps(shape).next().is_some())
     }
 }

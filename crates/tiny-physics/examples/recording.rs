@@ -1,7 +1,7 @@
 //! Recording what is done to a world, playing it again with a check of every step, going to any step, and
 //! finding where two runs part. `cargo run -p tiny-physics --example recording`
 
-use tiny_physics::record::{Command, Made, Player, Recorder, Recording};
+use tiny_physics::record::{BodyCommand, Command, Made, Player, Recorder, Recording};
 use tiny_physics::{Error, RigidBody, Shape, Vec2, World};
 
 /// Fifty steps with a kick of some strength after thirty.
@@ -12,12 +12,12 @@ fn play(kick: f32) -> Result<Recording, Error> {
     let Made::Body(ball) = recorder.apply(Command::AddBody(ball))? else { unreachable!() };
     for step in 0..50 {
         if step == 30 {
-            let place = recorder.world().body(ball).unwrap().center();
-            recorder.apply(Command::ApplyImpulse(ball, Vec2::new(kick, 0.0), place))?;
+            let push = BodyCommand::ApplyImpulseToCenter(Vec2::new(kick, 0.0));
+            recorder.apply(Command::Body(ball, push))?;
         }
         recorder.step(1.0 / 60.0);
     }
-    Ok(recorder.recording().clone())
+    Ok(recorder.finish().1)
 }
 
 /// Runs the example.

@@ -29,6 +29,7 @@
 //! | ask what is where | [`World::ray_cast`], [`World::cast_shape`], [`World::overlap_shape`], [`World::closest_point`], [`QueryFilter`] |
 //! | change a shape; decide who collides | [`ShapeMut`], [`World::set_pair_filter`], [`World::set_pre_solve`] |
 //! | blow up, blow about, float | [`Explosion`], [`Wind`], [`Water`], [`ForceZone`] |
+//! | save a world, go back, record and play again | [`World::to_bytes`], [`World::restore_bytes`], [`record`] |
 //! | step evenly where frames are uneven | [`FixedStep`] |
 //! | draw | [`DebugDraw`] |
 //! | collide two shapes without a world | [`collide`], [`contact`], [`geometry`] |
@@ -51,7 +52,7 @@
 //! # Features
 //!
 //! `parallel` (default) lets a world use several threads; results do not depend on it. `serde` writes
-//! descriptions and settings to files.
+//! descriptions, settings, worlds, handles and recordings to files of any format.
 
 pub mod broad_phase;
 mod codec;

@@ -1,8 +1,9 @@
 //! Reads the engine's sources and checks the rules of the house: no layer knows an upper one, `unsafe` is
 //! in `threads` alone, and nothing is computed in a way that platforms or runs differ in.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+mod common;
+
+use common::sources::{Source, sources, tokens};
 
 /// The layers, lowest first. Modules of one layer may know each other.
 const LAYERS: [&[&str]; 9] = [
@@ -59,17 +60,7 @@ const INEXACT: [&str; 29] = [
     "relaxed_simd",
 ];
 
-/// One source file: its path below `src`, and its code without comments, strings and tests.
-struct Source {
-    path: String,
-    code: String,
-}
-
 impl Source {
-    fn new(path: &str, text: &str) -> Self {
-        Self { path: path.to_owned(), code: without_tests(&without_comments(text)) }
-    }
-
     /// The top module that the file belongs to; `lib` for the crate's root.
     fn module(&self) -> &str {
         let first = self.path.split('/').next().unwrap_or_default();
@@ -181,144 +172,6 @@ fn first_names(tokens: &[&str]) -> Vec<String> {
         }
     }
     names
-}
-
-/// Words, `::`, and every other sign by itself.
-fn tokens(code: &str) -> Vec<&str> {
-    let mut tokens = Vec::new();
-    let mut rest = code.trim_start();
-    while let Some(first) = rest.chars().next() {
-        let is_word = |c: char| c.is_alphanumeric() || c == '_';
-        let length = match first {
-            c if is_word(c) => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
-            ':' if rest.starts_with("::") => 2,
-            c => c.len_utf8(),
-        };
-        let (token, after) = rest.split_at(length);
-        tokens.push(token);
-        rest = after.trim_start();
-    }
-    tokens
-}
-
-/// The code alone: comments are gone, strings and characters are empty.
-fn without_comments(text: &str) -> String {
-    let (mut code, mut rest) = (String::with_capacity(text.len()), text);
-    while let Some(first) = rest.chars().next() {
-        let skipped = match first {
-            '/' if rest.starts_with("//") => rest.find('\n').unwrap_or(rest.len()),
-            '/' if rest.starts_with("/*") => block_comment(rest),
-            'r' if raw_string(rest).is_some() => raw_string(rest).unwrap_or(1),
-            '"' => quoted(rest, '"'),
-            '\'' if is_character(rest) => quoted(rest, '\''),
-            _ => 0,
-        };
-        if skipped == 0 {
-            code.push(first);
-            rest = &rest[first.len_utf8()..];
-        } else {
-            code.push(' ');
-            rest = &rest[skipped..];
-        }
-    }
-    code
-}
-
-fn block_comment(text: &str) -> usize {
-    let mut depth = 0;
-    for (i, _) in text.char_indices() {
-        if text[i..].starts_with("/*") {
-            depth += 1;
-        } else if text[i..].starts_with("*/") {
-            depth -= 1;
-            if depth == 0 {
-                return i + 2;
-            }
-        }
-    }
-    text.len()
-}
-
-/// Length of the raw string that the text starts with.
-fn raw_string(text: &str) -> Option<usize> {
-    let hashes = text[1..].chars().take_while(|&c| c == '#').count();
-    text[1 + hashes..].strip_prefix('"')?;
-    let end = format!("\"{}", "#".repeat(hashes));
-    let start = 2 + hashes;
-    Some(text[start..].find(&end).map_or(text.len(), |i| start + i + end.len()))
-}
-
-fn quoted(text: &str, quote: char) -> usize {
-    let mut escaped = false;
-    for (i, c) in text.char_indices().skip(1) {
-        match c {
-            _ if escaped => escaped = false,
-            '\\' => escaped = true,
-            c if c == quote => return i + 1,
-            _ => {}
-        }
-    }
-    text.len()
-}
-
-/// A character in quotes, not a lifetime.
-fn is_character(text: &str) -> bool {
-    let mut chars = text.chars().skip(1);
-    chars.next() == Some('\\') || chars.next() == Some('\'')
-}
-
-/// The code without items that only tests see.
-fn without_tests(code: &str) -> String {
-    let mut kept = String::with_capacity(code.len());
-    let mut rest = code;
-    while let Some(start) = rest.find("#[cfg(test)]").or_else(|| rest.find("#[cfg(all(test")) {
-        kept.push_str(&rest[..start]);
-        rest = &rest[start..];
-        rest = &rest[item_length(rest)..];
-    }
-    kept + rest
-}
-
-/// Length of an item: to its semicolon, or to the end of its braces.
-fn item_length(code: &str) -> usize {
-    let mut depth = 0;
-    for (i, c) in code.char_indices() {
-        match c {
-            '{' => depth += 1,
-            '}' => depth -= 1,
-            _ => {}
-        }
-        if depth == 0 && (c == ';' || c == '}') {
-            return i + 1;
-        }
-    }
-    code.len()
-}
-
-/// All sources of the engine but those that only tests see.
-fn sources() -> Vec<Source> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let (mut folders, mut files) = (vec![root.clone()], Vec::<PathBuf>::new());
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder).expect("a folder of sources") {
-            let path = entry.expect("an entry").path();
-            match path.extension() {
-                _ if path.is_dir() => folders.push(path),
-                Some(extension) if extension == "rs" => files.push(path),
-                _ => {}
-            }
-        }
-    }
-    files.sort();
-    files
-        .iter()
-        .map(|file| {
-            let below = file.strip_prefix(&root).expect("below src");
-            let path: Vec<_> = below.iter().map(|part| part.to_string_lossy()).collect();
-            Source::new(&path.join("/"), &fs::read_to_string(file).expect("a source"))
-        })
-        .filter(|source| !source.path.contains("tests"))
-        .collect()
 }
 
 #[test]

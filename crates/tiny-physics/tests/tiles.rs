@@ -1,8 +1,8 @@
 //! Tile maps: smooth seams, slopes, edits while running, queries, other bodies beside them.
 
 use tiny_physics::{
-    Filter, Material, QueryFilter, RigidBody, Shape, ShapeDef, Tile, TileForm, TileGrid, Vec2,
-    World,
+    DVec2, Filter, Material, QueryFilter, RigidBody, Shape, ShapeDef, Tile, TileForm, TileGrid,
+    Vec2, World,
 };
 
 const SPEED: f32 = 10.0;
@@ -231,4 +231,18 @@ fn every_tile_has_its_own_material_and_filter() {
     assert!((on_ice.x - 10.0).abs() < 0.02, "{on_ice:?}");
     assert!((on_rock.x - 24.0 - 3.2).abs() < 0.1, "{on_rock:?}");
     assert!(slide(&mut world, 50.0, 0.0).y < -5.0);
+}
+
+/// A palette is looked at as a whole before anything is added.
+#[test]
+fn a_grid_is_added_whole_or_not_at_all() {
+    let mut world = world();
+    let before = world.to_bytes();
+    let grid = TileGrid::parse(1.0, &["#.........................../"]).unwrap();
+    let mut rough = grid.clone();
+    rough.palette.iter_mut().for_each(|tile| tile.material.friction = -1.0);
+    assert!(world.add_tiles(rough).is_err());
+    assert!(world.add_tiles(grid.position(DVec2::new(1.0e12 - 1.0, 0.0))).is_err());
+    assert_eq!(world.body_count(), 0);
+    assert_eq!(world.to_bytes(), before);
 }

@@ -1,8 +1,8 @@
 //! Descriptions as data of a saved frame.
 
 use super::{
-    BodyKind, Break, ChainLink, Filter, JointDef, JointKind, Limits, Locks, Material, Mix, Motor,
-    RigidBody, Settings, ShapeDef, Spring, Tile, TileForm, TileGrid,
+    BodyKind, Break, ChainDef, ChainLink, Filter, JointDef, JointKind, Limits, Locks, Material,
+    Mix, Motor, RigidBody, Settings, ShapeDef, Spring, Tile, TileForm, TileGrid,
 };
 use crate::codec::{data, data_enum};
 
@@ -97,6 +97,7 @@ data!(JointDef {
     user_data,
 });
 data!(ChainLink { previous, next });
+data!(ChainDef { points, closed, materials, filter, user_data });
 data_enum!(TileForm { 0 => Full, 1 => Half, 2 => Side, 3 => Slope, 4 => GentleLow, 5 => GentleHigh });
 data!(Tile { form, mirror_x, mirror_y, material, filter, one_way, user_data });
 data!(TileGrid { position, angle, cell_size, width, height, palette, cells });

@@ -407,7 +407,7 @@ pub(super) fn proxy_kind(kind: BodyKind) -> ProxyKind {
     }
 }
 
-fn check_body(body: &RigidBody) -> Result<(), Error> {
+pub(super) fn check_body(body: &RigidBody) -> Result<(), Error> {
     for (name, value) in [("position.x", body.position.x), ("position.y", body.position.y)] {
         if !value.is_finite() {
             return Err(Error::NotFinite { name, value });

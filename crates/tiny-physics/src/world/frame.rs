@@ -1,6 +1,7 @@
 //! Frames: copies of a world to go back to.
 
 use super::{Scratch, Stats, World};
+use core::mem::take;
 use std::sync::OnceLock;
 
 /// A copy has the same future, bit for bit. It shares the threads of the original; statistics start
@@ -95,5 +96,14 @@ impl Clone for World {
         broad_phase.clone_from(&source.broad_phase);
         sensors.clone_from(&source.sensors);
         events.clone_from(&source.events);
+    }
+}
+
+impl World {
+    /// Takes over what belongs to the user's code and the machine, not to the state: hooks, threads, SIMD level.
+    pub(crate) fn take_equipment(&mut self, other: &mut Self) {
+        self.hooks = take(&mut other.hooks);
+        self.pool = take(&mut other.pool);
+        self.level = other.level;
     }
 }

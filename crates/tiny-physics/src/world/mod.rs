@@ -17,6 +17,8 @@ mod ids;
 mod joints;
 mod memory;
 mod mover;
+#[cfg(feature = "serde")]
+pub(crate) mod packed;
 mod queries;
 mod sensors;
 mod shape_changes;

@@ -11,6 +11,7 @@
 use super::World;
 use super::ids::{BodyId, ShapeId};
 use super::queries::QueryFilter;
+use crate::codec::data;
 use crate::describe::{BodyKind, Filter};
 use crate::dynamics::ShapeRecord;
 use crate::geometry::{MIN_EXTENT, Shape, distance, shape_cast};
@@ -26,6 +27,8 @@ const LEAST_EDGE: f32 = 0.05;
 
 /// What a character is asked to do in an update.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct MoverInput {
     /// Horizontal speed, metres a second; positive to the right of up.
     pub walk: f32,
@@ -37,6 +40,8 @@ pub struct MoverInput {
 
 /// What a character stands on.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct MoverGround {
     /// The body.
     pub body: BodyId,
@@ -70,6 +75,8 @@ pub struct MoverGround {
 /// # }
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct CharacterMover {
     /// The middle of the capsule: world, metres. Set it to teleport.
     pub position: DVec2,
@@ -116,6 +123,8 @@ struct Obstacle {
 
 /// What a character pushed in an update, and what came of it.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 struct Push {
     body: BodyId,
     /// Speed of its centre that was expected after the next step, metres a second.
@@ -123,6 +132,27 @@ struct Push {
     /// Force that holds it back: friction, or what it pushes in turn; newtons.
     resistance: f32,
 }
+
+data!(MoverGround { body, shape, normal, point, local });
+data!(Push { body, expected, resistance });
+data!(CharacterMover {
+    position,
+    velocity,
+    height,
+    radius,
+    max_slope,
+    step_height,
+    snap_distance,
+    push_force,
+    mass,
+    gravity_scale,
+    skin,
+    filter,
+    ground,
+    drift,
+    dropping,
+    pushed,
+});
 
 /// Numbers of one update.
 #[derive(Clone, Copy)]

@@ -1,12 +1,14 @@
 //! Tile grids in a world: which shapes stand for them, and edits.
 
 use super::World;
+use super::build::{check_body, check_shape};
 use super::ids::{BodyId, ShapeId, TileGridId};
 use crate::codec::{Data, Reader, Sink, bad, data};
-use crate::describe::{BLOCK_CELLS, Piece, TileGrid};
+use crate::describe::{BLOCK_CELLS, Piece, ShapeDef, TileGrid};
 use crate::dynamics::{Serial, clone_by_field, keep_serial};
 use crate::error::Error;
 use crate::footprint::{Footprint, MemoryUse, each, footprint};
+use crate::geometry::Shape;
 
 /// All tile grids of a world.
 #[derive(Debug, Default)]
@@ -117,9 +119,11 @@ impl World {
     /// empty; their shapes are free of bumps at all seams.
     ///
     /// # Errors
-    /// Those of [`TileGrid::validate`].
+    /// Those of [`TileGrid::validate`]; a material that a shape would be refused for; a place too far out. Nothing
+    /// has been added then.
     pub fn add_tiles(&mut self, grid: TileGrid) -> Result<TileGridId, Error> {
         grid.validate()?;
+        check_parts(&grid)?;
         let (columns, rows) = grid.blocks();
         let blocks = vec![BlockBody::default(); columns as usize * rows as usize];
         let slots = &mut self.tiles.slots;
@@ -241,4 +245,15 @@ impl World {
         let slot = slot.filter(|slot| slot.generation == id.generation);
         slot.and_then(|slot| slot.grid.as_mut()).ok_or_else(|| id.into())
     }
+}
+
+/// Would all bodies and shapes of a grid be accepted?
+fn check_parts(grid: &TileGrid) -> Result<(), Error> {
+    for tile in &grid.palette {
+        let like = ShapeDef::new(Shape::Circle { radius: 1.0 });
+        check_shape(&ShapeDef { material: tile.material, ..like })?;
+    }
+    let (columns, rows) = grid.blocks();
+    let corners = [(0, 0), (columns - 1, 0), (0, rows - 1), (columns - 1, rows - 1)];
+    corners.into_iter().try_for_each(|(x, y)| check_body(&grid.block_body(x, y)))
 }

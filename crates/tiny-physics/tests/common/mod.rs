@@ -1,6 +1,8 @@
 //! What the tests of the whole engine share: small scenes, and random numbers with a seed.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+pub mod sources;
+
 use tiny_physics::{BodyId, Polygon, RigidBody, Shape, ShapeDef, Vec2, World};
 
 /// The usual step, seconds.
