@@ -3,10 +3,48 @@
 //! A block has the same layout at every SIMD level; narrower levels walk it in strides. Lanes past
 //! the end of a bucket point to body 0 and have zero effective masses, so kernels need no tail code.
 
+use crate::codec::{Data, Sink};
 use crate::simd::BLOCK;
 
-/// Declares a block: arrays of one value a lane, with a function that copies a lane of one block
-/// into a lane of another.
+/// Arrays of one value a lane.
+pub(crate) trait LaneBlock: Copy {
+    /// All lanes empty.
+    const NULL: Self;
+    /// Copies one lane of a block into a lane of this one.
+    fn copy_lane(&mut self, to: usize, source: &Self, from: usize);
+}
+
+/// Copies lane `last` over lane `hole` and empties lane `last`; both by block and lane.
+pub(super) fn move_lane<B: LaneBlock>(
+    blocks: &mut [B],
+    hole: (usize, usize),
+    last: (usize, usize),
+) {
+    match blocks.get_disjoint_mut([hole.0, last.0]) {
+        Ok([to, from]) => to.copy_lane(hole.1, from, last.1),
+        // One and the same block.
+        Err(_) => {
+            let source = blocks[last.0];
+            blocks[hole.0].copy_lane(hole.1, &source, last.1);
+        }
+    }
+    blocks[last.0].copy_lane(last.1, &B::NULL, 0);
+}
+
+/// Saves a list of blocks with so many slots in use. The lanes after them are saved as empty ones: what kernels leave in
+/// them means nothing, and depends on how many lanes they take at a time.
+pub(super) fn save_blocks<B: LaneBlock + Data>(blocks: &[B], slots: usize, sink: &mut impl Sink) {
+    let (full, last) = blocks.split_at(blocks.len().min(slots / BLOCK));
+    (blocks.len() as u32).save(sink);
+    sink.items(full);
+    for block in last {
+        let mut block = *block;
+        (slots % BLOCK..BLOCK).for_each(|lane| block.copy_lane(lane, &B::NULL, 0));
+        sink.items(&[block]);
+    }
+}
+
+/// Declares a block: arrays of one value a lane.
 macro_rules! lane_block {
     ($(#[$meta:meta])* $vis:vis struct $name:ident {
         $($(#[$field_meta:meta])* $field:ident : $type:ty = $null:expr),* $(,)?
@@ -18,12 +56,10 @@ macro_rules! lane_block {
             $($(#[$field_meta])* pub(crate) $field: [$type; BLOCK],)*
         }
 
-        impl $name {
-            /// All lanes empty.
-            pub(crate) const NULL: Self = Self { $($field: [$null; BLOCK],)* };
+        impl LaneBlock for $name {
+            const NULL: Self = Self { $($field: [$null; BLOCK],)* };
 
-            /// Copies one lane.
-            pub(crate) fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
+            fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
                 $(self.$field[to] = source.$field[from];)*
             }
         }
@@ -83,8 +119,8 @@ pub(crate) struct ConstraintBlock {
     pub(crate) points: [PointLanes; 2],
 }
 
-impl ConstraintBlock {
-    pub(crate) const NULL: Self = Self {
+impl LaneBlock for ConstraintBlock {
+    const NULL: Self = Self {
         body_a: [0; BLOCK],
         body_b: [0; BLOCK],
         normal_x: [0.0; BLOCK],
@@ -93,8 +129,7 @@ impl ConstraintBlock {
         points: [PointLanes::NULL; 2],
     };
 
-    /// Copies one lane.
-    pub(crate) fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
+    fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
         self.body_a[to] = source.body_a[from];
         self.body_b[to] = source.body_b[from];
         self.normal_x[to] = source.normal_x[from];

@@ -1,6 +1,8 @@
 //! Records and blocks as data of a saved frame.
 
-use super::blocks::{BlockHead, ConstraintBlock, ManifoldBlock, PointLanes, SurfaceBlock};
+use super::blocks::{
+    BlockHead, ConstraintBlock, ManifoldBlock, PointLanes, SurfaceBlock, save_blocks,
+};
 use super::bodies::{BodyInfo, Motion};
 use super::contacts::{Contact, Place, SavedPoint};
 use super::graph::Bucket;
@@ -8,7 +10,8 @@ use super::joint_blocks::*;
 use super::joint_graph::{JointBucket, JointColour};
 use super::joints::{JointPlace, JointRecord};
 use super::shapes::ShapeRecord;
-use crate::codec::{data, data_enum};
+use crate::codec::{Data, Reader, Sink, data, data_enum};
+use crate::error::Error;
 
 data!(Motion { gain, linear, angular, free });
 data!(BodyInfo { kind, alive, enabled, awake, bullet, can_sleep, never_turns, pace, locks, force, torque, gravity_scale, linear_damping, angular_damping, sleep_time, sleep_speed, min_extent, max_extent, first_shape, first_joint, local_center, mass, inertia, fixed_mass, shape_count, first_contact, contact_colours, joint_colours, island_next, user_data } apart { generation });
@@ -60,7 +63,6 @@ data!(SurfaceBlock {
 });
 data!(ConstraintBlock { body_a, body_b, normal_x, normal_y, friction, points });
 data!(BlockHead { touching, flags, jointed_a, jointed_b });
-data!(Bucket { contacts, manifolds, constraints, surfaces, heads });
 data!(FrameLanes {
     body_a,
     body_b,
@@ -136,5 +138,40 @@ data!(WheelBlock { frame, soft, rod, direction, motor, axis });
 data!(DriveBlock { frame, linear, angular, point, twist, angle, drive });
 data!(PulleyBlock { frame, soft, rod, rope });
 data!(GearBlock { frame, soft, gear });
-data!(JointBucket<B> { joints, blocks, stale });
 data!(JointColour { distance, revolute, prismatic, weld, wheel, drive, pulley, gear });
+
+impl Data for Bucket {
+    fn save(&self, sink: &mut impl Sink) {
+        let Self { contacts, manifolds, constraints, surfaces, heads } = self;
+        contacts.save(sink);
+        save_blocks(manifolds, contacts.len(), sink);
+        save_blocks(constraints, contacts.len(), sink);
+        save_blocks(surfaces, contacts.len(), sink);
+        heads.save(sink);
+    }
+    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        Ok(Self {
+            contacts: Data::load(reader)?,
+            manifolds: Data::load(reader)?,
+            constraints: Data::load(reader)?,
+            surfaces: Data::load(reader)?,
+            heads: Data::load(reader)?,
+        })
+    }
+}
+
+impl<B: JointLanes + Data> Data for JointBucket<B> {
+    fn save(&self, sink: &mut impl Sink) {
+        let Self { joints, blocks, stale } = self;
+        joints.save(sink);
+        save_blocks(blocks, joints.len(), sink);
+        stale.save(sink);
+    }
+    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        Ok(Self {
+            joints: Data::load(reader)?,
+            blocks: Data::load(reader)?,
+            stale: Data::load(reader)?,
+        })
+    }
+}

@@ -10,7 +10,9 @@
 //!
 //! Inside a colour, contacts lie in buckets by pair class, so a block is of one kind.
 
-use super::blocks::{BlockHead, ConstraintBlock, ManifoldBlock, SurfaceBlock, flags};
+use super::blocks::{
+    BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, SurfaceBlock, flags, move_lane,
+};
 use super::bodies::Bodies;
 use super::clone::clone_by_field;
 use super::contacts::{Contact, Contacts, Place, SavedPoint};
@@ -126,28 +128,11 @@ impl Bucket {
         let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
         let (last_block, last_lane) = (last / BLOCK, last % BLOCK);
         self.contacts.swap_remove(slot as usize);
-        move_lane(
-            &mut self.manifolds,
-            (block, lane),
-            (last_block, last_lane),
-            &ManifoldBlock::NULL,
-            ManifoldBlock::copy_lane,
-        );
+        let (to, from) = ((block, lane), (last_block, last_lane));
+        move_lane(&mut self.manifolds, to, from);
         if !self.constraints.is_empty() {
-            move_lane(
-                &mut self.constraints,
-                (block, lane),
-                (last_block, last_lane),
-                &ConstraintBlock::NULL,
-                ConstraintBlock::copy_lane,
-            );
-            move_lane(
-                &mut self.surfaces,
-                (block, lane),
-                (last_block, last_lane),
-                &SurfaceBlock::NULL,
-                SurfaceBlock::copy_lane,
-            );
+            move_lane(&mut self.constraints, to, from);
+            move_lane(&mut self.surfaces, to, from);
         }
         let last_head = self.heads[last_block];
         let touching = last_head.touching >> last_lane & 1;
@@ -196,25 +181,6 @@ impl Bucket {
         };
         [point(0, manifold.id_1[lane]), point(1, manifold.id_2[lane])]
     }
-}
-
-/// Copies lane `last` over lane `hole` and empties lane `last`.
-fn move_lane<B: Copy>(
-    blocks: &mut [B],
-    hole: (usize, usize),
-    last: (usize, usize),
-    null: &B,
-    copy: fn(&mut B, usize, &B, usize),
-) {
-    match blocks.get_disjoint_mut([hole.0, last.0]) {
-        Ok([to, from]) => copy(to, hole.1, from, last.1),
-        // One and the same block.
-        Err(_) => {
-            let source = blocks[last.0];
-            copy(&mut blocks[hole.0], hole.1, &source, last.1);
-        }
-    }
-    copy(&mut blocks[last.0], last.1, null, 0);
 }
 
 fn contact_flags(contact: &Contact) -> u8 {

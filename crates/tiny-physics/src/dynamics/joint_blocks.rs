@@ -8,6 +8,7 @@
 //! (written when the block is stale), what follows from the poses (written every step), and
 //! accumulated impulses (which live on, and move to the record while the joint sleeps).
 
+use super::blocks::LaneBlock;
 use crate::describe::JointKind;
 use crate::simd::BLOCK;
 
@@ -52,13 +53,9 @@ impl JointClass {
 }
 
 /// Lanes, or parts made of lanes.
-pub(crate) trait LaneData: Copy {
-    /// All lanes empty.
-    const NULL: Self;
+pub(crate) trait LaneData: LaneBlock {
     /// Number of accumulated impulses.
     const IMPULSES: usize;
-    /// Copies one lane.
-    fn copy_lane(&mut self, to: usize, source: &Self, from: usize);
     /// The impulses of a lane, into the first places of a slice.
     fn save(&self, lane: usize, impulses: &mut [f32]);
     /// The other way round.
@@ -80,18 +77,22 @@ macro_rules! joint_lanes {
             $($($(#[$impulse_meta])* pub(crate) $impulse: [f32; BLOCK],)*)?
         }
 
-        #[allow(unused_variables, unused_mut, unused_assignments, reason = "parts without impulses")]
-        impl LaneData for $name {
+        impl LaneBlock for $name {
             const NULL: Self = Self {
                 $($field: [$null; BLOCK],)*
                 $($($impulse: [0.0; BLOCK],)*)?
             };
-            const IMPULSES: usize = 0 $($(+ { let _ = stringify!($impulse); 1 })*)?;
 
             fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
                 $(self.$field[to] = source.$field[from];)*
                 $($(self.$impulse[to] = source.$impulse[from];)*)?
             }
+        }
+
+        #[allow(unused_variables, unused_mut, unused_assignments, reason = "parts without impulses")]
+        impl LaneData for $name {
+            const IMPULSES: usize = 0 $($(+ { let _ = stringify!($impulse); 1 })*)?;
+
             fn save(&self, lane: usize, impulses: &mut [f32]) {
                 let mut places = impulses.iter_mut();
                 $($(if let Some(place) = places.next() { *place = self.$impulse[lane]; })*)?
@@ -115,14 +116,18 @@ macro_rules! joint_block {
             $($(#[$field_meta])* pub(crate) $part: $type,)*
         }
 
-        impl LaneData for $name {
+        impl LaneBlock for $name {
             const NULL: Self = Self { frame: FrameLanes::NULL, $($part: <$type>::NULL,)* };
-            const IMPULSES: usize = 0 $(+ <$type>::IMPULSES)*;
 
             fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
                 self.frame.copy_lane(to, &source.frame, from);
                 $(self.$part.copy_lane(to, &source.$part, from);)*
             }
+        }
+
+        impl LaneData for $name {
+            const IMPULSES: usize = 0 $(+ <$type>::IMPULSES)*;
+
             #[allow(unused_assignments, reason = "after the last part")]
             fn save(&self, lane: usize, impulses: &mut [f32]) {
                 let mut at = 0;

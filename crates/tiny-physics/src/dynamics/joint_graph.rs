@@ -5,6 +5,7 @@
 //! to the ground are solved last. What finds no colour goes to the overflow. Joints of the
 //! [forest](super::joint_forest) have lanes of their own, which keep their numbers between steps.
 
+use super::blocks::move_lane;
 use super::bodies::Bodies;
 use super::clone::{clone_by_field, cloned_data};
 use super::joint_blocks::{
@@ -68,9 +69,7 @@ impl<B: JointLanes> JointBucket<B> {
         let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
         let (last_block, last_lane) = (last / BLOCK, last % BLOCK);
         self.joints.swap_remove(slot as usize);
-        let source = self.blocks[last_block];
-        self.blocks[block].copy_lane(lane, &source, last_lane);
-        self.blocks[last_block].copy_lane(last_lane, &B::NULL, 0);
+        move_lane(&mut self.blocks, (block, lane), (last_block, last_lane));
         self.stale[block] |= self.stale[last_block];
         if last_lane == 0 {
             self.blocks.pop();

@@ -27,7 +27,7 @@ mod transfers;
 mod waiting;
 
 pub(crate) use blocks::{
-    BlockHead, ConstraintBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags,
+    BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags,
 };
 pub(crate) use bodies::{Bodies, BodyInfo, Motion, NULL, Slot};
 pub(crate) use clone::{Serial, clone_by_field, cloned_data, keep_serial};

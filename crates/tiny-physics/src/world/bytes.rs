@@ -223,6 +223,23 @@ mod tests {
         }
     }
 
+    /// Not even in lanes that no contact or joint is in.
+    #[test]
+    fn bytes_do_not_depend_on_the_simd_level() {
+        let bytes = |level| {
+            let mut world = World::from_bytes(&busy_world().to_bytes()).unwrap();
+            world.set_simd(level).unwrap();
+            (0..20).for_each(|_| world.step(1.0 / 60.0));
+            world.to_bytes()
+        };
+        let expected = bytes(SimdLevel::Scalar);
+        for level in SimdLevel::available() {
+            let found = bytes(level);
+            let first = (HEADER..expected.len()).find(|&i| expected[i] != found[i]);
+            assert_eq!(first, None, "{level:?}");
+        }
+    }
+
     /// Bytes are written into memory of just their size.
     #[test]
     fn bytes_are_counted_before_they_are_written() {

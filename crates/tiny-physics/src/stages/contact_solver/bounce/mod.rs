@@ -12,7 +12,9 @@ mod search;
 use super::friction::solve_friction;
 use super::pair::{Constants, Pair, Stride};
 use super::{CHUNK, Parameters};
-use crate::dynamics::{Bodies, Bucket, ConstraintBlock, Graph, Schedule, flags, is_overflow};
+use crate::dynamics::{
+    Bodies, Bucket, ConstraintBlock, Graph, LaneBlock, Schedule, flags, is_overflow,
+};
 use crate::footprint::footprint;
 use crate::geometry::manifold::PairClass;
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};

@@ -5,7 +5,7 @@
 use super::factor::{dot3, jacobian};
 use crate::dynamics::{
     AngleLanes, AxisLanes, DirectionLanes, FrameLanes, JointClass, JointColour, JointPlace,
-    JointTree, Joints, LaneData, NULL, Slot, TreeLink, TreeNode, TreeRow,
+    JointTree, Joints, LaneBlock, NULL, Slot, TreeLink, TreeNode, TreeRow,
 };
 use crate::math::Rot;
 use crate::simd::BLOCK;
