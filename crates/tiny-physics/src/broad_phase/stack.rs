@@ -1,6 +1,6 @@
 //! A stack of node indices that allocates only when a tree is unusually deep.
 
-const INLINE: usize = 128;
+const INLINE: usize = 64;
 
 /// Last in, first out; the first entries live in place.
 pub(super) struct Stack {

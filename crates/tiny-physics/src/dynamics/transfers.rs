@@ -80,7 +80,9 @@ impl Transfers {
 
     /// Sorts the moves by bucket and slot.
     fn group(&mut self) {
-        self.moves.sort_unstable();
+        // As one number: comparing tuples costs half as much again.
+        self.moves
+            .sort_unstable_by_key(|&(bucket, slot, _)| u64::from(bucket) << 32 | u64::from(slot));
         self.groups.clear();
         let mut first = 0;
         for group in self.moves.chunk_by(|a, b| a.0 == b.0) {

@@ -45,21 +45,27 @@ pub fn cos(radians: f32) -> f32 {
 /// Taylor series on [-pi/4, pi/4]; the first term left out is below 1e-12.
 #[inline]
 fn sin_cos_small(r: f64) -> (f64, f64) {
+    const SIN: [f64; 7] = series(1);
+    const COS: [f64; 8] = series(0);
     let z = r * r;
-    let s = 1.0 - z / 156.0;
-    let s = 1.0 - z / 110.0 * s;
-    let s = 1.0 - z / 72.0 * s;
-    let s = 1.0 - z / 42.0 * s;
-    let s = 1.0 - z / 20.0 * s;
-    let s = 1.0 - z / 6.0 * s;
-    let c = 1.0 - z / 182.0;
-    let c = 1.0 - z / 132.0 * c;
-    let c = 1.0 - z / 90.0 * c;
-    let c = 1.0 - z / 56.0 * c;
-    let c = 1.0 - z / 30.0 * c;
-    let c = 1.0 - z / 12.0 * c;
-    let c = 1.0 - z / 2.0 * c;
-    (r * s, c)
+    (r * horner(&SIN, z), horner(&COS, z))
+}
+
+/// The factors of r^first, r^(first + 2), ... in the series of sine (1) and cosine (0).
+const fn series<const N: usize>(first: u32) -> [f64; N] {
+    let mut factors = [1.0; N];
+    let (mut i, mut power) = (1, first);
+    while i < N {
+        power += 2;
+        factors[i] = -factors[i - 1] / (power * (power - 1)) as f64;
+        i += 1;
+    }
+    factors
+}
+
+#[inline]
+fn horner(factors: &[f64], z: f64) -> f64 {
+    factors.iter().rev().fold(0.0, |sum, factor| sum * z + factor)
 }
 
 /// Angle of the vector (x, y) from the x axis in radians, in [-pi, pi]; 0 for the zero vector and

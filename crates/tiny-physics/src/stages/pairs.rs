@@ -190,12 +190,17 @@ impl Search {
                 let slots = run.blocks.start * BLOCK..;
                 let contacts = bucket.contacts[slots].chunks(BLOCK);
                 for (contacts, block) in contacts.zip(&bucket.manifolds[run.blocks.clone()]) {
-                    for (lane, &index) in contacts.iter().enumerate() {
+                    // Which of them have moved is noise to the branch predictor where much moves.
+                    let lanes = (0..contacts.len()).fold(0_u16, |lanes, lane| {
                         let (a, b) = (block.shape_a[lane], block.shape_b[lane]);
                         let motion = moved[a as usize] | moved[b as usize];
-                        if motion != motion::NONE && !shapes.may_touch(a, b) {
-                            parted.push(index);
-                        }
+                        let parted = (motion != motion::NONE) & !shapes.may_touch(a, b);
+                        lanes | u16::from(parted) << lane
+                    });
+                    if lanes != 0 {
+                        let parted_lanes =
+                            contacts.iter().enumerate().filter(|(lane, _)| lanes >> lane & 1 != 0);
+                        parted.extend(parted_lanes.map(|(_, &index)| index));
                     }
                 }
             }
