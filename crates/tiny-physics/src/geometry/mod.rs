@@ -24,7 +24,7 @@ mod sweep;
 mod toi;
 
 #[cfg(test)]
-mod testing;
+pub(crate) mod testing;
 
 pub use cast::{CastHit, shape_cast};
 pub use distance::{Distance, distance};

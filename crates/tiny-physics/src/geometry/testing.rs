@@ -5,17 +5,17 @@ use crate::math::{Rot, Transform, Vec2};
 use proptest::prelude::*;
 
 /// A vector with both parts within the range.
-pub(super) fn any_vec(range: f32) -> impl Strategy<Value = Vec2> {
+pub(crate) fn any_vec(range: f32) -> impl Strategy<Value = Vec2> {
     (-range..range, -range..range).prop_map(Vec2::from)
 }
 
 /// A frame with its origin within the range.
-pub(super) fn any_frame(range: f32) -> impl Strategy<Value = Transform> {
+pub(crate) fn any_frame(range: f32) -> impl Strategy<Value = Transform> {
     (any_vec(range), -4.0_f32..4.0).prop_map(|(p, angle)| Transform::from_angle(p, angle))
 }
 
 /// A convex polygon within 1 m of the origin, half of them rounded.
-pub(super) fn any_polygon() -> impl Strategy<Value = Polygon> {
+pub(crate) fn any_polygon() -> impl Strategy<Value = Polygon> {
     let points = prop::collection::vec(any_vec(1.0), 3..9);
     let radius = prop_oneof![Just(0.0_f32), 0.01_f32..0.5];
     (points, radius).prop_filter_map("flat", |(points, radius)| {
@@ -24,7 +24,7 @@ pub(super) fn any_polygon() -> impl Strategy<Value = Polygon> {
 }
 
 /// Any kind of shape, about 1 m large.
-pub(super) fn any_shape() -> impl Strategy<Value = Shape> {
+pub(crate) fn any_shape() -> impl Strategy<Value = Shape> {
     prop_oneof![
         (0.05_f32..1.0).prop_map(|radius| Shape::Circle { radius }),
         (0.05_f32..1.0, 0.05_f32..1.0)

@@ -217,9 +217,9 @@ impl Impact<'_> {
         }
         let pose = self.scene.bodies.poses[other.body as usize];
         let place = self.place(pose);
-        let info = &self.scene.bodies.infos[self.fast.body as usize];
-        let other_bullet = self.bullet(other.body);
-        if other_bullet.is_none() && self.stays_clear(info.max_extent + SLACK, index, place) {
+        let (bullet, row) = (self.bullet(other.body), &self.scene.shapes.rows[index as usize]);
+        let clear = |reach| bullet.is_none() && stays_clear(reach, self.fast.motion, row, place);
+        if clear(self.scene.bodies.infos[self.fast.body as usize].max_extent + SLACK) {
             return first;
         }
         let at = place.compose(other.central);
@@ -251,36 +251,19 @@ impl Impact<'_> {
                     if solid_along(self.fast.motion.normalized()) =>
                 {
                     let inner = Inner::new(record, &self.scene.shapes.rows[shape as usize], body);
-                    if other_bullet.is_none() && self.stays_clear(inner.reach, index, place) {
-                        first
-                    } else {
-                        inner.first_fraction(&other.shape, motion, first)
-                    }
+                    let passes = clear(inner.reach);
+                    if passes { first } else { inner.first_fraction(&other.shape, motion, first) }
                 }
                 ToiState::Hit | ToiState::Limit | ToiState::Separated | ToiState::Touching => first,
             }
         };
-        match other_bullet {
+        match bullet {
             // Its turn is still to come: it is met on its way.
             Some(index) if index > self.index => meet(&self.motion(index, other), first),
             // It has had its turn: if the two meet at all, it is met where it ended.
             Some(index) if meet(&self.motion(index, other), 1.0) == 1.0 => first,
             _ => meet(&Sweep::fixed(at), first),
         }
-    }
-
-    /// Does all that is within `reach` metres of the centre of mass stay clear of the rounded box of a shape
-    /// whose body stands at this place? What slides along something or passes it by says so for a tenth of the
-    /// price of a search.
-    fn stays_clear(&self, reach: f32, index: u32, place: Transform) -> bool {
-        let motion = self.fast.motion;
-        let row = &self.scene.shapes.rows[index as usize];
-        let frame = place.compose(Shapes::row_frame(row));
-        let (from, to) = (frame.unapply(Vec2::ZERO), frame.unapply(motion));
-        let (half, reach) = (Vec2::new(row[4], row[5]), reach + row[6]);
-        let rounding = 1.0e-6 * (reach + half.x + half.y + motion.x.abs() + motion.y.abs());
-        let limit = half + Vec2::splat(reach + rounding);
-        !Aabb::new(from.min(to), from.max(to)).overlaps(&Aabb::new(-limit, limit))
     }
 
     /// Does a shape at this place (in the other's frame) only hit a seam between static shapes?
@@ -324,5 +307,69 @@ impl Impact<'_> {
             && !other.sensor
             && record.filter.collides(&other.filter)
             && self.scene.rules.joints.may_collide(self.scene.bodies, record.body, other.body)
+    }
+}
+
+/// Does all that is within `reach` metres of where a body's centre is, goes by `motion` from the origin, stay clear
+/// of the rounded box of a [row](Shapes::rows) whose body stands at `place`? What slides along something or passes
+/// it by says so for a tenth of the price of a search.
+fn stays_clear(reach: f32, motion: Vec2, row: &Row, place: Transform) -> bool {
+    let frame = place.compose(Shapes::row_frame(row));
+    let (from, to) = (frame.unapply(Vec2::ZERO), frame.unapply(motion));
+    let (half, reach) = (Vec2::new(row[4], row[5]), reach + row[6]);
+    let rounding = 1.0e-6 * (reach + half.x + half.y + motion.x.abs() + motion.y.abs());
+    let limit = half + Vec2::splat(reach + rounding);
+    !Aabb::new(from.min(to), from.max(to)).overlaps(&Aabb::new(-limit, limit))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::manifold::RoundedBox;
+    use crate::geometry::testing::{any_frame, any_shape, any_vec};
+    use proptest::prelude::*;
+
+    /// A shape as the lane kernels see it, standing in the frame of its body's centre of mass.
+    fn row_of(shape: &Shape) -> Row {
+        let Some(rounded) = RoundedBox::of(shape) else {
+            let core = shape.core();
+            return [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, core.reach(Vec2::ZERO) + core.radius, 0.0];
+        };
+        let ([x, y, radius], frame) = (rounded.extents(), rounded.frame);
+        [frame.p.x, frame.p.y, frame.q.c, frame.q.s, x, y, radius, 1.0]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4000))]
+        #[test]
+        fn no_impact_is_left_out(
+            shape in any_shape(),
+            other in any_shape(),
+            place in any_frame(6.0),
+            motion in any_vec(8.0),
+            turn in -4.0_f32..4.0,
+        ) {
+            let core = shape.core();
+            let reach = core.reach(Vec2::ZERO) + core.radius;
+            let clear = stays_clear(reach + SLACK, motion, &row_of(&other), place);
+            let sweep = Sweep::new(Transform::IDENTITY, Vec2::ZERO, motion, turn);
+            let toi = time_of_impact(&shape, &sweep, &other, &Sweep::fixed(place), 1.0);
+            prop_assert!(!clear || toi.state == ToiState::Separated, "{toi:?}");
+        }
+
+        /// What is clear by more than a little is told to be: around circles at any rate.
+        #[test]
+        fn what_passes_by_is_told(place in any_frame(6.0), motion in any_vec(8.0), radius in 0.1_f32..1.0) {
+            let circle = row_of(&Shape::Circle { radius });
+            // Off the line of motion on either side, and behind.
+            let side = motion.perp().normalized();
+            for offset in [side, -side, -motion.normalized()] {
+                let at = Transform::new(offset * (2.0 * radius + 1.0), place.q);
+                let frame = Transform::new(at.p, Rot { c: motion.normalized().x, s: motion.normalized().y });
+                let clear = stays_clear(radius, motion, &circle, frame);
+                prop_assert!(clear || motion.length() < 1.0e-3);
+                prop_assert!(!stays_clear(radius, motion, &circle, Transform::new(motion * 0.5, place.q)));
+            }
+        }
     }
 }
