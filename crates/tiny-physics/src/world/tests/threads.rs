@@ -18,11 +18,16 @@ fn lattice(threads: usize) -> World {
 
 #[test]
 fn a_step_on_three_threads_has_no_race_and_the_same_bits() {
-    let hash = |threads| {
+    let hash = |threads, steps| {
         let mut world = lattice(threads);
-        (0..2).for_each(|_| world.step(DT));
+        (0..steps).for_each(|_| world.step(DT));
         assert!(world.contact_count() > 600, "{}", world.contact_count());
         world.state_hash()
     };
-    assert_eq!(hash(3), hash(1));
+    if cfg!(miri) {
+        // One step goes through all stages, and takes minutes there.
+        hash(3, 1);
+    } else {
+        assert_eq!(hash(3, 2), hash(1, 2));
+    }
 }
