@@ -7,7 +7,7 @@ use crate::describe::{ChainLink, Filter, Material};
 use crate::footprint::footprint;
 use crate::geometry::Shape;
 use crate::geometry::manifold::ShapeClass;
-use crate::math::{Aabb, Rot, Transform, Vec2};
+use crate::math::{Aabb, Transform, Vec2};
 use crate::simd::Row;
 
 /// One shape of a body. What a step touches lies in the first cache line.
@@ -119,18 +119,6 @@ impl Shapes {
     /// Shapes alive.
     pub(crate) fn count(&self) -> usize {
         self.count
-    }
-
-    /// The frame of a [row](Shapes::rows) in that of the body's centre of mass.
-    #[inline]
-    pub(crate) fn row_frame(row: &Row) -> Transform {
-        Transform::new(Vec2::new(row[0], row[1]), Rot { c: row[2], s: row[3] })
-    }
-
-    /// Does a [row](Shapes::rows) say all there is to its shape?
-    #[inline]
-    pub(crate) fn is_rounded_box(row: &Row) -> bool {
-        guard::exact(row[7]) == 1.0
     }
 
     /// Indices of the shapes alive, ascending.

@@ -80,7 +80,7 @@ impl Transfers {
 
     /// Sorts the moves by bucket and slot.
     fn group(&mut self) {
-        // As one number: comparing tuples costs half as much again.
+        // By one number: one comparison in place of three.
         self.moves
             .sort_unstable_by_key(|&(bucket, slot, _)| u64::from(bucket) << 32 | u64::from(slot));
         self.groups.clear();

@@ -1,7 +1,7 @@
 //! Boxes that follow their shapes: tight ones at once, fat ones where they were left.
 
 use crate::broad_phase::BroadPhase;
-use crate::dynamics::{Bodies, Shapes};
+use crate::dynamics::{Bodies, Shapes, guard};
 use crate::math::{Aabb, Pose, Vec2};
 use crate::simd::Row;
 use crate::threads::SharedSlice;
@@ -75,7 +75,7 @@ pub(crate) fn update(
 /// The box of a shape on a body whose centre of mass has this pose.
 pub(crate) fn shape_box(shapes: &Shapes, shape: u32, pose: Pose) -> Aabb {
     let row = &shapes.rows[shape as usize];
-    if Shapes::is_rounded_box(row) {
+    if guard::exact(row[7]) == 1.0 {
         rounded_box(row, pose)
     } else {
         let record = &shapes.records[shape as usize];

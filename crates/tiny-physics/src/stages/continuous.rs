@@ -12,6 +12,7 @@ use super::pairs::PairRule;
 use super::surfaces::{self, Ground, Seams};
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes};
+use crate::geometry::manifold::ShapeClass;
 use crate::geometry::{LINEAR_SLOP, Shape, Sweep, ToiState, distance, time_of_impact};
 use crate::math::{Aabb, Pose, Rot, Transform, Vec2};
 use crate::simd::Row;
@@ -114,13 +115,12 @@ struct Inner {
 }
 
 impl Inner {
-    fn new(record: &ShapeRecord, row: &Row, body: &Sweep) -> Self {
+    fn new(record: &ShapeRecord, body: &Sweep) -> Self {
         let radius = 0.5 * record.shape.inner_radius();
-        let middle = if Shapes::is_rounded_box(row) {
-            Shapes::row_frame(row).p
-        } else {
-            record.central.apply(record.shape.mass_properties(1.0).center)
-        };
+        let middle = record.central.apply(match record.class {
+            ShapeClass::General => record.shape.mass_properties(1.0).center,
+            _ => record.box_frame.p,
+        });
         let sweep = body.child(Transform::new(middle, Rot::IDENTITY));
         Self { disk: Shape::Circle { radius }, sweep, reach: middle.length() + radius }
     }
@@ -216,13 +216,7 @@ impl Impact<'_> {
             return first;
         }
         let pose = self.scene.bodies.poses[other.body as usize];
-        let place = self.place(pose);
-        let (bullet, row) = (self.bullet(other.body), &self.scene.shapes.rows[index as usize]);
-        let clear = |reach| bullet.is_none() && stays_clear(reach, self.fast.motion, row, place);
-        if clear(self.scene.bodies.infos[self.fast.body as usize].max_extent + SLACK) {
-            return first;
-        }
-        let at = place.compose(other.central);
+        let at = self.place(pose).compose(other.central);
         let center = self.fast.start.q.rotate(record.central.p);
         if surfaces::lets_pass(other, at, pose.q, center, self.fast.motion) {
             return first;
@@ -232,7 +226,17 @@ impl Impact<'_> {
             one_way::is_solid_side(other, -way, pose.q)
                 && one_way::is_solid_side(record, way, self.fast.start.q)
         };
+        let extent = self.scene.bodies.infos[self.fast.body as usize].max_extent;
         let meet = |motion: &Sweep, first: f32| {
+            let clear = |reach| {
+                let frame = motion.at(0.0).compose(other.box_frame);
+                let way = self.fast.motion - motion.translation();
+                motion.angle == 0.0
+                    && stays_clear(reach, way, &self.scene.shapes.rows[index as usize], frame)
+            };
+            if clear(extent + SLACK) {
+                return first;
+            }
             let toi = time_of_impact(&record.shape, moving, &other.shape, motion, first);
             let there = motion.at(toi.fraction);
             match toi.state {
@@ -250,14 +254,14 @@ impl Impact<'_> {
                 ToiState::Hit | ToiState::Limit | ToiState::Touching
                     if solid_along(self.fast.motion.normalized()) =>
                 {
-                    let inner = Inner::new(record, &self.scene.shapes.rows[shape as usize], body);
+                    let inner = Inner::new(record, body);
                     let passes = clear(inner.reach);
                     if passes { first } else { inner.first_fraction(&other.shape, motion, first) }
                 }
                 ToiState::Hit | ToiState::Limit | ToiState::Separated | ToiState::Touching => first,
             }
         };
-        match bullet {
+        match self.bullet(other.body) {
             // Its turn is still to come: it is met on its way.
             Some(index) if index > self.index => meet(&self.motion(index, other), first),
             // It has had its turn: if the two meet at all, it is met where it ended.
@@ -310,11 +314,10 @@ impl Impact<'_> {
     }
 }
 
-/// Does all that is within `reach` metres of where a body's centre is, goes by `motion` from the origin, stay clear
-/// of the rounded box of a [row](Shapes::rows) whose body stands at `place`? What slides along something or passes
-/// it by says so for a tenth of the price of a search.
-fn stays_clear(reach: f32, motion: Vec2, row: &Row, place: Transform) -> bool {
-    let frame = place.compose(Shapes::row_frame(row));
+/// Does all that is within `reach` metres of the origin stay clear of a rounded box in this frame, when the origin
+/// goes by `motion`? Of the box's row only its sizes count. What slides along something or passes it by needs no
+/// search then.
+fn stays_clear(reach: f32, motion: Vec2, row: &Row, frame: Transform) -> bool {
     let (from, to) = (frame.unapply(Vec2::ZERO), frame.unapply(motion));
     let (half, reach) = (Vec2::new(row[4], row[5]), reach + row[6]);
     let rounding = 1.0e-6 * (reach + half.x + half.y + motion.x.abs() + motion.y.abs());
@@ -329,14 +332,17 @@ mod tests {
     use crate::geometry::testing::{any_frame, any_shape, any_vec};
     use proptest::prelude::*;
 
-    /// A shape as the lane kernels see it, standing in the frame of its body's centre of mass.
-    fn row_of(shape: &Shape) -> Row {
-        let Some(rounded) = RoundedBox::of(shape) else {
-            let core = shape.core();
-            return [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, core.reach(Vec2::ZERO) + core.radius, 0.0];
-        };
-        let ([x, y, radius], frame) = (rounded.extents(), rounded.frame);
-        [frame.p.x, frame.p.y, frame.q.c, frame.q.s, x, y, radius, 1.0]
+    /// A shape's row, of which its sizes are filled in, and the frame of its box.
+    fn row_of(shape: &Shape) -> (Row, Transform) {
+        let (extents, frame) = RoundedBox::of(shape).map_or_else(
+            || {
+                let core = shape.core();
+                ([0.0, 0.0, core.reach(Vec2::ZERO) + core.radius], Transform::IDENTITY)
+            },
+            |rounded| (rounded.extents(), rounded.frame),
+        );
+        let [x, y, radius] = extents;
+        ([0.0, 0.0, 0.0, 0.0, x, y, radius, 0.0], frame)
     }
 
     proptest! {
@@ -351,7 +357,8 @@ mod tests {
         ) {
             let core = shape.core();
             let reach = core.reach(Vec2::ZERO) + core.radius;
-            let clear = stays_clear(reach + SLACK, motion, &row_of(&other), place);
+            let (row, frame) = row_of(&other);
+            let clear = stays_clear(reach + SLACK, motion, &row, place.compose(frame));
             let sweep = Sweep::new(Transform::IDENTITY, Vec2::ZERO, motion, turn);
             let toi = time_of_impact(&shape, &sweep, &other, &Sweep::fixed(place), 1.0);
             prop_assert!(!clear || toi.state == ToiState::Separated, "{toi:?}");
@@ -360,7 +367,7 @@ mod tests {
         /// What is clear by more than a little is told to be: around circles at any rate.
         #[test]
         fn what_passes_by_is_told(place in any_frame(6.0), motion in any_vec(8.0), radius in 0.1_f32..1.0) {
-            let circle = row_of(&Shape::Circle { radius });
+            let (circle, _) = row_of(&Shape::Circle { radius });
             // Off the line of motion on either side, and behind.
             let side = motion.perp().normalized();
             for offset in [side, -side, -motion.normalized()] {
