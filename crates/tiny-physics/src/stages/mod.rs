@@ -16,5 +16,6 @@ pub(crate) mod paces;
 pub(crate) mod pairs;
 pub(crate) mod sensors;
 pub(crate) mod sleep;
+pub(crate) mod solve;
 pub(crate) mod surfaces;
 pub(crate) mod touching;

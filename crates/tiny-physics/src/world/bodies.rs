@@ -3,6 +3,7 @@
 use super::World;
 use super::build::MAX_COORDINATE;
 use super::ids::{BodyId, ShapeId};
+use super::state::State;
 use crate::describe::BodyKind;
 use crate::dynamics::BodyInfo;
 use crate::math::{DVec2, Pose, Rot, Vec2};
@@ -20,7 +21,7 @@ pub struct Body<'a> {
 
 impl<'a> Body<'a> {
     pub(super) fn info(&self) -> &'a BodyInfo {
-        &self.world.bodies.infos[self.index as usize]
+        &self.world.state.bodies.infos[self.index as usize]
     }
 
     /// Its handle.
@@ -40,7 +41,7 @@ impl<'a> Body<'a> {
 
     /// Frame of the body in the world.
     pub fn pose(&self) -> Pose {
-        self.world.bodies.origin_pose(self.index)
+        self.world.state.bodies.origin_pose(self.index)
     }
 
     /// Rotation of its frame.
@@ -55,7 +56,7 @@ impl<'a> Body<'a> {
 
     /// Centre of mass: world, metres.
     pub fn center(&self) -> DVec2 {
-        self.world.bodies.poses[self.index as usize].p
+        self.world.state.bodies.poses[self.index as usize].p
     }
 
     /// Centre of mass in the body's frame, metres.
@@ -65,7 +66,7 @@ impl<'a> Body<'a> {
 
     /// Velocity of the centre of mass, metres a second.
     pub fn velocity(&self) -> Vec2 {
-        self.world.bodies.velocity(self.index)
+        self.world.state.bodies.velocity(self.index)
     }
 
     /// Velocity of a point of the body, metres a second.
@@ -76,7 +77,7 @@ impl<'a> Body<'a> {
 
     /// Radians a second, anticlockwise.
     pub fn angular_velocity(&self) -> f32 {
-        self.world.bodies.angular_velocity(self.index)
+        self.world.state.bodies.angular_velocity(self.index)
     }
 
     /// Kilograms; 0 for bodies that are not dynamic.
@@ -113,7 +114,7 @@ impl<'a> Body<'a> {
     /// Handles of its shapes, in the order in which it was described; later ones first.
     pub fn shapes(&self) -> impl Iterator<Item = ShapeId> + 'a {
         let world = self.world;
-        world.shapes.of_body(self.info().first_shape).map(move |i| world.shape_id(i))
+        world.state.shapes.of_body(self.info().first_shape).map(move |i| world.shape_id(i))
     }
 }
 
@@ -131,7 +132,7 @@ impl BodyMut<'_> {
     }
 
     pub(super) fn info(&mut self) -> &mut BodyInfo {
-        &mut self.world.bodies.infos[self.index as usize]
+        &mut self.world.state.bodies.infos[self.index as usize]
     }
 
     /// Wakes it if all numbers are acceptable, and says whether to go on.
@@ -145,7 +146,7 @@ impl BodyMut<'_> {
 
     /// Does the solver move it?
     fn is_dynamic(&self) -> bool {
-        self.world.bodies.is_dynamic(self.index)
+        self.world.state.bodies.is_dynamic(self.index)
     }
 
     /// Puts the origin of its frame somewhere else at once. It touches nothing on the way.
@@ -172,7 +173,7 @@ impl BodyMut<'_> {
         world.wake_index(index);
         world.wake_neighbours(index);
         world.note_ground_of(index);
-        world.bodies.set_origin_pose(index, pose.p, pose.q.normalized());
+        world.state.bodies.set_origin_pose(index, pose.p, pose.q.normalized());
         world.mark_shapes_changed(index);
         world.update_boxes(index);
         world.note_ground_of(index);
@@ -181,7 +182,7 @@ impl BodyMut<'_> {
     /// Sets the velocity of the centre of mass, metres a second. Nothing happens to a static body.
     pub fn set_velocity(&mut self, velocity: Vec2) {
         if self.info().kind != BodyKind::Static && self.accept(&[velocity.x, velocity.y]) {
-            self.world.bodies.set_velocity(self.index, velocity);
+            self.world.state.bodies.set_velocity(self.index, velocity);
             self.wake_riders(velocity != Vec2::ZERO);
         }
     }
@@ -189,7 +190,7 @@ impl BodyMut<'_> {
     /// Sets the angular velocity, radians a second. Nothing happens to a static body.
     pub fn set_angular_velocity(&mut self, radians_per_second: f32) {
         if self.info().kind != BodyKind::Static && self.accept(&[radians_per_second]) {
-            self.world.bodies.set_angular_velocity(self.index, radians_per_second);
+            self.world.state.bodies.set_angular_velocity(self.index, radians_per_second);
             self.wake_riders(radians_per_second != 0.0);
         }
     }
@@ -219,7 +220,7 @@ impl BodyMut<'_> {
     }
 
     fn apply_forces(&mut self, force: Vec2, torque: f32) {
-        let info = &self.world.bodies.infos[self.index as usize];
+        let info = &self.world.state.bodies.infos[self.index as usize];
         let (force, torque) = (info.force + force, info.torque + torque);
         if self.is_dynamic() && self.accept(&[force.x, force.y, torque]) {
             let info = self.info();
@@ -244,13 +245,13 @@ impl BodyMut<'_> {
     }
 
     fn apply_impulses(&mut self, linear: Vec2, angular: f32) {
-        let (index, bodies) = (self.index, &self.world.bodies);
+        let (index, bodies) = (self.index, &self.world.state.bodies);
         let (inv_mass, inv_inertia) = bodies.inverse_masses(index);
         let velocity = bodies.velocity(index) + linear * inv_mass;
         let turning = bodies.angular_velocity(index) + angular * inv_inertia;
         if self.is_dynamic() && self.accept(&[velocity.x, velocity.y, turning]) {
-            self.world.bodies.set_velocity(index, velocity);
-            self.world.bodies.set_angular_velocity(index, turning);
+            self.world.state.bodies.set_velocity(index, velocity);
+            self.world.state.bodies.set_angular_velocity(index, turning);
         }
     }
 
@@ -263,7 +264,7 @@ impl BodyMut<'_> {
     /// Nothing happens while a kinematic body that is awake is among what they touch.
     pub fn sleep(&mut self) {
         if self.info().awake {
-            let World { bodies, contacts, joints, .. } = &*self.world;
+            let State { bodies, contacts, joints, .. } = &self.world.state;
             let island = sleep::island_of(self.index, bodies, contacts, joints);
             self.world.put_to_sleep(&island);
         }
@@ -310,16 +311,17 @@ impl World {
 
     /// Handles of all bodies, in index order.
     pub fn body_ids(&self) -> impl Iterator<Item = BodyId> + '_ {
-        self.bodies.indices().map(|index| self.body_id(index))
+        self.state.bodies.indices().map(|index| self.body_id(index))
     }
 
     /// Kinetic energy of all bodies, joules.
     pub fn kinetic_energy(&self) -> f64 {
-        self.bodies
+        self.state
+            .bodies
             .indices()
             .map(|i| {
-                let info = &self.bodies.infos[i as usize];
-                let (v, w) = (self.bodies.velocity(i), self.bodies.angular_velocity(i));
+                let info = &self.state.bodies.infos[i as usize];
+                let (v, w) = (self.state.bodies.velocity(i), self.state.bodies.angular_velocity(i));
                 let linear = f64::from(info.mass) * f64::from(v.length_sq());
                 let angular = f64::from(info.inertia) * f64::from(w) * f64::from(w);
                 0.5 * (linear + angular)
@@ -329,11 +331,12 @@ impl World {
 
     /// Wakes the islands of bodies that touch this one.
     pub(super) fn wake_neighbours(&mut self, index: u32) {
-        let first = self.bodies.infos[index as usize].first_contact;
+        let first = self.state.bodies.infos[index as usize].first_contact;
         let others: Vec<u32> = self
+            .state
             .contacts
             .of_body(first)
-            .map(|(contact, _)| &self.contacts.records[contact as usize])
+            .map(|(contact, _)| &self.state.contacts.records[contact as usize])
             .filter(|contact| contact.touching)
             .map(|contact| if contact.body_a == index { contact.body_b } else { contact.body_a })
             .collect();
@@ -344,11 +347,12 @@ impl World {
 
     /// Wakes the islands of bodies that are joined to this one.
     pub(super) fn wake_joined(&mut self, index: u32) {
-        let first = self.bodies.infos[index as usize].first_joint;
+        let first = self.state.bodies.infos[index as usize].first_joint;
         let others: Vec<u32> = self
+            .state
             .joints
             .of_body(first)
-            .map(|(joint, _)| &self.joints.records[joint as usize])
+            .map(|(joint, _)| &self.state.joints.records[joint as usize])
             .map(|joint| if joint.body_a == index { joint.body_b } else { joint.body_a })
             .collect();
         for other in others {

@@ -42,7 +42,7 @@ impl<'a> Body<'a> {
     /// Handles of its joints, the newest first.
     pub fn joints(&self) -> impl Iterator<Item = JointId> + 'a {
         let world = self.world;
-        world.joints.of_body(self.info().first_joint).map(move |(i, _)| world.joint_id(i))
+        world.state.joints.of_body(self.info().first_joint).map(move |(i, _)| world.joint_id(i))
     }
 
     /// Its frame between the start (`alpha` 0) and the end (1) of the last step, for drawing at a rate of its
@@ -50,7 +50,7 @@ impl<'a> Body<'a> {
     /// was placed by the user since.
     pub fn interpolated_pose(&self, alpha: f32) -> Pose {
         let i = self.index as usize;
-        let (start, end) = (self.world.bodies.previous[i], self.world.bodies.poses[i]);
+        let (start, end) = (self.world.state.bodies.previous[i], self.world.state.bodies.poses[i]);
         let alpha = if alpha.is_finite() { alpha.clamp(0.0, 1.0) } else { 1.0 };
         let center = start.p + (end.p - start.p) * f64::from(alpha);
         let rotation = start.q.integrate(end.q.angle_from(start.q) * alpha);
@@ -66,10 +66,10 @@ impl BodyMut<'_> {
         }
         let (world, index) = (&mut *self.world, self.index);
         world.take_out(index);
-        world.bodies.infos[index as usize].kind = kind;
+        world.state.bodies.infos[index as usize].kind = kind;
         if kind == BodyKind::Static {
-            world.bodies.set_velocity(index, Vec2::ZERO);
-            world.bodies.set_angular_velocity(index, 0.0);
+            world.state.bodies.set_velocity(index, Vec2::ZERO);
+            world.state.bodies.set_angular_velocity(index, 0.0);
         }
         world.update_mass(index);
         world.put_in(index);
@@ -83,7 +83,7 @@ impl BodyMut<'_> {
         }
         let (world, index) = (&mut *self.world, self.index);
         world.take_out(index);
-        world.bodies.infos[index as usize].enabled = enabled;
+        world.state.bodies.infos[index as usize].enabled = enabled;
         world.put_in(index);
     }
 
@@ -91,7 +91,7 @@ impl BodyMut<'_> {
     pub fn set_locks(&mut self, locks: Locks) {
         self.accept(&[]);
         self.info().locks = locks;
-        self.world.bodies.update_inverse_masses(self.index);
+        self.world.state.bodies.update_inverse_masses(self.index);
     }
 
     /// Sets whether its island may fall asleep. Wakes it where not.
@@ -168,22 +168,22 @@ impl World {
         self.destroy_contacts_of(index, |_| true);
         for (joint, partner) in self.joints_and_partners(index) {
             self.wake_index(partner);
-            self.joint_graph.remove(&mut self.bodies, &mut self.joints, joint);
+            self.state.joint_graph.remove(&mut self.state.bodies, &mut self.state.joints, joint);
         }
         self.note_ground_of(index);
         for shape in self.shapes_of(index) {
-            self.shapes.set_touched(shape, 0);
-            self.broad_phase.destroy_proxy(self.shapes.proxy(shape));
-            self.shapes.records[shape as usize].proxy = NULL;
+            self.state.shapes.set_touched(shape, 0);
+            self.state.broad_phase.destroy_proxy(self.state.shapes.proxy(shape));
+            self.state.shapes.records[shape as usize].proxy = NULL;
         }
-        self.waiting.stale = true;
-        self.bodies.infos[index as usize].awake = false;
-        self.bodies.remove_awake(index);
+        self.state.waiting.stale = true;
+        self.state.bodies.infos[index as usize].awake = false;
+        self.state.bodies.remove_awake(index);
     }
 
     /// Puts a body back that was taken out, awake if it can be; does nothing to one that is not enabled.
     fn put_in(&mut self, index: u32) {
-        let info = &mut self.bodies.infos[index as usize];
+        let info = &mut self.state.bodies.infos[index as usize];
         if !info.enabled {
             return;
         }
@@ -191,15 +191,19 @@ impl World {
         info.island_next = NULL;
         if info.kind != BodyKind::Static {
             info.awake = true;
-            self.bodies.push_awake(index);
+            self.state.bodies.push_awake(index);
         }
         self.create_proxies(index);
         self.mark_shapes_changed(index);
         for (joint, partner) in self.joints_and_partners(index) {
-            let awake = |body: u32| self.bodies.infos[body as usize].awake;
+            let awake = |body: u32| self.state.bodies.infos[body as usize].awake;
             if awake(index) || awake(partner) {
                 self.wake_index(partner);
-                self.joint_graph.insert(&mut self.bodies, &mut self.joints, joint);
+                self.state.joint_graph.insert(
+                    &mut self.state.bodies,
+                    &mut self.state.joints,
+                    joint,
+                );
             }
         }
     }
@@ -207,10 +211,11 @@ impl World {
     /// The joints of a body with the body at the other end, ascending.
     fn joints_and_partners(&self, body: u32) -> Vec<(u32, u32)> {
         let mut joints: Vec<(u32, u32)> = self
+            .state
             .joints
-            .of_body(self.bodies.infos[body as usize].first_joint)
+            .of_body(self.state.bodies.infos[body as usize].first_joint)
             .map(|(joint, side)| {
-                let record = &self.joints.records[joint as usize];
+                let record = &self.state.joints.records[joint as usize];
                 (joint, if side == 0 { record.body_b } else { record.body_a })
             })
             .collect();
@@ -220,7 +225,7 @@ impl World {
 
     /// Indices of the shapes of a body.
     pub(super) fn shapes_of(&self, body: u32) -> Vec<u32> {
-        self.shapes.of_body(self.bodies.infos[body as usize].first_shape).collect()
+        self.state.shapes.of_body(self.state.bodies.infos[body as usize].first_shape).collect()
     }
 
     /// Handles of the bodies whose pose the last step changed, those that fell asleep in it included. What the
@@ -232,9 +237,9 @@ impl World {
     /// later are stale.
     pub fn moved_bodies(&self) -> &[BodyId] {
         self.moved.get_or_init(|| {
-            let asleep = self.events.fell_asleep.iter().copied();
+            let asleep = self.state.events.fell_asleep.iter().copied();
             let asleep = asleep.filter(|&id| self.body(id).is_some_and(|body| !body.is_awake()));
-            let bodies = &self.bodies;
+            let bodies = &self.state.bodies;
             let moved = |&&i: &&u32| bodies.poses[i as usize] != bodies.previous[i as usize];
             let awake = bodies.awake.iter().filter(moved).map(|&i| self.body_id(i));
             awake.chain(asleep).collect()

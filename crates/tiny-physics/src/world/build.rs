@@ -2,6 +2,7 @@
 
 use super::World;
 use super::ids::{BodyId, ShapeId};
+use super::state::State;
 use crate::broad_phase::{ProxyDef, ProxyKind};
 use crate::describe::{BodyKind, ChainDef, RigidBody, ShapeDef};
 use crate::dynamics::{BodyInfo, NULL, ShapeRecord};
@@ -42,20 +43,20 @@ impl World {
             awake: moving && body.awake,
             ..BodyInfo::default()
         };
-        let index = self.bodies.insert(info, Pose::new(body.position, rotation));
+        let index = self.state.bodies.insert(info, Pose::new(body.position, rotation));
         // Pushed to the front of the list, so the last goes first.
         for shape in body.shapes.iter().rev() {
             self.insert_shape(index, shape);
         }
         self.update_mass(index);
         if body.kind != BodyKind::Static {
-            self.bodies.set_velocity(index, body.velocity);
-            self.bodies.set_angular_velocity(index, body.angular_velocity);
+            self.state.bodies.set_velocity(index, body.velocity);
+            self.state.bodies.set_angular_velocity(index, body.angular_velocity);
         }
         if moving && body.awake {
-            self.bodies.push_awake(index);
+            self.state.bodies.push_awake(index);
         } else if moving {
-            self.bodies.infos[index as usize].island_next = index;
+            self.state.bodies.infos[index as usize].island_next = index;
         }
         self.create_proxies(index);
         Ok(self.body_id(index))
@@ -70,11 +71,11 @@ impl World {
         self.wake_index(index);
         self.destroy_joints_of(index);
         self.destroy_contacts_of(index, |_| true);
-        while self.bodies.infos[index as usize].first_shape != NULL {
-            self.unlink_shape(self.bodies.infos[index as usize].first_shape);
+        while self.state.bodies.infos[index as usize].first_shape != NULL {
+            self.unlink_shape(self.state.bodies.infos[index as usize].first_shape);
         }
-        self.bodies.remove_awake(index);
-        self.bodies.remove(index);
+        self.state.bodies.remove_awake(index);
+        self.state.bodies.remove(index);
         Ok(())
     }
 
@@ -137,7 +138,7 @@ impl World {
     /// The handle is stale.
     pub fn remove_shape(&mut self, id: ShapeId) -> Result<(), Error> {
         let shape = self.shape_index(id)?;
-        let body = self.shapes.records[shape as usize].body;
+        let body = self.state.shapes.records[shape as usize].body;
         self.wake_index(body);
         self.destroy_contacts_of(body, |contact| contact.0 == shape || contact.1 == shape);
         self.unlink_shape(shape);
@@ -147,13 +148,14 @@ impl World {
 
     /// Destroys the contacts of a body whose shapes (A, B) satisfy the predicate.
     pub(super) fn destroy_contacts_of(&mut self, body: u32, which: impl Fn((u32, u32)) -> bool) {
-        let first = self.bodies.infos[body as usize].first_contact;
+        let first = self.state.bodies.infos[body as usize].first_contact;
         let mut indices: Vec<u32> = self
+            .state
             .contacts
             .of_body(first)
             .map(|(index, _)| index)
             .filter(|&index| {
-                let contact = &self.contacts.records[index as usize];
+                let contact = &self.state.contacts.records[index as usize];
                 which((contact.shape_a, contact.shape_b))
             })
             .collect();
@@ -165,7 +167,7 @@ impl World {
 
     /// Puts a shape record at the head of a body's list.
     fn insert_shape(&mut self, body: u32, def: &ShapeDef) -> u32 {
-        let info = &mut self.bodies.infos[body as usize];
+        let info = &mut self.state.bodies.infos[body as usize];
         let record = ShapeRecord {
             alive: true,
             generation: 0,
@@ -186,11 +188,11 @@ impl World {
             proxy: NULL,
             next: info.first_shape,
         };
-        let index = self.shapes.insert(record);
+        let index = self.state.shapes.insert(record);
         if def.sensor {
-            self.sensors.insert(index);
+            self.state.sensors.insert(index);
         }
-        self.sensors.mark_changed(index);
+        self.state.sensors.mark_changed(index);
         info.first_shape = index;
         info.shape_count += 1;
         index
@@ -199,34 +201,37 @@ impl World {
     /// Takes a shape without contacts out of its body's list and out of the world.
     fn unlink_shape(&mut self, shape: u32) {
         let (body, next) = {
-            let record = &self.shapes.records[shape as usize];
+            let record = &self.state.shapes.records[shape as usize];
             (record.body, record.next)
         };
-        let info = &mut self.bodies.infos[body as usize];
+        let info = &mut self.state.bodies.infos[body as usize];
         info.shape_count -= 1;
         if info.first_shape == shape {
             info.first_shape = next;
         } else {
             let first = info.first_shape;
-            let previous =
-                self.shapes.of_body(first).find(|&i| self.shapes.records[i as usize].next == shape);
+            let previous = self
+                .state
+                .shapes
+                .of_body(first)
+                .find(|&i| self.state.shapes.records[i as usize].next == shape);
             if let Some(previous) = previous {
-                self.shapes.records[previous as usize].next = next;
+                self.state.shapes.records[previous as usize].next = next;
             }
         }
         self.note_ground(shape);
-        self.broad_phase.destroy_proxy(self.shapes.proxy(shape));
-        self.waiting.stale = true;
-        self.sensors.remove(shape);
-        self.shapes.remove(shape);
+        self.state.broad_phase.destroy_proxy(self.state.shapes.proxy(shape));
+        self.state.waiting.stale = true;
+        self.state.sensors.remove(shape);
+        self.state.shapes.remove(shape);
     }
 
     /// Computes mass, centre of mass, inertia and extents from the shapes. The body's frame stays
     /// where it is.
     pub(super) fn update_mass(&mut self, index: u32) {
-        let origin = self.bodies.origin_pose(index);
+        let origin = self.state.bodies.origin_pose(index);
         let (total, never_turns) = self.sum_masses(index);
-        let info = &mut self.bodies.infos[index as usize];
+        let info = &mut self.state.bodies.infos[index as usize];
         info.never_turns = never_turns;
         let dynamic = info.kind == BodyKind::Dynamic;
         let scale = match info.fixed_mass {
@@ -243,44 +248,49 @@ impl World {
         info.inertia = if dynamic { total.inertia * scale } else { 0.0 };
         let center = if dynamic { total.center } else { Vec2::ZERO };
         let shifted = core::mem::replace(&mut info.local_center, center) != center;
-        self.bodies.set_origin_pose(index, origin.p, origin.q);
-        self.bodies.update_inverse_masses(index);
+        self.state.bodies.set_origin_pose(index, origin.p, origin.q);
+        self.state.bodies.update_inverse_masses(index);
         self.update_central_frames(index);
         if shifted {
             // Shapes have stayed where they were, but for rounding, which a far centre of mass makes visible.
             self.update_boxes(index);
         }
-        for (joint, _) in self.joints.of_body(self.bodies.infos[index as usize].first_joint) {
-            self.joint_graph.refresh(&self.joints, joint);
+        for (joint, _) in
+            self.state.joints.of_body(self.state.bodies.infos[index as usize].first_joint)
+        {
+            self.state.joint_graph.refresh(&self.state.joints, joint);
         }
     }
 
     /// Brings the boxes of a body's shapes to where they are.
     pub(super) fn update_boxes(&mut self, index: u32) {
-        let Self { bodies, shapes, broad_phase, .. } = self;
+        let State { bodies, shapes, broad_phase, .. } = &mut self.state;
         boxes::update(bodies, shapes, broad_phase, index, Vec2::ZERO, &mut boxes::Moved::new());
     }
 
     /// Mass properties of all shapes in the body's frame, and whether one of them must not turn.
     fn sum_masses(&self, index: u32) -> (MassProperties, bool) {
         let mut never_turns = false;
-        let parts = self.shapes.of_body(self.bodies.infos[index as usize].first_shape).map(|i| {
-            let record = &self.shapes.records[i as usize];
-            never_turns |= matches!(record.shape, Shape::Aabb { .. });
-            record.shape.mass_properties(record.material.density).transformed(record.local)
-        });
+        let parts =
+            self.state.shapes.of_body(self.state.bodies.infos[index as usize].first_shape).map(
+                |i| {
+                    let record = &self.state.shapes.records[i as usize];
+                    never_turns |= matches!(record.shape, Shape::Aabb { .. });
+                    record.shape.mass_properties(record.material.density).transformed(record.local)
+                },
+            );
         let parts: Vec<MassProperties> = parts.collect();
         (MassProperties::combined(&parts), never_turns)
     }
 
     /// Recomputes what depends on the centre of mass: frames and rows of the shapes, extents.
     fn update_central_frames(&mut self, index: u32) {
-        let first = self.bodies.infos[index as usize].first_shape;
-        let center = self.bodies.infos[index as usize].local_center;
-        let shapes: Vec<u32> = self.shapes.of_body(first).collect();
+        let first = self.state.bodies.infos[index as usize].first_shape;
+        let center = self.state.bodies.infos[index as usize].local_center;
+        let shapes: Vec<u32> = self.state.shapes.of_body(first).collect();
         let (mut min_extent, mut max_extent) = (f32::MAX, 0.0_f32);
         for shape in shapes {
-            let record = &mut self.shapes.records[shape as usize];
+            let record = &mut self.state.shapes.records[shape as usize];
             record.central = Transform::new(record.local.p - center, record.local.q);
             let lane = LaneShape::new(&record.shape, record.central);
             record.box_frame = lane.box_frame;
@@ -291,69 +301,70 @@ impl World {
             let reach =
                 Vec2::new(row[0], row[1]).length() + Vec2::new(row[4], row[5]).length() + row[6];
             max_extent = max_extent.max(reach);
-            self.shapes.rows[shape as usize] = row;
-            self.shapes.mark_row(shape);
+            self.state.shapes.rows[shape as usize] = row;
+            self.state.shapes.mark_row(shape);
         }
-        let info = &mut self.bodies.infos[index as usize];
+        let info = &mut self.state.bodies.infos[index as usize];
         info.min_extent = if min_extent == f32::MAX { 0.0 } else { min_extent };
         info.max_extent = max_extent;
     }
 
     /// Gives a broad-phase leaf to those shapes of an enabled body that have none.
     pub(super) fn create_proxies(&mut self, index: u32) {
-        let info = &self.bodies.infos[index as usize];
+        let info = &self.state.bodies.infos[index as usize];
         if !info.enabled {
             return;
         }
         let kind = proxy_kind(info.kind);
         let margin = super::FAT_MARGIN * self.settings.length_unit;
-        let pose = self.bodies.poses[index as usize];
-        let shapes: Vec<u32> = self.shapes.of_body(info.first_shape).collect();
+        let pose = self.state.bodies.poses[index as usize];
+        let shapes: Vec<u32> = self.state.shapes.of_body(info.first_shape).collect();
         for shape in shapes {
-            let record = &self.shapes.records[shape as usize];
+            let record = &self.state.shapes.records[shape as usize];
             if record.proxy != NULL {
                 continue;
             }
             let (category, mask) = record.filter.reach();
             let def = ProxyDef { kind, category, mask, user: shape, margin };
-            let tight = boxes::shape_box(&self.shapes, shape, pose);
-            let proxy = self.broad_phase.create_proxy(def, tight);
-            self.shapes.tight[shape as usize] = tight;
-            self.shapes.records[shape as usize].proxy = proxy.0;
-            self.shapes.fat[shape as usize] = self.broad_phase.fat_aabb(proxy).unwrap_or(tight);
+            let tight = boxes::shape_box(&self.state.shapes, shape, pose);
+            let proxy = self.state.broad_phase.create_proxy(def, tight);
+            self.state.shapes.tight[shape as usize] = tight;
+            self.state.shapes.records[shape as usize].proxy = proxy.0;
+            self.state.shapes.fat[shape as usize] =
+                self.state.broad_phase.fat_aabb(proxy).unwrap_or(tight);
             self.note_ground(shape);
         }
     }
 
     /// Notes that ground comes, goes or moves where the box of this shape is.
     pub(super) fn note_ground(&mut self, shape: u32) {
-        let body = self.shapes.records[shape as usize].body;
-        let fat = self.broad_phase.fat_aabb(self.shapes.proxy(shape));
-        if self.bodies.infos[body as usize].kind != BodyKind::Dynamic {
-            self.shapes.changed_ground.extend(fat);
+        let body = self.state.shapes.records[shape as usize].body;
+        let fat = self.state.broad_phase.fat_aabb(self.state.shapes.proxy(shape));
+        if self.state.bodies.infos[body as usize].kind != BodyKind::Dynamic {
+            self.state.shapes.changed_ground.extend(fat);
         }
     }
 
     /// Notes that all ground of a body is about to change, or has changed.
     pub(super) fn note_ground_of(&mut self, body: u32) {
         let shapes: Vec<u32> =
-            self.shapes.of_body(self.bodies.infos[body as usize].first_shape).collect();
+            self.state.shapes.of_body(self.state.bodies.infos[body as usize].first_shape).collect();
         shapes.into_iter().for_each(|shape| self.note_ground(shape));
     }
 
     /// The handle of a body that is alive.
     pub(super) fn body_id(&self, index: u32) -> BodyId {
-        BodyId::new(index, self.bodies.infos[index as usize].generation)
+        BodyId::new(index, self.state.bodies.infos[index as usize].generation)
     }
 
     /// The handle of a shape; stale if it has been removed.
     pub(super) fn shape_id(&self, index: u32) -> ShapeId {
-        ShapeId::new(index, self.shapes.records[index as usize].generation)
+        ShapeId::new(index, self.state.shapes.records[index as usize].generation)
     }
 
     /// The index behind a handle.
     pub(super) fn body_index(&self, id: BodyId) -> Result<u32, Error> {
-        match self.bodies.infos.get(id.index()) {
+        match self.state.bodies.infos.get(id.index()) {
             Some(info) if info.alive && info.generation == id.generation => Ok(id.index),
             _ => Err(id.into()),
         }
@@ -361,7 +372,7 @@ impl World {
 
     /// The index behind a handle.
     pub(super) fn shape_index(&self, id: ShapeId) -> Result<u32, Error> {
-        match self.shapes.records.get(id.index()) {
+        match self.state.shapes.records.get(id.index()) {
             Some(record) if record.alive && record.generation == id.generation => Ok(id.index),
             _ => Err(id.into()),
         }

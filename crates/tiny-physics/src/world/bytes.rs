@@ -4,14 +4,9 @@
 //! can be derived at little cost is left out. Reading checks the hash, which finds accidents; then every link
 //! of the stores, which finds the rest.
 
-use super::hooks::Hooks;
-use super::{Scratch, Stats, World};
+use super::World;
 use crate::codec::{Counter, Data, Reader, Sink, Writer, bad, hash_bytes};
 use crate::error::Error;
-use crate::simd::SimdLevel;
-use crate::threads::Pool;
-use core::mem::take;
-use std::sync::OnceLock;
 
 /// The first bytes of a frame.
 const MAGIC: [u8; 4] = *b"tpw1";
@@ -59,18 +54,12 @@ impl World {
     /// As [`World::from_bytes`]; this world has not changed then.
     pub fn restore_bytes(&mut self, bytes: &[u8]) -> Result<(), Error> {
         let mut world = Self::from_bytes(bytes)?;
-        world.bodies.keep_serial(&self.bodies);
-        world.shapes.keep_serial(&self.shapes);
-        world.joints.keep_serial(&self.joints);
-        world.tiles.keep_serial(&self.tiles);
-        *self = Self {
-            hooks: take(&mut self.hooks),
-            level: self.level,
-            pool: take(&mut self.pool),
-            stats: take(&mut self.stats),
-            scratch: take(&mut self.scratch),
-            ..world
-        };
+        world.state.bodies.keep_serial(&self.state.bodies);
+        world.state.shapes.keep_serial(&self.state.shapes);
+        world.state.joints.keep_serial(&self.state.joints);
+        world.state.tiles.keep_serial(&self.state.tiles);
+        (self.gravity, self.settings, self.state) = (world.gravity, world.settings, world.state);
+        self.moved.take();
         Ok(())
     }
 }
@@ -94,79 +83,24 @@ fn check_header(bytes: &[u8]) -> Result<&[u8], Error> {
     Ok(reader.0)
 }
 
-impl Data for World {
+impl World {
     fn save(&self, sink: &mut impl Sink) {
-        let Self {
-            gravity,
-            settings,
-            bodies,
-            shapes,
-            contacts,
-            waiting,
-            graph,
-            joints,
-            joint_graph,
-            broad_phase,
-            tiles,
-            sensors,
-            hooks: _,
-            events,
-            moved: _,
-            step_count,
-            inv_h,
-            level: _,
-            pool: _,
-            stats: _,
-            scratch: _,
-        } = self;
-        gravity.save(sink);
-        settings.save(sink);
-        bodies.save(sink);
-        shapes.save(sink);
-        contacts.save(sink);
-        waiting.save(sink);
-        graph.save(sink);
-        joints.save(sink);
-        joint_graph.save(sink);
-        broad_phase.save(sink);
-        tiles.save(sink);
-        sensors.save(sink);
-        events.save(sink);
-        step_count.save(sink);
-        inv_h.save(sink);
+        self.gravity.save(sink);
+        self.settings.save(sink);
+        self.state.save(sink);
     }
 
     fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
-        Ok(Self {
-            gravity: Data::load(reader)?,
-            settings: Data::load(reader)?,
-            bodies: Data::load(reader)?,
-            shapes: Data::load(reader)?,
-            contacts: Data::load(reader)?,
-            waiting: Data::load(reader)?,
-            graph: Data::load(reader)?,
-            joints: Data::load(reader)?,
-            joint_graph: Data::load(reader)?,
-            broad_phase: Data::load(reader)?,
-            tiles: Data::load(reader)?,
-            sensors: Data::load(reader)?,
-            hooks: Hooks::default(),
-            events: Data::load(reader)?,
-            moved: OnceLock::new(),
-            step_count: Data::load(reader)?,
-            inv_h: Data::load(reader)?,
-            level: SimdLevel::detect(),
-            pool: Pool::default(),
-            stats: Stats::default(),
-            scratch: Scratch::default(),
-        })
+        let mut world = Self::with_settings(Data::load(reader)?, Data::load(reader)?);
+        world.state = Data::load(reader)?;
+        Ok(world)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BodyKind, JointDef, RigidBody, Shape, ShapeDef, Vec2};
+    use crate::{BodyKind, JointDef, RigidBody, Shape, ShapeDef, SimdLevel, Vec2};
 
     /// Something of everything: piles, joints of several kinds, sensors, sleepers, gaps in all lists.
     fn busy_world() -> World {
@@ -271,13 +205,13 @@ mod tests {
     #[test]
     fn refuses_boxes_and_trees_that_are_not_those_of_the_shapes() {
         let mut world = busy_world();
-        let shape = world.shapes.indices().last().unwrap() as usize;
-        let fat = world.shapes.fat[shape];
-        world.shapes.fat[shape] = fat.grown(0.01);
+        let shape = world.state.shapes.indices().last().unwrap() as usize;
+        let fat = world.state.shapes.fat[shape];
+        world.state.shapes.fat[shape] = fat.grown(0.01);
         World::from_bytes(&world.to_bytes()).unwrap_err();
-        world.shapes.fat[shape] = fat;
+        world.state.shapes.fat[shape] = fat;
         World::from_bytes(&world.to_bytes()).unwrap();
-        let pair = world.contacts.records.iter_mut().find(|contact| contact.alive).unwrap();
+        let pair = world.state.contacts.records.iter_mut().find(|contact| contact.alive).unwrap();
         core::mem::swap(&mut pair.shape_a, &mut pair.shape_b);
         World::from_bytes(&world.to_bytes()).unwrap_err();
     }
@@ -286,12 +220,12 @@ mod tests {
     fn refuses_a_world_that_forgot_a_pair() {
         let mut world = busy_world();
         world.step(1.0 / 60.0);
-        let contacts = world.contacts.records.iter().enumerate().filter(|(_, c)| c.alive);
+        let contacts = world.state.contacts.records.iter().enumerate().filter(|(_, c)| c.alive);
         let mut forgotten = 0;
         for index in contacts.map(|(index, _)| index as u32) {
             let mut copy = world.clone();
-            copy.graph.remove(&mut copy.bodies, &mut copy.contacts, index);
-            copy.contacts.remove(&mut copy.bodies, index);
+            copy.state.graph.remove(&mut copy.state.bodies, &mut copy.state.contacts, index);
+            copy.state.contacts.remove(&mut copy.state.bodies, index);
             // Pairs of shapes that left their fat boxes are looked for anyway.
             let is_forgotten = copy.validate().is_err_and(|e| e.contains("will not meet"));
             assert_eq!(World::from_bytes(&copy.to_bytes()).is_err(), is_forgotten);
@@ -319,7 +253,7 @@ mod tests {
     #[test]
     fn full_counters_do_not_overflow() {
         let mut world = busy_world();
-        world.graph.news = u32::MAX;
+        world.state.graph.news = u32::MAX;
         let mut other = World::from_bytes(&world.to_bytes()).expect("a frame");
         for i in 0..4 {
             let ball = ShapeDef::new(Shape::circle(0.61).unwrap());
@@ -327,7 +261,7 @@ mod tests {
             other.add_body(body).unwrap();
         }
         (0..9).for_each(|_| other.step(1.0 / 60.0));
-        world.step_count = u64::MAX;
+        world.state.step_count = u64::MAX;
         let error = World::from_bytes(&world.to_bytes()).unwrap_err().to_string();
         assert!(error.contains("steps"), "{error}");
     }
@@ -342,15 +276,15 @@ mod tests {
         world.add_body(ball.position(Vec2::new(0.0, 2.0))).unwrap();
         let waits = (0..60).any(|_| {
             world.step(1.0 / 60.0);
-            !world.waiting.pairs.is_empty()
+            !world.state.waiting.pairs.is_empty()
         });
         assert!(waits, "no pair has waited");
-        let (a, b) = world.waiting.pairs[0];
-        world.waiting.pairs.push((a, b));
+        let (a, b) = world.state.waiting.pairs[0];
+        world.state.waiting.pairs.push((a, b));
         let mut copy = World::from_bytes(&world.to_bytes()).unwrap();
         (0..60).for_each(|_| copy.step(1.0 / 60.0));
-        assert_eq!((copy.contacts.records.len(), copy.validate()), (1, Ok(())));
-        world.waiting.pairs.push((b, a));
+        assert_eq!((copy.state.contacts.records.len(), copy.validate()), (1, Ok(())));
+        world.state.waiting.pairs.push((b, a));
         let error = World::from_bytes(&world.to_bytes()).unwrap_err().to_string();
         assert!(error.contains("wait"), "{error}");
     }

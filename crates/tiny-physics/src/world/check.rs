@@ -42,7 +42,7 @@ fn blocks(slots: usize) -> usize {
 impl World {
     /// Says what is wrong with a world that was read.
     pub(super) fn check_loaded(&self) -> Check {
-        ensure(self.step_count <= u64::MAX / 2, "it has made more steps than any world can")?;
+        ensure(self.state.step_count <= u64::MAX / 2, "it has made more steps than any world can")?;
         self.check_bodies()?;
         self.check_shapes()?;
         self.check_contacts()?;
@@ -54,12 +54,12 @@ impl World {
     }
 
     fn is_body(&self, index: u32) -> bool {
-        self.bodies.infos.get(index as usize).is_some_and(|info| info.alive)
+        self.state.bodies.infos.get(index as usize).is_some_and(|info| info.alive)
     }
 
     /// Body 0, which nothing moves, may be an end of a joint.
     fn check_bodies(&self) -> Check {
-        let bodies = &self.bodies;
+        let bodies = &self.state.bodies;
         let count = bodies.infos.len();
         let lengths = [bodies.rows.len(), bodies.poses.len(), bodies.previous.len()];
         ensure(count > 0 && lengths.iter().all(|&length| length == count), "bodies are missing")?;
@@ -108,7 +108,7 @@ impl World {
     }
 
     fn check_shapes(&self) -> Check {
-        let shapes = &self.shapes;
+        let shapes = &self.state.shapes;
         let count = shapes.records.len();
         ensure(
             shapes.rows.len() == count && shapes.fat.len() == count && shapes.guards.len() == count,
@@ -131,21 +131,22 @@ impl World {
             let own = shapes.guards[index] & (guard::CHAIN | guard::ONE_WAY);
             ensure(own == guard::of(record), "a shape is guarded wrongly")?;
             if record.proxy != NULL {
-                let user = self.broad_phase.user(ProxyId(record.proxy));
+                let user = self.state.broad_phase.user(ProxyId(record.proxy));
                 ensure(user == Some(index as u32), "a shape is not in the broad phase")?;
                 proxies += 1;
             }
         }
-        ensure(proxies == self.broad_phase.len(), "the broad phase knows other shapes")?;
+        ensure(proxies == self.state.broad_phase.len(), "the broad phase knows other shapes")?;
         self.check_shape_lists()
     }
 
     fn check_shape_lists(&self) -> Check {
-        let mut seen = vec![false; self.shapes.records.len()];
-        for (index, info) in self.bodies.infos.iter().enumerate() {
+        let mut seen = vec![false; self.state.shapes.records.len()];
+        for (index, info) in self.state.bodies.infos.iter().enumerate() {
             let mut shape = info.first_shape;
             for _ in 0..info.shape_count {
-                let record = self.shapes.records.get(shape as usize).filter(|record| record.alive);
+                let record =
+                    self.state.shapes.records.get(shape as usize).filter(|record| record.alive);
                 let record = record.ok_or("a list of shapes leads nowhere")?;
                 let once = !core::mem::replace(&mut seen[shape as usize], true);
                 ensure(once && record.body as usize == index, "a list of shapes holds another's")?;
@@ -154,18 +155,18 @@ impl World {
             ensure(shape == NULL, "a list of shapes is too long")?;
         }
         let listed = |(record, &seen): (&crate::dynamics::ShapeRecord, &bool)| record.alive == seen;
-        ensure(self.shapes.records.iter().zip(&seen).all(listed), "a shape is in no list")
+        ensure(self.state.shapes.records.iter().zip(&seen).all(listed), "a shape is in no list")
     }
 
     fn check_contacts(&self) -> Check {
-        let contacts = &self.contacts;
+        let contacts = &self.state.contacts;
         let records = &contacts.records;
         ensure(records.len() < (NULL / 2) as usize, "there are too many contacts")?;
         ensure(
             is_set(&contacts.free, records.len(), |i| !records[i].alive),
             "the free contacts are not",
         )?;
-        let shape = |index: u32| self.shapes.records.get(index as usize).filter(|r| r.alive);
+        let shape = |index: u32| self.state.shapes.records.get(index as usize).filter(|r| r.alive);
         for contact in records.iter().filter(|contact| contact.alive) {
             let (Some(a), Some(b)) = (shape(contact.shape_a), shape(contact.shape_b)) else {
                 return Err("a contact is of no shapes");
@@ -174,18 +175,20 @@ impl World {
             let class = a.class >= b.class && contact.class == PairClass::of(a.class, b.class);
             ensure(bodies && class, "a contact is of other shapes")?;
         }
-        let known = |index: u32| (index as usize) < self.shapes.records.len();
+        let known = |index: u32| (index as usize) < self.state.shapes.records.len();
         let in_shapes = |&(a, b): &(u32, u32)| a < b && known(b);
-        ensure(self.waiting.pairs.iter().all(in_shapes), "pairs wait that are none")?;
+        ensure(self.state.waiting.pairs.iter().all(in_shapes), "pairs wait that are none")?;
         let ends = |contact: &Contact| [contact.body_a, contact.body_b];
         let links = records.iter().map(|c| c.alive.then(|| (ends(c), c.links)));
-        self.check_edges(&links.collect::<Vec<_>>(), |body| self.bodies.infos[body].first_contact)
+        self.check_edges(&links.collect::<Vec<_>>(), |body| {
+            self.state.bodies.infos[body].first_contact
+        })
     }
 
     /// Checks doubly linked lists of edges (record * 2 + side) by body: each edge once, in the right one.
     fn check_edges(&self, records: &[Option<Ends>], first: impl Fn(usize) -> u32) -> Check {
         let mut left = 2 * records.iter().flatten().count();
-        for body in 0..self.bodies.infos.len() {
+        for body in 0..self.state.bodies.infos.len() {
             let (mut previous, mut edge) = (NULL, first(body));
             while edge != NULL {
                 let (index, side) = (edge as usize / 2, edge as usize % 2);
@@ -202,13 +205,13 @@ impl World {
 
     fn check_graph(&self) -> Check {
         let mut placed = 0;
-        for (colour, buckets) in self.graph.buckets.iter().enumerate() {
+        for (colour, buckets) in self.state.graph.buckets.iter().enumerate() {
             for (class, bucket) in PairClass::ALL.into_iter().zip(buckets) {
                 self.check_bucket(colour, class, bucket)?;
                 placed += bucket.contacts.len();
             }
         }
-        let alive = self.contacts.records.iter().filter(|contact| contact.alive);
+        let alive = self.state.contacts.records.iter().filter(|contact| contact.alive);
         let waiting = alive.filter(|contact| contact.place != Place::Asleep).count();
         ensure(placed == waiting, "contacts are lost")
     }
@@ -224,7 +227,7 @@ impl World {
             let expected = match bucket.contacts.get(slot) {
                 None => [0; 4],
                 Some(&index) => {
-                    let record = self.contacts.records.get(index as usize);
+                    let record = self.state.contacts.records.get(index as usize);
                     let contact =
                         record.filter(|contact| contact.alive).ok_or("a lane has no contact")?;
                     let place = Place::Graph { colour: colour as u8, slot: slot as u32 };
@@ -247,7 +250,7 @@ impl World {
     }
 
     fn check_joints(&self) -> Check {
-        let joints = &self.joints;
+        let joints = &self.state.joints;
         let records = &joints.records;
         ensure(records.len() < (NULL / 2) as usize, "there are too many joints")?;
         ensure(
@@ -268,11 +271,13 @@ impl World {
         ensure(is_breakable && joints.breakable.is_sorted(), "the breakable joints are not")?;
         let ends = |record: &JointRecord| [record.body_a, record.body_b];
         let links = records.iter().map(|r| r.alive.then(|| (ends(r), r.links)));
-        self.check_edges(&links.collect::<Vec<_>>(), |body| self.bodies.infos[body].first_joint)
+        self.check_edges(&links.collect::<Vec<_>>(), |body| {
+            self.state.bodies.infos[body].first_joint
+        })
     }
 
     fn check_joint_graph(&self) -> Check {
-        let graph = &self.joint_graph;
+        let graph = &self.state.joint_graph;
         ensure(graph.colours.len() == JOINT_PLACES * PACES, "colours of joints are missing")?;
         for (colour, buckets) in graph.colours.iter().enumerate() {
             self.check_joint_bucket(colour, JointClass::Distance, &buckets.distance)?;
@@ -287,7 +292,7 @@ impl World {
         let in_trees = graph.count_in_trees();
         ensure(graph.forest.is_stale() || graph.forest.count() == in_trees, "trees lack joints")?;
         let placed: usize = graph.colours.iter().map(|colour| colour.count()).sum();
-        let records = self.joints.records.iter().filter(|record| record.alive);
+        let records = self.state.joints.records.iter().filter(|record| record.alive);
         let waiting = records.filter(|record| record.place != JointPlace::Asleep).count();
         ensure(placed == graph.count && placed == waiting, "joints are lost")
     }
@@ -304,7 +309,7 @@ impl World {
             let expected = match bucket.joints.get(slot) {
                 None => [0; 2],
                 Some(&index) => {
-                    let record = self.joints.records.get(index as usize);
+                    let record = self.state.joints.records.get(index as usize);
                     let record =
                         record.filter(|record| record.alive).ok_or("a lane has no joint")?;
                     let place = JointPlace::Graph { colour: colour as u8, slot: slot as u32 };
@@ -324,9 +329,10 @@ impl World {
     }
 
     fn check_sensors(&self) -> Check {
-        let sensors = &self.sensors;
-        let count = self.shapes.records.len();
-        let is_sensor = |i: usize| self.shapes.records[i].alive && self.shapes.records[i].sensor;
+        let sensors = &self.state.sensors;
+        let count = self.state.shapes.records.len();
+        let is_sensor =
+            |i: usize| self.state.shapes.records[i].alive && self.state.shapes.records[i].sensor;
         let right = is_set(&sensors.shapes, count, is_sensor) && sensors.shapes.is_sorted();
         ensure(right, "the sensors are not")?;
         let inside = |shape: u32| (shape as usize) < count;

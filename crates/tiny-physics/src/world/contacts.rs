@@ -3,6 +3,7 @@
 use super::World;
 use super::events::{ContactBegin, ContactEnd, Hit};
 use super::ids::{BodyId, ShapeId};
+use super::state::State;
 use crate::describe::BodyKind;
 use crate::dynamics::{Bucket, IDLE, NULL, flags};
 use crate::math::{DVec2, Vec2};
@@ -52,23 +53,23 @@ impl ContactView {
 impl World {
     /// Contacts that touch (or are about to) and are awake.
     pub fn contact_count(&self) -> usize {
-        self.graph.touching_count()
+        self.state.graph.touching_count()
     }
 
     /// The contacts that touch (or are about to) and are awake, as of the last step, in a fixed order
     /// that threads do not change.
     pub fn contacts(&self) -> impl Iterator<Item = ContactView> + '_ {
-        self.graph.buckets[..IDLE].iter().flatten().flat_map(move |bucket| {
+        self.state.graph.buckets[..IDLE].iter().flatten().flat_map(move |bucket| {
             (0..bucket.contacts.len()).map(move |slot| self.view(bucket, slot))
         })
     }
 
     pub(super) fn view(&self, bucket: &Bucket, slot: usize) -> ContactView {
         let (block, lane) = (slot / BLOCK, slot % BLOCK);
-        let contact = &self.contacts.records[bucket.contacts[slot] as usize];
+        let contact = &self.state.contacts.records[bucket.contacts[slot] as usize];
         let (manifold, constraint) = (&bucket.manifolds[block], &bucket.constraints[block]);
         let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
-        let center = self.bodies.poses[contact.body_a as usize].p;
+        let center = self.state.bodies.poses[contact.body_a as usize].p;
         let mut points = [ContactPoint {
             position: DVec2::ZERO,
             separation: 0.0,
@@ -115,8 +116,8 @@ impl World {
     /// Notes which contacts were hit in the substeps faster than the threshold.
     pub(super) fn collect_hits(&mut self) {
         let threshold = self.settings.hit_event_threshold * self.settings.length_unit;
-        let mut hits = core::mem::take(&mut self.events.hits);
-        for bucket in self.graph.buckets[..IDLE].iter().flatten() {
+        let mut hits = core::mem::take(&mut self.state.events.hits);
+        for bucket in self.state.graph.buckets[..IDLE].iter().flatten() {
             for (block, head) in bucket.heads.iter().enumerate() {
                 if head.flags & flags::HIT == 0 {
                     continue;
@@ -128,13 +129,13 @@ impl World {
             }
         }
         hits.sort_unstable_by_key(|hit| (hit.shape_a, hit.shape_b));
-        self.events.hits = hits;
+        self.state.events.hits = hits;
     }
 
     /// The hit of a contact, if it wants one and its fastest point was fast enough.
     fn hit(&self, bucket: &Bucket, slot: usize, threshold: f32) -> Option<Hit> {
         let (block, lane) = (slot / BLOCK, slot % BLOCK);
-        if !self.contacts.records[bucket.contacts[slot] as usize].hit_events {
+        if !self.state.contacts.records[bucket.contacts[slot] as usize].hit_events {
             return None;
         }
         let (surface, manifold) = (&bucket.surfaces[block], &bucket.manifolds[block]);
@@ -164,32 +165,32 @@ impl World {
         let mut transfers = core::mem::take(&mut self.scratch.transfers);
         let Changes { began, ended } = changes;
         let both = || ended.iter().chain(began).copied();
-        let Self { graph, bodies, contacts, .. } = self;
+        let State { graph, bodies, contacts, .. } = &mut self.state;
         transfers.remove(team, graph, bodies, contacts, both());
         ended.iter().for_each(|&index| self.end_contact(index));
         began.iter().for_each(|&index| self.begin_contact(index));
         // What wakes takes its contacts into the graph, by what has begun and ended.
         for &index in began {
-            let contact = &self.contacts.records[index as usize];
+            let contact = &self.state.contacts.records[index as usize];
             self.wake_dynamic([contact.body_a, contact.body_b]);
         }
-        let Self { graph, bodies, contacts, .. } = self;
+        let State { graph, bodies, contacts, .. } = &mut self.state;
         transfers.insert(team, graph, bodies, contacts, both());
         self.scratch.transfers = transfers;
     }
 
     /// A contact no longer touches.
     fn end_contact(&mut self, index: u32) {
-        let contact = &mut self.contacts.records[index as usize];
+        let contact = &mut self.state.contacts.records[index as usize];
         contact.touching = false;
         contact.saved = [crate::dynamics::SavedPoint::NONE; 2];
         if contact.events {
             let end = self.end_event(index);
-            self.events.contact_end.push(end);
+            self.state.events.contact_end.push(end);
         }
         // Changes of the shapes' events take effect between an end and the next begin.
-        let contact = &mut self.contacts.records[index as usize];
-        pairs::mix_materials(contact, &self.settings, &self.shapes);
+        let contact = &mut self.state.contacts.records[index as usize];
+        pairs::mix_materials(contact, &self.settings, &self.state.shapes);
     }
 
     /// May a contact that touches now begin? One-way platforms turn some down.
@@ -200,46 +201,46 @@ impl World {
             speculative_distance: super::SPECULATIVE_DISTANCE * length_unit,
             length_unit,
         };
-        let contact = &self.contacts.records[index as usize];
-        one_way::may_begin(contact, &self.bodies, &self.shapes, limits)
+        let contact = &self.state.contacts.records[index as usize];
+        one_way::may_begin(contact, &self.state.bodies, &self.state.shapes, limits)
     }
 
     /// A contact has begun to touch.
     fn begin_contact(&mut self, index: u32) {
-        let contact = &mut self.contacts.records[index as usize];
+        let contact = &mut self.state.contacts.records[index as usize];
         contact.touching = true;
         if contact.events {
             let (shape_a, shape_b) = (contact.shape_a, contact.shape_b);
             let (shape_a, shape_b) = (self.shape_id(shape_a), self.shape_id(shape_b));
-            self.events.contact_begin.push(ContactBegin { shape_a, shape_b });
+            self.state.events.contact_begin.push(ContactBegin { shape_a, shape_b });
         }
     }
 
     /// Removes contacts for good.
     pub(super) fn destroy_contacts(&mut self, team: &Team, indices: &[u32]) {
-        let Self { graph, bodies, contacts, scratch, .. } = self;
-        scratch.transfers.remove(team, graph, bodies, contacts, indices.iter().copied());
+        let State { graph, bodies, contacts, .. } = &mut self.state;
+        self.scratch.transfers.remove(team, graph, bodies, contacts, indices.iter().copied());
         indices.iter().for_each(|&index| self.destroy_contact(index));
     }
 
     /// Removes a contact for good. What rested on it wakes.
     pub(super) fn destroy_contact(&mut self, index: u32) {
-        let contact = &self.contacts.records[index as usize];
+        let contact = &self.state.contacts.records[index as usize];
         let (touching, events) = (contact.touching, contact.events);
         let (body_a, body_b) = (contact.body_a, contact.body_b);
         if touching {
             if events {
                 let end = self.end_event(index);
-                self.events.pending_end.push(end);
+                self.state.events.pending_end.push(end);
             }
             self.wake_dynamic([body_a, body_b]);
         }
-        self.graph.remove(&mut self.bodies, &mut self.contacts, index);
-        self.contacts.remove(&mut self.bodies, index);
+        self.state.graph.remove(&mut self.state.bodies, &mut self.state.contacts, index);
+        self.state.contacts.remove(&mut self.state.bodies, index);
     }
 
     fn end_event(&self, index: u32) -> ContactEnd {
-        let contact = &self.contacts.records[index as usize];
+        let contact = &self.state.contacts.records[index as usize];
         ContactEnd {
             shape_a: self.shape_id(contact.shape_a),
             shape_b: self.shape_id(contact.shape_b),
@@ -249,7 +250,7 @@ impl World {
     /// Wakes those of the bodies that are dynamic. A kinematic body that sleeps stands still, and may go on.
     fn wake_dynamic(&mut self, bodies: [u32; 2]) {
         for index in bodies {
-            if self.bodies.is_dynamic(index) {
+            if self.state.bodies.is_dynamic(index) {
                 self.wake_index(index);
             }
         }
@@ -261,11 +262,11 @@ impl World {
         let (stores, hinges) = self.sleep_stores();
         sleep::wake(index, stores, &mut woken, hinges);
         // Not where it was awake already or is not enabled: this calls itself.
-        let info = &self.bodies.infos[index as usize];
+        let info = &self.state.bodies.infos[index as usize];
         let starts_to_carry = info.kind == BodyKind::Kinematic && !woken.is_empty();
         for &body in &woken {
             let body = self.body_id(body);
-            self.events.pending_woke.push(body);
+            self.state.events.pending_woke.push(body);
         }
         self.scratch.woken = woken;
         if starts_to_carry {
@@ -282,18 +283,16 @@ impl World {
         debug_assert_eq!(islands.last(), Some(&NULL));
         for &body in islands.iter().filter(|&&body| body != NULL) {
             let body = self.body_id(body);
-            self.events.pending_asleep.push(body);
+            self.state.events.pending_asleep.push(body);
         }
-        self.waiting.stale = true;
+        self.state.waiting.stale = true;
         let (stores, hinges) = self.sleep_stores();
         sleep::put_to_sleep(islands, stores, hinges);
     }
 
     /// What changes when bodies fall asleep and wake, and memory for it.
     fn sleep_stores(&mut self) -> (Stores<'_>, &mut Vec<u32>) {
-        let Self { bodies, contacts, graph, joints, joint_graph, scratch, .. } = self;
-        let stores = Stores { bodies, contacts, graph, joints, joint_graph };
-        (stores, &mut scratch.hinges)
+        (self.state.solved(), &mut self.scratch.hinges)
     }
 }
 

@@ -116,12 +116,12 @@ impl World {
         let bounds = Aabb::rounded_out(center - side, center + side);
         for shape in self.overlap_aabb(bounds, filter) {
             let Ok(index) = self.shape_index(shape) else { continue };
-            let record = &self.shapes.records[index as usize];
+            let record = &self.state.shapes.records[index as usize];
             let (body, geometry) = (record.body, record.shape);
-            if !self.bodies.is_dynamic(body) {
+            if !self.state.bodies.is_dynamic(body) {
                 continue;
             }
-            let frame = self.bodies.poses[body as usize].compose(record.central);
+            let frame = self.state.bodies.poses[body as usize].compose(record.central);
             let local = frame.unapply(center);
             let closest = geometry.closest_point(local);
             let distance = closest.distance(local);
@@ -131,8 +131,11 @@ impl World {
             let scale = if distance > radius { (reach - distance) / falloff } else { 1.0 };
             // From inside, everything goes away from the centre of mass.
             let inside = distance == 0.0;
-            let point =
-                if inside { self.bodies.poses[body as usize].p } else { frame.apply(closest) };
+            let point = if inside {
+                self.state.bodies.poses[body as usize].p
+            } else {
+                frame.apply(closest)
+            };
             let away = point.relative_to(center).normalized();
             let width = geometry.width_across(frame.q.unrotate(away));
             let impulse = away * (impulse_per_metre * width * scale);
@@ -169,11 +172,16 @@ impl World {
         }
         let shapes: Vec<u32> = match water.area {
             Some(area) => self.overlap_aabb(area, filter).iter().map(|shape| shape.index).collect(),
-            None => self.shapes.indices().filter(|&shape| self.query_sees(shape, filter)).collect(),
+            None => self
+                .state
+                .shapes
+                .indices()
+                .filter(|&shape| self.query_sees(shape, filter))
+                .collect(),
         };
         for shape in shapes {
-            let body = self.shapes.records[shape as usize].body;
-            if self.bodies.is_dynamic(body) && self.bodies.infos[body as usize].awake {
+            let body = self.state.shapes.records[shape as usize].body;
+            if self.state.bodies.is_dynamic(body) && self.state.bodies.infos[body as usize].awake {
                 self.float(shape, body, water, normal, dt);
             }
         }
@@ -181,8 +189,8 @@ impl World {
 
     /// Buoyancy and drag of one shape.
     fn float(&mut self, shape: u32, body: u32, water: &Water, normal: Vec2, dt: f32) {
-        let record = &self.shapes.records[shape as usize];
-        let frame = self.bodies.poses[body as usize].compose(record.central);
+        let record = &self.state.shapes.records[shape as usize];
+        let frame = self.state.bodies.poses[body as usize].compose(record.central);
         let height = water.surface.relative_to(frame.p).dot(normal);
         let part = record.shape.part_below(frame.q.unrotate(normal), height);
         if part.area <= 0.0 {
@@ -215,12 +223,12 @@ impl World {
     pub fn apply_zone(&mut self, zone: &ForceZone, filter: &QueryFilter<'_>, dt: f32) {
         let shapes = self.overlap_shape(&zone.shape, zone.pose, filter);
         let mut bodies: Vec<u32> =
-            shapes.iter().map(|shape| self.shapes.records[shape.index()].body).collect();
+            shapes.iter().map(|shape| self.state.shapes.records[shape.index()].body).collect();
         bodies.sort_unstable();
         bodies.dedup();
         for index in bodies {
-            if self.bodies.is_dynamic(index)
-                && (zone.wakes || self.bodies.infos[index as usize].awake)
+            if self.state.bodies.is_dynamic(index)
+                && (zone.wakes || self.state.bodies.infos[index as usize].awake)
             {
                 BodyMut { world: self, index }.apply_zone_force(&zone.force, dt);
             }
@@ -245,11 +253,11 @@ impl BodyMut<'_> {
         let mut forces: Vec<(Vec2, DVec2)> = Vec::new();
         let mut rate = 0.0;
         for shape in self.world.shapes_of(self.index) {
-            let record = &self.world.shapes.records[shape as usize];
+            let record = &self.world.state.shapes.records[shape as usize];
             if record.sensor {
                 continue;
             }
-            let frame = self.world.bodies.poses[self.index as usize].compose(record.central);
+            let frame = self.world.state.bodies.poses[self.index as usize].compose(record.central);
             let point = frame.apply(record.shape.mass_properties(1.0).center);
             let past = wind.velocity - self.as_ref().velocity_at(point);
             let (way, speed) = past.direction_and_length();

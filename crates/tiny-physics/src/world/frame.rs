@@ -33,21 +33,9 @@ impl Clone for World {
         Self {
             gravity: self.gravity,
             settings: self.settings,
-            bodies: self.bodies.clone(),
-            shapes: self.shapes.clone(),
-            contacts: self.contacts.clone(),
-            waiting: self.waiting.clone(),
-            graph: self.graph.clone(),
-            joints: self.joints.clone(),
-            joint_graph: self.joint_graph.clone(),
-            broad_phase: self.broad_phase.clone(),
-            tiles: self.tiles.clone(),
-            sensors: self.sensors.clone(),
+            state: self.state.clone(),
             hooks: self.hooks.clone(),
-            events: self.events.clone(),
             moved: OnceLock::new(),
-            step_count: self.step_count,
-            inv_h: self.inv_h,
             level: self.level,
             pool: self.pool.clone(),
             stats: Stats::default(),
@@ -59,21 +47,9 @@ impl Clone for World {
         let Self {
             gravity,
             settings,
-            bodies,
-            shapes,
-            contacts,
-            waiting,
-            graph,
-            joints,
-            joint_graph,
-            broad_phase,
-            tiles,
-            sensors,
+            state,
             hooks,
-            events,
             moved,
-            step_count,
-            inv_h,
             level: _,
             pool: _,
             stats: _,
@@ -82,20 +58,8 @@ impl Clone for World {
         moved.take();
         *gravity = source.gravity;
         *settings = source.settings;
-        *step_count = source.step_count;
-        *inv_h = source.inv_h;
-        tiles.clone_from(&source.tiles);
+        state.clone_from(&source.state);
         hooks.clone_from(&source.hooks);
-        bodies.clone_from(&source.bodies);
-        shapes.clone_from(&source.shapes);
-        contacts.clone_from(&source.contacts);
-        waiting.clone_from(&source.waiting);
-        graph.clone_from(&source.graph);
-        joints.clone_from(&source.joints);
-        joint_graph.clone_from(&source.joint_graph);
-        broad_phase.clone_from(&source.broad_phase);
-        sensors.clone_from(&source.sensors);
-        events.clone_from(&source.events);
     }
 }
 

@@ -1,6 +1,7 @@
 //! Bodies whose numbers stopped being finite.
 
 use super::World;
+use super::state::State;
 use crate::dynamics::SavedPoint;
 use crate::math::Vec2;
 
@@ -8,11 +9,11 @@ impl World {
     /// Stops a body where it last was, and lets all that acts on it start anew: what has been gathered there may
     /// not be finite either and would come back in the next step.
     pub(super) fn freeze(&mut self, index: u32) {
-        let row = &mut self.bodies.rows[index as usize];
+        let row = &mut self.state.bodies.rows[index as usize];
         for value in [0, 1, 2, 4, 5, 6] {
             row[value] = 0.0;
         }
-        let info = &mut self.bodies.infos[index as usize];
+        let info = &mut self.state.bodies.infos[index as usize];
         info.force = Vec2::ZERO;
         info.torque = 0.0;
         self.forget_joint_impulses(index);
@@ -20,7 +21,7 @@ impl World {
     }
 
     fn forget_joint_impulses(&mut self, index: u32) {
-        let Self { bodies, joints, joint_graph, .. } = self;
+        let State { bodies, joints, joint_graph, .. } = &mut self.state;
         let first = bodies.infos[index as usize].first_joint;
         let mut indices: Vec<u32> = joints.of_body(first).map(|(joint, _)| joint).collect();
         indices.sort_unstable();
@@ -32,7 +33,7 @@ impl World {
     }
 
     fn forget_contact_impulses(&mut self, index: u32) {
-        let Self { bodies, contacts, graph, .. } = self;
+        let State { bodies, contacts, graph, .. } = &mut self.state;
         let first = bodies.infos[index as usize].first_contact;
         let mut indices: Vec<u32> = contacts.of_body(first).map(|(contact, _)| contact).collect();
         indices.sort_unstable();
@@ -68,7 +69,7 @@ mod tests {
             let far = world.add_body(ball.shape(Shape::circle(0.5).unwrap())).unwrap();
             world.add_joint(ids[3], ids[7], JointDef::revolute()).unwrap();
             (0..30).for_each(|_| world.step(1.0 / 60.0));
-            let row = &mut world.bodies.rows[ids[6].index()];
+            let row = &mut world.state.bodies.rows[ids[6].index()];
             row[0] += poison;
             world.step(1.0 / 60.0);
             (world, ids, far)

@@ -13,21 +13,21 @@ impl World {
     /// a world goes back to an earlier frame.
     pub fn state_hash(&self) -> u64 {
         let mut hasher = Hasher::new();
-        self.step_count.save(&mut hasher);
+        self.state.step_count.save(&mut hasher);
         self.gravity.save(&mut hasher);
         self.settings.save(&mut hasher);
         self.hash_bodies(&mut hasher);
         self.hash_shapes(&mut hasher);
         self.hash_contacts(&mut hasher);
         self.hash_joints(&mut hasher);
-        self.sensors.save(&mut hasher);
-        self.events.save(&mut hasher);
-        self.tiles.save(&mut hasher);
+        self.state.sensors.save(&mut hasher);
+        self.state.events.save(&mut hasher);
+        self.state.tiles.save(&mut hasher);
         hasher.finish()
     }
 
     fn hash_bodies(&self, hasher: &mut Hasher) {
-        let bodies = &self.bodies;
+        let bodies = &self.state.bodies;
         for index in bodies.indices() {
             let i = index as usize;
             hasher.record(&index);
@@ -40,41 +40,41 @@ impl World {
     }
 
     fn hash_shapes(&self, hasher: &mut Hasher) {
-        for index in self.shapes.indices() {
-            let record = &self.shapes.records[index as usize];
+        for index in self.state.shapes.indices() {
+            let record = &self.state.shapes.records[index as usize];
             hasher.record(&index);
             hasher.record(record);
-            hasher.record(&self.shapes.rows[index as usize]);
+            hasher.record(&self.state.shapes.rows[index as usize]);
             // When pairs are found depends on the fat box.
-            hasher.record(&self.broad_phase.fat_aabb(self.shapes.proxy(index)));
+            hasher.record(&self.state.broad_phase.fat_aabb(self.state.shapes.proxy(index)));
         }
-        self.shapes.free.save(hasher);
-        self.broad_phase.hash_lists(hasher);
+        self.state.shapes.free.save(hasher);
+        self.state.broad_phase.hash_lists(hasher);
     }
 
     fn hash_contacts(&self, hasher: &mut Hasher) {
-        for bucket in self.graph.buckets.iter().flatten() {
+        for bucket in self.state.graph.buckets.iter().flatten() {
             bucket.contacts.save(hasher);
             for (slot, saved) in bucket.saved_points().enumerate() {
                 hasher.record(&saved);
                 hasher.record(&rolling_impulse(bucket, slot));
             }
         }
-        for contact in self.contacts.records.iter().filter(|contact| contact.alive) {
+        for contact in self.state.contacts.records.iter().filter(|contact| contact.alive) {
             hasher.record(contact);
         }
-        self.contacts.free.save(hasher);
-        self.waiting.save(hasher);
+        self.state.contacts.free.save(hasher);
+        self.state.waiting.save(hasher);
     }
 
     fn hash_joints(&self, hasher: &mut Hasher) {
-        for index in self.joints.indices() {
-            let record = &self.joints.records[index as usize];
+        for index in self.state.joints.indices() {
+            let record = &self.state.joints.records[index as usize];
             hasher.record(&index);
             hasher.record(record);
-            hasher.record(&self.joint_graph.impulses(record));
+            hasher.record(&self.state.joint_graph.impulses(record));
         }
-        self.joints.free.save(hasher);
+        self.state.joints.free.save(hasher);
     }
 }
 

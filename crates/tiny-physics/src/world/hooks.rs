@@ -108,10 +108,10 @@ impl World {
     /// ```
     pub fn set_pair_filter(&mut self, filter: impl Fn(&ShapePair) -> bool + Send + Sync + 'static) {
         self.hooks.pair_filter = Some(Arc::new(filter));
-        for index in 0..self.contacts.records.len() as u32 {
-            let contact = &self.contacts.records[index as usize];
+        for index in 0..self.state.contacts.records.len() as u32 {
+            let contact = &self.state.contacts.records[index as usize];
             let (a, b) = (contact.shape_a, contact.shape_b);
-            if contact.alive && !self.hooks.allows(&self.bodies, &self.shapes, a, b) {
+            if contact.alive && !self.hooks.allows(&self.state.bodies, &self.state.shapes, a, b) {
                 self.destroy_contact(index);
             }
         }
@@ -159,7 +159,7 @@ impl World {
 
     /// Wakes all, and makes the next step look for partners of all.
     fn look_for_all_pairs(&mut self) {
-        let bodies: Vec<u32> = self.bodies.indices().collect();
+        let bodies: Vec<u32> = self.state.bodies.indices().collect();
         for body in bodies {
             self.wake_index(body);
             self.buffer_shapes(body);
@@ -177,7 +177,7 @@ impl World {
             answers.clear();
             answers.extend(places[range].iter().map(|&at| {
                 let mut rules = world.rules(at);
-                let bucket = &world.graph.buckets[usize::from(at.0)][usize::from(at.1)];
+                let bucket = &world.state.graph.buckets[usize::from(at.0)][usize::from(at.1)];
                 hook(world, &world.view(bucket, at.2 as usize), &mut rules);
                 rules
             }));
@@ -192,7 +192,7 @@ impl World {
     /// Lists all contacts that touch and are awake, in the order of the graph.
     fn list_touching(&self, places: &mut Vec<At>) {
         places.clear();
-        for (colour, buckets) in self.graph.buckets[..IDLE].iter().enumerate() {
+        for (colour, buckets) in self.state.graph.buckets[..IDLE].iter().enumerate() {
             for (class, bucket) in buckets.iter().enumerate() {
                 let slots = 0..bucket.contacts.len() as u32;
                 places.extend(slots.map(|slot| (colour as u8, class as u8, slot)));
@@ -202,8 +202,8 @@ impl World {
 
     /// How a contact behaves by its materials.
     fn rules(&self, (colour, class, slot): At) -> ContactRules {
-        let bucket = &self.graph.buckets[usize::from(colour)][usize::from(class)];
-        let contact = &self.contacts.records[bucket.contacts[slot as usize] as usize];
+        let bucket = &self.state.graph.buckets[usize::from(colour)][usize::from(class)];
+        let contact = &self.state.contacts.records[bucket.contacts[slot as usize] as usize];
         ContactRules {
             enabled: true,
             friction: contact.friction,
@@ -216,11 +216,11 @@ impl World {
     /// Writes the rules into the lanes of a contact.
     fn apply_rules(&mut self, (colour, class, slot): At, rules: &ContactRules) {
         let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
-        let bucket = &mut self.graph.buckets[usize::from(colour)][usize::from(class)];
+        let bucket = &mut self.state.graph.buckets[usize::from(colour)][usize::from(class)];
         let restitution = positive(rules.restitution);
         let known = flags::RESTITUTION | flags::HIT;
         if restitution > 0.0 && bucket.heads[block].flags & known == 0 {
-            note_approach(bucket, &self.bodies.rows, block);
+            note_approach(bucket, &self.state.bodies.rows, block);
         }
         let head = &mut bucket.heads[block];
         let (constraint, surface) = (&mut bucket.constraints[block], &mut bucket.surfaces[block]);

@@ -35,7 +35,7 @@ impl<'a> JointRef<'a> {
 
     /// Its anchors on A and B: world, metres.
     pub fn anchors(&self) -> (DVec2, DVec2) {
-        let bodies = &self.world.bodies;
+        let bodies = &self.world.state.bodies;
         let (a, b) = (self.record.body_a, self.record.body_b);
         let def = &self.record.def;
         (bodies.origin_pose(a).apply(def.anchor_a), bodies.origin_pose(b).apply(def.anchor_b))
@@ -52,8 +52,8 @@ impl<'a> JointRef<'a> {
     }
 
     fn load(&self) -> crate::dynamics::JointLoad {
-        let (graph, joints) = (&self.world.joint_graph, &self.world.joints);
-        joint_solver::load(graph, joints, self.index, self.world.inv_h)
+        let (graph, joints) = (&self.world.state.joint_graph, &self.world.state.joints);
+        joint_solver::load(graph, joints, self.index, self.world.state.inv_h)
     }
 
     /// The user's number.
@@ -73,15 +73,15 @@ impl World {
             return Err(Error::Unsupported { reason: "a joint needs two different bodies" });
         }
         def.validate()?;
-        let awake = |world: &Self, i: u32| world.bodies.infos[i as usize].awake;
+        let awake = |world: &Self, i: u32| world.state.bodies.infos[i as usize].awake;
         if awake(self, a) || awake(self, b) {
             self.wake_index(a);
             self.wake_index(b);
         }
         let record = JointRecord::new(a, b, def);
-        let index = self.joints.insert(&mut self.bodies, record);
+        let index = self.state.joints.insert(&mut self.state.bodies, record);
         if awake(self, a) || awake(self, b) {
-            self.joint_graph.insert(&mut self.bodies, &mut self.joints, index);
+            self.state.joint_graph.insert(&mut self.state.bodies, &mut self.state.joints, index);
         }
         if !def.collide_connected {
             self.part_bodies(a, b);
@@ -107,13 +107,13 @@ impl World {
     pub fn set_joint(&mut self, id: JointId, def: JointDef) -> Result<(), Error> {
         let index = self.joint_index(id)?;
         def.validate()?;
-        let record = &self.joints.records[index as usize];
+        let record = &self.state.joints.records[index as usize];
         let (a, b) = (record.body_a, record.body_b);
         self.wake_index(a);
         self.wake_index(b);
-        self.joint_graph.update(&mut self.bodies, &mut self.joints, index, &def);
-        if self.bodies.infos[a as usize].awake || self.bodies.infos[b as usize].awake {
-            self.joint_graph.insert(&mut self.bodies, &mut self.joints, index);
+        self.state.joint_graph.update(&mut self.state.bodies, &mut self.state.joints, index, &def);
+        if self.state.bodies.infos[a as usize].awake || self.state.bodies.infos[b as usize].awake {
+            self.state.joint_graph.insert(&mut self.state.bodies, &mut self.state.joints, index);
         }
         if def.collide_connected {
             self.buffer_shapes(a);
@@ -126,55 +126,48 @@ impl World {
     /// A joint to read; `None` if it has been removed.
     pub fn joint(&self, id: JointId) -> Option<JointRef<'_>> {
         let index = self.joint_index(id).ok()?;
-        Some(JointRef { world: self, record: &self.joints.records[index as usize], index })
+        Some(JointRef { world: self, record: &self.state.joints.records[index as usize], index })
     }
 
     /// Handles of all joints, in index order.
     pub fn joint_ids(&self) -> impl Iterator<Item = JointId> + '_ {
-        self.joints.indices().map(|index| self.joint_id(index))
+        self.state.joints.indices().map(|index| self.joint_id(index))
     }
 
     /// Joints in the world.
     pub fn joint_count(&self) -> usize {
-        self.joints.count()
+        self.state.joints.count()
     }
 
     /// Takes a joint out of the world. Its bodies wake and may collide again.
     pub(super) fn destroy_joint(&mut self, index: u32) {
-        let record = &self.joints.records[index as usize];
+        let record = &self.state.joints.records[index as usize];
         let (a, b) = (record.body_a, record.body_b);
         self.wake_index(a);
         self.wake_index(b);
-        self.joint_graph.remove(&mut self.bodies, &mut self.joints, index);
-        self.joints.remove(&mut self.bodies, index);
+        self.state.joint_graph.remove(&mut self.state.bodies, &mut self.state.joints, index);
+        self.state.joints.remove(&mut self.state.bodies, index);
         self.buffer_shapes(a);
     }
 
     /// Removes all joints of a body.
     pub(super) fn destroy_joints_of(&mut self, body: u32) {
-        while self.bodies.infos[body as usize].first_joint != NULL {
-            self.destroy_joint(self.bodies.infos[body as usize].first_joint / 2);
+        while self.state.bodies.infos[body as usize].first_joint != NULL {
+            self.destroy_joint(self.state.bodies.infos[body as usize].first_joint / 2);
         }
-    }
-
-    /// Notes the joints of a pace that bear more than they can in this substep.
-    pub(super) fn note_broken_joints(&mut self, pace: usize) {
-        let broken = &mut self.scratch.broken_joints;
-        joint_solver::note_broken(&self.joint_graph, &self.joints, pace, self.inv_h, broken);
     }
 
     /// Removes the joints that bore more than they can, and says so.
     pub(super) fn break_joints(&mut self) {
-        let mut broken = core::mem::take(&mut self.scratch.broken_joints);
-        broken.sort_unstable_by_key(|&(index, _)| index);
-        for (index, load) in broken.drain(..) {
+        let broken = core::mem::take(&mut self.scratch.solver.broken);
+        for &(index, load) in &broken {
             let joint = self.joint_id(index);
-            let user_data = self.joints.records[index as usize].def.user_data;
+            let user_data = self.state.joints.records[index as usize].def.user_data;
             let (force, torque) = (load.force, load.torque);
-            self.events.joint_breaks.push(JointBreak { joint, force, torque, user_data });
+            self.state.events.joint_breaks.push(JointBreak { joint, force, torque, user_data });
             self.destroy_joint(index);
         }
-        self.scratch.broken_joints = broken;
+        self.scratch.solver.broken = broken;
     }
 
     /// Destroys the contacts between two bodies.
@@ -182,12 +175,13 @@ impl World {
         let pair = |contact: &crate::dynamics::Contact| {
             (contact.body_a, contact.body_b) == (a, b) || (contact.body_a, contact.body_b) == (b, a)
         };
-        let first = self.bodies.infos[a as usize].first_contact;
+        let first = self.state.bodies.infos[a as usize].first_contact;
         let mut indices: Vec<u32> = self
+            .state
             .contacts
             .of_body(first)
             .map(|(index, _)| index)
-            .filter(|&index| pair(&self.contacts.records[index as usize]))
+            .filter(|&index| pair(&self.state.contacts.records[index as usize]))
             .collect();
         indices.sort_unstable();
         indices.into_iter().for_each(|index| self.destroy_contact(index));
@@ -195,19 +189,19 @@ impl World {
 
     /// Makes the next step look for all partners of a body's shapes.
     pub(super) fn buffer_shapes(&mut self, body: u32) {
-        for shape in self.shapes.of_body(self.bodies.infos[body as usize].first_shape) {
-            self.broad_phase.buffer(self.shapes.proxy(shape));
+        for shape in self.state.shapes.of_body(self.state.bodies.infos[body as usize].first_shape) {
+            self.state.broad_phase.buffer(self.state.shapes.proxy(shape));
         }
     }
 
     /// The handle of a joint that is alive.
     pub(super) fn joint_id(&self, index: u32) -> JointId {
-        JointId::new(index, self.joints.records[index as usize].generation)
+        JointId::new(index, self.state.joints.records[index as usize].generation)
     }
 
     /// The index behind a handle.
     pub(super) fn joint_index(&self, id: JointId) -> Result<u32, Error> {
-        match self.joints.records.get(id.index()) {
+        match self.state.joints.records.get(id.index()) {
             Some(record) if record.alive && record.generation == id.generation => Ok(id.index),
             _ => Err(id.into()),
         }

@@ -16,12 +16,10 @@ footprint!(Scratch {
     paces,
     woken,
     hinges,
-    listed,
     schedule,
-    bounces,
+    solver,
     overlaps,
-    touching,
-    broken_joints
+    touching
 } each { found_changes, findings, found_overlaps, answers });
 
 /// Memory that a world holds on the heap, by what it is for. What is left out: closures given as hooks, threads and
@@ -82,17 +80,23 @@ impl World {
     /// ```
     pub fn memory(&self) -> Memory {
         let moved: MemoryUse = self.moved.get().into_iter().map(Footprint::footprint).sum();
-        let other =
-            [self.sensors.footprint(), self.tiles.footprint(), self.events.footprint(), moved];
-        let contacts = [self.contacts.footprint(), self.waiting.footprint()];
+        let other = [
+            self.state.sensors.footprint(),
+            self.state.tiles.footprint(),
+            self.state.events.footprint(),
+            moved,
+        ];
+        let contacts = [self.state.contacts.footprint(), self.state.waiting.footprint()];
         Memory {
-            bodies: self.bodies.footprint(),
-            shapes: self.shapes.footprint(),
-            broad_phase: self.broad_phase.footprint(),
+            bodies: self.state.bodies.footprint(),
+            shapes: self.state.shapes.footprint(),
+            broad_phase: self.state.broad_phase.footprint(),
             contacts: contacts.into_iter().sum(),
-            graph: self.graph.footprint(),
-            constraints: self.graph.constraints_footprint(),
-            joints: [self.joints.footprint(), self.joint_graph.footprint()].into_iter().sum(),
+            graph: self.state.graph.footprint(),
+            constraints: self.state.graph.constraints_footprint(),
+            joints: [self.state.joints.footprint(), self.state.joint_graph.footprint()]
+                .into_iter()
+                .sum(),
             other: other.into_iter().sum(),
             scratch: self.scratch.footprint(),
         }

@@ -387,7 +387,7 @@ impl CharacterMover {
     }
 
     fn stand(&mut self, world: &World, hit: &Obstacle) {
-        let body = world.body_id(world.shapes.records[hit.shape as usize].body);
+        let body = world.body_id(world.state.shapes.records[hit.shape as usize].body);
         let local = world.body(body).map_or(Vec2::ZERO, |body| body.pose().unapply(hit.point));
         let shape = world.shape_id(hit.shape);
         self.ground =
@@ -434,8 +434,8 @@ impl CharacterMover {
         let Frame { up, right, dt, .. } = frame;
         let motion = along(self.floor(ground.normal, up), right, speed * dt);
         let Some(hit) = self.cast(world, frame, motion, None) else { return };
-        let body = world.shapes.records[hit.shape as usize].body;
-        if !world.bodies.is_dynamic(body) || self.is_walkable(hit.normal, up) {
+        let body = world.state.shapes.records[hit.shape as usize].body;
+        if !world.state.bodies.is_dynamic(body) || self.is_walkable(hit.normal, up) {
             return;
         }
         let left = 1.0 - hit.fraction;
@@ -456,7 +456,7 @@ impl CharacterMover {
     /// comes as far as under that force.
     fn push(&mut self, world: &mut World, frame: Frame, hit: &Obstacle, speed: f32, part: f32) {
         let Frame { dt, pushed, .. } = frame;
-        let id = world.body_id(world.shapes.records[hit.shape as usize].body);
+        let id = world.body_id(world.state.shapes.records[hit.shape as usize].body);
         let Some(mut body) = world.body_mut(id) else { return };
         let (view, way) = (body.as_ref(), -hit.normal);
         let point = self.hand(frame, hit, view.center());
@@ -585,8 +585,8 @@ impl CharacterMover {
     /// Shapes whose fat boxes overlap a box and that its filter lets it collide with, in index order.
     fn obstacles(&self, world: &World, bounds: &Aabb) -> Vec<u32> {
         let mut found = Vec::new();
-        world.broad_phase.query(bounds, self.filter.reach().1, |index| {
-            let record = &world.shapes.records[index as usize];
+        world.state.broad_phase.query(bounds, self.filter.reach().1, |index| {
+            let record = &world.state.shapes.records[index as usize];
             if !record.sensor && self.filter.collides(&record.filter) {
                 found.push(index);
             }
@@ -611,7 +611,7 @@ impl CharacterMover {
             return Vec2::new(way.y, 0.0 - way.x).dot(place.unapply(self.position) - a) >= 0.0;
         }
         let Some(way) = record.one_way else { return true };
-        let way = world.bodies.poses[record.body as usize].q.rotate(way);
+        let way = world.state.bodies.poses[record.body as usize].q.rotate(way);
         if self.dropping || way.dot(motion) >= 0.0 {
             return false;
         }
@@ -632,6 +632,6 @@ fn smaller(a: f32, b: f32) -> f32 {
 }
 
 fn placed(world: &World, index: u32) -> (&ShapeRecord, Pose) {
-    let record = &world.shapes.records[index as usize];
-    (record, world.bodies.poses[record.body as usize].compose(record.central))
+    let record = &world.state.shapes.records[index as usize];
+    (record, world.state.bodies.poses[record.body as usize].compose(record.central))
 }

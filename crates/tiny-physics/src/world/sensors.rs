@@ -3,6 +3,7 @@
 use super::World;
 use super::events::{SensorBegin, SensorEnd};
 use super::ids::ShapeId;
+use super::state::State;
 use crate::dynamics::Overlap;
 use crate::stages::sensors;
 use crate::threads::Team;
@@ -10,11 +11,12 @@ use crate::threads::Team;
 impl World {
     /// Finds out what the sensors see now, and what has begun and ended.
     pub(super) fn update_sensors(&mut self, team: &Team) {
-        if self.sensors.shapes.is_empty() && self.sensors.overlaps.is_empty() {
+        if self.state.sensors.shapes.is_empty() && self.state.sensors.overlaps.is_empty() {
             return;
         }
         let mut overlaps = core::mem::take(&mut self.scratch.overlaps);
-        let Self { bodies, shapes, broad_phase, sensors, events, scratch, .. } = self;
+        let State { bodies, shapes, broad_phase, sensors, events, .. } = &mut self.state;
+        let scratch = &mut self.scratch;
         let scene = sensors::Scene { bodies, shapes, broad_phase, sensors };
         sensors::find_overlaps(
             team,
@@ -44,7 +46,7 @@ impl World {
     /// have been removed since are left out.
     pub fn sensor_overlaps(&self, sensor: ShapeId) -> impl Iterator<Item = ShapeId> + '_ {
         let overlaps = match self.shape_index(sensor) {
-            Ok(index) => self.sensors.seen_by(index),
+            Ok(index) => self.state.sensors.seen_by(index),
             Err(_) => &[],
         };
         overlaps
@@ -56,8 +58,8 @@ impl World {
 
     /// Tells the sensors that the shapes of a body are not where or what they were.
     pub(super) fn mark_shapes_changed(&mut self, body: u32) {
-        for shape in self.shapes.of_body(self.bodies.infos[body as usize].first_shape) {
-            self.sensors.mark_changed(shape);
+        for shape in self.state.shapes.of_body(self.state.bodies.infos[body as usize].first_shape) {
+            self.state.sensors.mark_changed(shape);
         }
     }
 }

@@ -75,11 +75,11 @@ impl ShapeMut<'_> {
     /// # Errors
     /// A number is out of range.
     pub fn set_material(&mut self, material: Material) -> Result<(), Error> {
-        let record = &self.world.shapes.records[self.index as usize];
+        let record = &self.world.state.shapes.records[self.index as usize];
         let def = ShapeDef { material, ..ShapeDef::new(record.shape) };
         super::build::check_shape(&def)?;
         let (body, density) = (record.body, record.material.density);
-        self.world.shapes.records[self.index as usize].material = material;
+        self.world.state.shapes.records[self.index as usize].material = material;
         self.world.wake_index(body);
         self.world.wake_neighbours(body);
         if density != material.density {
@@ -92,15 +92,15 @@ impl ShapeMut<'_> {
     /// Changes what it collides with. Contacts that are no longer allowed end.
     pub fn set_filter(&mut self, filter: Filter) {
         let (world, index) = (&mut *self.world, self.index);
-        let record = &mut world.shapes.records[index as usize];
+        let record = &mut world.state.shapes.records[index as usize];
         record.filter = filter;
         let body = record.body;
         world.wake_index(body);
         let (category, mask) = filter.reach();
-        world.broad_phase.set_filter(world.shapes.proxy(index), category, mask);
-        world.sensors.mark_changed(index);
+        world.state.broad_phase.set_filter(world.state.shapes.proxy(index), category, mask);
+        world.state.sensors.mark_changed(index);
         world.drop_contacts_of(index, |world, a, b| {
-            let filter = |shape: u32| world.shapes.records[shape as usize].filter;
+            let filter = |shape: u32| world.state.shapes.records[shape as usize].filter;
             !filter(a).collides(&filter(b))
         });
     }
@@ -108,9 +108,9 @@ impl ShapeMut<'_> {
     /// Makes it a sensor or a solid shape. Its contacts end.
     pub fn set_sensor(&mut self, sensor: bool) {
         if sensor {
-            self.world.sensors.insert(self.index);
+            self.world.state.sensors.insert(self.index);
         } else {
-            self.world.sensors.remove(self.index);
+            self.world.state.sensors.remove(self.index);
         }
         self.replace(|record| record.sensor = sensor);
     }
@@ -131,31 +131,31 @@ impl ShapeMut<'_> {
     /// Sets whether contact (begin and end) and hit events are sent. A contact that touches already keeps to
     /// what it was until it ends.
     pub fn set_events(&mut self, contact: bool, hit: bool) {
-        let record = &mut self.world.shapes.records[self.index as usize];
+        let record = &mut self.world.state.shapes.records[self.index as usize];
         (record.contact_events, record.hit_events) = (contact, hit);
         self.world.refresh_contacts_of(self.index);
     }
 
     /// Sets the user's number.
     pub fn set_user_data(&mut self, data: u64) {
-        self.world.shapes.records[self.index as usize].user_data = data;
+        self.world.state.shapes.records[self.index as usize].user_data = data;
     }
 
     /// Changes the record in a way that lets no contact live on.
     fn replace(&mut self, change: impl FnOnce(&mut crate::dynamics::ShapeRecord)) {
         let (world, index) = (&mut *self.world, self.index);
-        let body = world.shapes.records[index as usize].body;
+        let body = world.state.shapes.records[index as usize].body;
         world.wake_index(body);
         world.drop_contacts_of(index, |_, _, _| true);
-        change(&mut world.shapes.records[index as usize]);
-        let record = &mut world.shapes.records[index as usize];
+        change(&mut world.state.shapes.records[index as usize]);
+        let record = &mut world.state.shapes.records[index as usize];
         if !matches!(record.shape, Shape::Segment { .. }) {
             record.link = None;
         }
         world.note_ground(index);
-        world.shapes.set_touched(index, 0);
-        world.broad_phase.destroy_proxy(world.shapes.proxy(index));
-        world.shapes.records[index as usize].proxy = NULL;
+        world.state.shapes.set_touched(index, 0);
+        world.state.broad_phase.destroy_proxy(world.state.shapes.proxy(index));
+        world.state.shapes.records[index as usize].proxy = NULL;
         world.update_mass(body);
         world.create_proxies(body);
         // The centre of mass may be another: the frames of all shapes are computed anew.
@@ -167,7 +167,7 @@ impl World {
     /// Destroys the contacts of a shape whose shapes (A, B) satisfy the predicate.
     fn drop_contacts_of(&mut self, shape: u32, which: impl Fn(&Self, u32, u32) -> bool) {
         for index in self.contacts_of(shape) {
-            let contact = &self.contacts.records[index as usize];
+            let contact = &self.state.contacts.records[index as usize];
             let (a, b) = (contact.shape_a, contact.shape_b);
             if which(self, a, b) {
                 self.destroy_contact(index);
@@ -177,11 +177,12 @@ impl World {
 
     /// Contacts of a shape, ascending.
     fn contacts_of(&self, shape: u32) -> Vec<u32> {
-        let body = self.shapes.records[shape as usize].body;
-        let first = self.bodies.infos[body as usize].first_contact;
-        let mut indices: Vec<u32> = self.contacts.of_body(first).map(|(index, _)| index).collect();
+        let body = self.state.shapes.records[shape as usize].body;
+        let first = self.state.bodies.infos[body as usize].first_contact;
+        let mut indices: Vec<u32> =
+            self.state.contacts.of_body(first).map(|(index, _)| index).collect();
         indices.retain(|&index| {
-            let contact = &self.contacts.records[index as usize];
+            let contact = &self.state.contacts.records[index as usize];
             contact.shape_a == shape || contact.shape_b == shape
         });
         indices.sort_unstable();
@@ -191,12 +192,12 @@ impl World {
     /// Brings what contacts know of the materials of their shapes up to date.
     fn refresh_contacts_of(&mut self, shape: u32) {
         for index in self.contacts_of(shape) {
-            let contact = &mut self.contacts.records[index as usize];
-            pairs::mix_materials(contact, &self.settings, &self.shapes);
+            let contact = &mut self.state.contacts.records[index as usize];
+            pairs::mix_materials(contact, &self.settings, &self.state.shapes);
             if matches!(contact.place, Place::Graph { .. }) {
                 // Lanes are filled when a contact enters the graph; its impulses live on.
-                self.graph.remove(&mut self.bodies, &mut self.contacts, index);
-                self.graph.insert(&mut self.bodies, &mut self.contacts, index);
+                self.state.graph.remove(&mut self.state.bodies, &mut self.state.contacts, index);
+                self.state.graph.insert(&mut self.state.bodies, &mut self.state.contacts, index);
             }
         }
     }

@@ -17,7 +17,7 @@ pub struct ShapeRef<'a> {
 
 impl<'a> ShapeRef<'a> {
     pub(super) fn new(world: &'a World, index: u32) -> Self {
-        Self { world, record: &world.shapes.records[index as usize], index }
+        Self { world, record: &world.state.shapes.records[index as usize], index }
     }
 
     /// Its handle.
@@ -62,7 +62,7 @@ impl<'a> ShapeRef<'a> {
 
     /// Its frame in the world.
     pub fn pose(&self) -> Pose {
-        self.world.bodies.poses[self.record.body as usize].compose(self.record.central)
+        self.world.state.bodies.poses[self.record.body as usize].compose(self.record.central)
     }
 
     /// The user's number.
@@ -73,7 +73,7 @@ impl<'a> ShapeRef<'a> {
     /// The box that the broad phase knows it by: world, metres, with a margin. `None` while its body is
     /// disabled.
     pub fn fat_aabb(&self) -> Option<Aabb> {
-        self.world.broad_phase.fat_aabb(self.world.shapes.proxy(self.index))
+        self.world.state.broad_phase.fat_aabb(self.world.state.shapes.proxy(self.index))
     }
 }
 
@@ -86,6 +86,6 @@ impl World {
 
     /// Handles of all shapes, in index order.
     pub fn shape_ids(&self) -> impl Iterator<Item = ShapeId> + '_ {
-        self.shapes.indices().map(|index| self.shape_id(index))
+        self.state.shapes.indices().map(|index| self.shape_id(index))
     }
 }

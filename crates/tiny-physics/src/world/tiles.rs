@@ -126,12 +126,12 @@ impl World {
         check_parts(&grid)?;
         let (columns, rows) = grid.blocks();
         let blocks = vec![BlockBody::default(); columns as usize * rows as usize];
-        let slots = &mut self.tiles.slots;
+        let slots = &mut self.state.tiles.slots;
         let index = slots.iter().position(|slot| slot.grid.is_none()).unwrap_or_else(|| {
             slots.push(Slot { generation: 0, grid: None });
             slots.len() - 1
         });
-        slots[index].generation = self.tiles.serial.next();
+        slots[index].generation = self.state.tiles.serial.next();
         slots[index].grid = Some(Placed { grid, blocks });
         let id = TileGridId::new(index as u32, slots[index].generation);
         for y in 0..rows {
@@ -152,8 +152,8 @@ impl World {
             // The user may have removed it.
             let _ = self.remove_body(body);
         }
-        self.tiles.owners.retain(|&(_, slot)| slot != id.index);
-        self.tiles.slots[id.index()].grid = None;
+        self.state.tiles.owners.retain(|&(_, slot)| slot != id.index);
+        self.state.tiles.slots[id.index()].grid = None;
         Ok(())
     }
 
@@ -164,15 +164,16 @@ impl World {
 
     /// Handles of all tile maps, in index order.
     pub fn tile_grid_ids(&self) -> impl Iterator<Item = TileGridId> + '_ {
-        let filled = self.tiles.slots.iter().enumerate().filter(|(_, slot)| slot.grid.is_some());
+        let filled =
+            self.state.tiles.slots.iter().enumerate().filter(|(_, slot)| slot.grid.is_some());
         filled.map(|(index, slot)| TileGridId::new(index as u32, slot.generation))
     }
 
     /// The tile map that a body belongs to: for contacts and hits, together with
     /// [`TileGrid::cell_at`].
     pub fn tiles_of(&self, body: BodyId) -> Option<TileGridId> {
-        let (_, index) = self.tiles.owners[self.tiles.place_of(body).ok()?];
-        let slot = self.tiles.slots.get(index as usize)?;
+        let (_, index) = self.state.tiles.owners[self.state.tiles.place_of(body).ok()?];
+        let slot = self.state.tiles.slots.get(index as usize)?;
         slot.grid.is_some().then(|| TileGridId::new(index, slot.generation))
     }
 
@@ -220,7 +221,7 @@ impl World {
                 Some(body) => body,
                 None => {
                     let body = self.add_body(body_def)?;
-                    self.tiles.change_owner(id.index, block.body, body);
+                    self.state.tiles.change_owner(id.index, block.body, body);
                     body
                 }
             };
@@ -235,13 +236,13 @@ impl World {
     }
 
     fn placed(&self, id: TileGridId) -> Result<&Placed, Error> {
-        let slot = self.tiles.slots.get(id.index());
+        let slot = self.state.tiles.slots.get(id.index());
         let slot = slot.filter(|slot| slot.generation == id.generation);
         slot.and_then(|slot| slot.grid.as_ref()).ok_or_else(|| id.into())
     }
 
     fn placed_mut(&mut self, id: TileGridId) -> Result<&mut Placed, Error> {
-        let slot = self.tiles.slots.get_mut(id.index());
+        let slot = self.state.tiles.slots.get_mut(id.index());
         let slot = slot.filter(|slot| slot.generation == id.generation);
         slot.and_then(|slot| slot.grid.as_mut()).ok_or_else(|| id.into())
     }

@@ -2,6 +2,7 @@
 
 use super::World;
 use super::build::proxy_kind;
+use super::state::State;
 use crate::describe::BodyKind;
 use crate::dynamics::{COLOURS, IDLE, JointPlace, JointRecord, NULL, PLAIN, Place, colour_at};
 use crate::stages::{boxes, pairs};
@@ -13,7 +14,7 @@ impl World {
     /// # Errors
     /// Says which invariant is broken and where.
     pub fn validate(&self) -> Result<(), String> {
-        self.broad_phase.validate()?;
+        self.state.broad_phase.validate()?;
         self.validate_body_lists()?;
         self.validate_contact_lists()?;
         self.validate_state()
@@ -30,13 +31,13 @@ impl World {
     }
 
     fn validate_body_lists(&self) -> Result<(), String> {
-        if !self.bodies.knows_awake_places() {
+        if !self.state.bodies.knows_awake_places() {
             return Err("a body is elsewhere in the list of those that are awake".into());
         }
-        let mut listed = vec![false; self.bodies.infos.len()];
-        self.bodies.awake.iter().for_each(|&index| listed[index as usize] = true);
-        for index in self.bodies.indices() {
-            let info = &self.bodies.infos[index as usize];
+        let mut listed = vec![false; self.state.bodies.infos.len()];
+        self.state.bodies.awake.iter().for_each(|&index| listed[index as usize] = true);
+        for index in self.state.bodies.indices() {
+            let info = &self.state.bodies.infos[index as usize];
             let listed = listed[index as usize];
             if info.awake != listed {
                 return Err(format!(
@@ -44,7 +45,7 @@ impl World {
                     info.awake
                 ));
             }
-            let shapes = self.shapes.of_body(info.first_shape).count();
+            let shapes = self.state.shapes.of_body(info.first_shape).count();
             if shapes != info.shape_count as usize {
                 return Err(format!(
                     "body {index}: {shapes} shapes linked, {} counted",
@@ -57,11 +58,11 @@ impl World {
 
     fn validate_contact_lists(&self) -> Result<(), String> {
         let mut links = 0;
-        for index in 0..self.bodies.infos.len() as u32 {
-            let first = self.bodies.infos[index as usize].first_contact;
-            for (contact, side) in self.contacts.of_body(first) {
+        for index in 0..self.state.bodies.infos.len() as u32 {
+            let first = self.state.bodies.infos[index as usize].first_contact;
+            for (contact, side) in self.state.contacts.of_body(first) {
                 links += 1;
-                let record = &self.contacts.records[contact as usize];
+                let record = &self.state.contacts.records[contact as usize];
                 let body = if side == 0 { record.body_a } else { record.body_b };
                 if !record.alive || body != index {
                     return Err(format!(
@@ -71,29 +72,32 @@ impl World {
             }
         }
         let mut alive = 0;
-        for (index, contact) in self.contacts.records.iter().enumerate().filter(|(_, c)| c.alive) {
+        for (index, contact) in
+            self.state.contacts.records.iter().enumerate().filter(|(_, c)| c.alive)
+        {
             alive += 1;
             if let Place::Graph { colour, slot } = contact.place {
-                let bucket = &self.graph.buckets[usize::from(colour)][contact.class as usize];
+                let bucket = &self.state.graph.buckets[usize::from(colour)][contact.class as usize];
                 if bucket.contacts.get(slot as usize) != Some(&(index as u32)) {
                     return Err(format!("contact {index} is not in its slot"));
                 }
             }
-            if self.contacts.pairs.get(contact.shape_a, contact.shape_b) != Some(index as u32) {
+            if self.state.contacts.pairs.get(contact.shape_a, contact.shape_b) != Some(index as u32)
+            {
                 return Err(format!("contact {index} is not in the pair table"));
             }
         }
-        if links != 2 * alive || self.contacts.pairs.len() != alive {
+        if links != 2 * alive || self.state.contacts.pairs.len() != alive {
             return Err(format!(
                 "{alive} contacts, {links} links, {} pairs",
-                self.contacts.pairs.len()
+                self.state.contacts.pairs.len()
             ));
         }
         Ok(())
     }
 
     fn validate_bodies(&self) -> Result<(), String> {
-        let bodies = &self.bodies;
+        let bodies = &self.state.bodies;
         if bodies.rows[0] != [0.0; 8] {
             return Err("row 0 has been written".into());
         }
@@ -113,9 +117,12 @@ impl World {
 
     /// Contacts are in the graph where one of their bodies is awake, and push none that sleeps.
     fn validate_contacts(&self) -> Result<(), String> {
-        let asleep = |i: u32| self.bodies.is_dynamic(i) && !self.bodies.infos[i as usize].awake;
-        for (index, contact) in self.contacts.records.iter().enumerate().filter(|(_, c)| c.alive) {
-            let awake = pairs::is_awake(&self.bodies, contact);
+        let asleep =
+            |i: u32| self.state.bodies.is_dynamic(i) && !self.state.bodies.infos[i as usize].awake;
+        for (index, contact) in
+            self.state.contacts.records.iter().enumerate().filter(|(_, c)| c.alive)
+        {
+            let awake = pairs::is_awake(&self.state.bodies, contact);
             match contact.place {
                 Place::Asleep if awake => {
                     return Err(format!("contact {index} is awake without a lane"));
@@ -139,7 +146,7 @@ impl World {
 
     /// Of the pairs whose fat boxes overlap, none has been forgotten.
     fn validate_pairs(&self) -> Result<(), String> {
-        let Self { shapes, bodies, contacts, joints, waiting, broad_phase, .. } = self;
+        let State { shapes, bodies, contacts, joints, waiting, broad_phase, .. } = &self.state;
         let without = self.pairs_without_contact();
         if without.iter().all(|&count| count == 0) {
             return Ok(());
@@ -167,7 +174,7 @@ impl World {
     /// For each shape, the pairs with a higher one whose fat boxes overlap, less those that have a contact. No pair has
     /// two contacts, so nothing has to be looked up to see where all have theirs.
     fn pairs_without_contact(&self) -> Vec<u32> {
-        let Self { shapes, contacts, broad_phase, .. } = self;
+        let State { shapes, contacts, broad_phase, .. } = &self.state;
         let mut pairs = vec![0_u32; shapes.records.len()];
         broad_phase.each_overlap(|a, _| pairs[a as usize] += 1);
         let overlap = |a: u32, b: u32| {
@@ -184,7 +191,7 @@ impl World {
 
     /// Boxes are where the shapes are, and the broad phase has the same.
     fn validate_boxes(&self) -> Result<(), String> {
-        let Self { shapes, bodies, broad_phase, .. } = self;
+        let State { shapes, bodies, broad_phase, .. } = &self.state;
         for shape in shapes.indices().filter(|&i| shapes.records[i as usize].proxy != NULL) {
             let body = shapes.records[shape as usize].body as usize;
             let tight = shapes.tight[shape as usize];
@@ -207,16 +214,16 @@ impl World {
     /// A joint that pulls is in the graph while one of its bodies is awake, and no body that it moves sleeps then.
     fn validate_joints(&self) -> Result<(), String> {
         let pulls = |joint: &JointRecord| {
-            let enabled = |body: u32| self.bodies.infos[body as usize].enabled;
+            let enabled = |body: u32| self.state.bodies.infos[body as usize].enabled;
             let together = enabled(joint.body_a) && enabled(joint.body_b);
             joint.alive && joint.class().is_some() && together
         };
-        let joints = self.joints.records.iter().enumerate();
+        let joints = self.state.joints.records.iter().enumerate();
         for (index, joint) in joints.filter(|(_, joint)| pulls(joint)) {
             let ends = [joint.body_a, joint.body_b];
-            let awake = ends.iter().any(|&body| self.bodies.infos[body as usize].awake);
+            let awake = ends.iter().any(|&body| self.state.bodies.infos[body as usize].awake);
             let asleep = |&body: &u32| {
-                self.bodies.is_dynamic(body) && !self.bodies.infos[body as usize].awake
+                self.state.bodies.is_dynamic(body) && !self.state.bodies.infos[body as usize].awake
             };
             if awake != (joint.place != JointPlace::Asleep) {
                 return Err(format!("joint {index} is awake without a lane, or sleeps in one"));
@@ -230,11 +237,11 @@ impl World {
 
     /// No two contacts of a colour share a dynamic body, and the bodies know their colours.
     fn validate_colours(&self) -> Result<(), String> {
-        let infos = &self.bodies.infos;
+        let infos = &self.state.bodies.infos;
         let mut used = vec![0_u32; infos.len()];
         let is_dynamic: Vec<bool> =
             infos.iter().map(|info| info.kind == BodyKind::Dynamic).collect();
-        for (place, buckets) in self.graph.buckets[..IDLE].iter().enumerate() {
+        for (place, buckets) in self.state.graph.buckets[..IDLE].iter().enumerate() {
             let colour = colour_at(place);
             // Empty lanes are of body 0, which is static.
             let blocks = buckets.iter().flat_map(|bucket| &bucket.manifolds);
@@ -246,8 +253,8 @@ impl World {
                 used[body as usize] |= 1 << colour;
             }
         }
-        for index in self.bodies.indices().filter(|&i| self.bodies.is_dynamic(i)) {
-            let info = &self.bodies.infos[index as usize];
+        for index in self.state.bodies.indices().filter(|&i| self.state.bodies.is_dynamic(i)) {
+            let info = &self.state.bodies.infos[index as usize];
             if info.contact_colours != used[index as usize] {
                 return Err(format!("body {index} does not know its colours"));
             }

@@ -26,7 +26,7 @@ pub(super) struct Finder<'a> {
 
 /// Does a filter let a query see a shape?
 pub(in crate::world) fn sees(world: &World, filter: &QueryFilter<'_>, index: u32) -> bool {
-    let record = &world.shapes.records[index as usize];
+    let record = &world.state.shapes.records[index as usize];
     (filter.sensors || !record.sensor)
         && filter.filter.collides(&record.filter)
         && filter.exclude_body.is_none_or(|body| body != world.body_id(record.body))
@@ -60,8 +60,8 @@ impl Finder<'_> {
 
     /// A shape and its frame in the world.
     fn place(&self, index: u32) -> (&ShapeRecord, Pose) {
-        let record = &self.world.shapes.records[index as usize];
-        (record, self.world.bodies.poses[record.body as usize].compose(record.central))
+        let record = &self.world.state.shapes.records[index as usize];
+        (record, self.world.state.bodies.poses[record.body as usize].compose(record.central))
     }
 
     /// Where a ray enters a shape, normal in the world.
@@ -75,7 +75,7 @@ impl Finder<'_> {
     fn report_ray(&self, index: u32, hit: RayHit, origin: DVec2, translation: Vec2) -> RayCastHit {
         RayCastHit {
             shape: self.world.shape_id(index),
-            body: self.world.body_id(self.world.shapes.records[index as usize].body),
+            body: self.world.body_id(self.world.state.shapes.records[index as usize].body),
             point: origin + translation * hit.fraction,
             normal: hit.normal,
             fraction: hit.fraction,
@@ -93,7 +93,7 @@ impl Finder<'_> {
             return;
         }
         let cast = box_cast(origin, translation, Vec2::ZERO);
-        self.world.broad_phase.cast(&cast, 1.0, self.filter.tree_mask(), |index, limit| {
+        self.world.state.broad_phase.cast(&cast, 1.0, self.filter.tree_mask(), |index, limit| {
             let hit =
                 if self.sees(index) { self.ray_hit(index, origin, translation) } else { None };
             hit.map_or(limit, |hit| visit(index, hit, limit))
@@ -142,7 +142,7 @@ impl Finder<'_> {
         let reach = bounds.half_extents() + Vec2::splat(TOUCH);
         let cast = box_cast(bounds.center().into(), translation, reach);
         let mut best = Best::new();
-        self.world.broad_phase.cast(&cast, 1.0, self.filter.tree_mask(), |index, limit| {
+        self.world.state.broad_phase.cast(&cast, 1.0, self.filter.tree_mask(), |index, limit| {
             let hit =
                 if self.sees(index) { self.way_hit(index, shape, pose, translation) } else { None };
             let Some(hit) = hit else { return limit };
@@ -175,7 +175,7 @@ impl Finder<'_> {
     /// The seen shapes that pass a test and whose fat boxes overlap a box, in index order.
     fn collect(&self, bounds: &Aabb, passes: impl Fn(&ShapeRecord, Pose) -> bool) -> Vec<u32> {
         let mut found = Vec::new();
-        self.world.broad_phase.query(bounds, self.filter.tree_mask(), |index| {
+        self.world.state.broad_phase.query(bounds, self.filter.tree_mask(), |index| {
             let (record, place) = self.place(index);
             if self.sees(index) && passes(record, place) {
                 found.push(index);
@@ -248,7 +248,7 @@ impl Finder<'_> {
         let side = DVec2::new(f64::from(reach), f64::from(reach));
         let bounds = Aabb::rounded_out(point - side, point + side);
         let mut best = Best::new();
-        self.world.broad_phase.query(&bounds, self.filter.tree_mask(), |index| {
+        self.world.state.broad_phase.query(&bounds, self.filter.tree_mask(), |index| {
             if self.sees(index) {
                 let (record, place) = self.place(index);
                 let local = place.unapply(point);

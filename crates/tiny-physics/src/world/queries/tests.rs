@@ -82,14 +82,14 @@ fn seen<'w>(
     world: &'w World,
     filter: &'w QueryFilter<'w>,
 ) -> impl Iterator<Item = (ShapeId, BodyId, &'w Shape, Pose)> {
-    world.shapes.indices().filter_map(move |index| {
-        let record = &world.shapes.records[index as usize];
+    world.state.shapes.indices().filter_map(move |index| {
+        let record = &world.state.shapes.records[index as usize];
         let (shape, body) = (world.shape_id(index), world.body_id(record.body));
         let sees = (filter.sensors || !record.sensor)
             && filter.filter.collides(&record.filter)
             && filter.exclude_body != Some(body)
             && filter.predicate.is_none_or(|predicate| predicate(shape));
-        let pose = world.bodies.poses[record.body as usize].compose(record.central);
+        let pose = world.state.bodies.poses[record.body as usize].compose(record.central);
         sees.then_some((shape, body, &record.shape, pose))
     })
 }

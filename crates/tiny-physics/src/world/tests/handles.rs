@@ -52,7 +52,7 @@ fn handles_of_another_world_are_refused_or_mean_what_is_in_their_place() {
 fn the_last_generation_is_one_like_any_other() {
     let (mut world, ids, _) = used_world(3, 0);
     let index = ids[0].index;
-    world.bodies.infos[index as usize].generation = u32::MAX;
+    world.state.bodies.infos[index as usize].generation = u32::MAX;
     let id = BodyId::new(index, u32::MAX);
     world.validate().unwrap();
     assert!(world.body(id).is_some() && world.body(ids[0]).is_none());

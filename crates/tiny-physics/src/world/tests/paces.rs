@@ -1,6 +1,7 @@
 //! Paces: which islands are refined, and that changing pace disturbs nothing.
 
 use super::*;
+use crate::dynamics::{PACES, PLAIN};
 
 const DT: f32 = 1.0 / 60.0;
 
@@ -18,7 +19,7 @@ fn floored() -> World {
 
 fn pace(world: &World, body: BodyId) -> usize {
     let index = world.body_index(body).unwrap();
-    world.bodies.infos[index as usize].pace.into()
+    world.state.bodies.infos[index as usize].pace.into()
 }
 
 fn steps(world: &mut World, count: usize) {
@@ -77,12 +78,12 @@ fn islands_that_meet_agree_and_relieved_ones_return() {
     assert_eq!((pace(&world, light), pace(&world, falling)), (1, PLAIN));
     steps(&mut world, 90);
     assert_eq!(pace(&world, falling), 1, "it lies on the refined ones");
-    assert_eq!(world.bodies.refined, 3);
+    assert_eq!(world.state.bodies.refined, 3);
     world.remove_body(heavy).unwrap();
-    assert_eq!(world.bodies.refined, 2);
+    assert_eq!(world.state.bodies.refined, 2);
     steps(&mut world, 120);
     assert_eq!((pace(&world, light), pace(&world, falling)), (PLAIN, PLAIN));
-    assert!(!world.bodies.any_refined());
+    assert!(!world.state.bodies.any_refined());
 }
 
 /// Crates are put on a tower one by one; when the tower becomes refined, nothing jumps.
@@ -132,7 +133,7 @@ fn a_saved_world_with_an_unknown_pace_is_refused() {
     let mut world = floored();
     let body = world.add_body(crate_at(0.0, 0.5, 1.0)).unwrap();
     let index = world.body_index(body).unwrap();
-    world.bodies.set_pace(index, PACES as u8);
+    world.state.bodies.set_pace(index, PACES as u8);
     let error = World::from_bytes(&world.to_bytes()).unwrap_err();
     assert!(error.to_string().contains("has no pace"), "{error}");
 }
@@ -140,7 +141,7 @@ fn a_saved_world_with_an_unknown_pace_is_refused() {
 #[test]
 fn a_saved_world_that_miscounts_its_refined_bodies_is_refused() {
     let mut world = floored();
-    world.bodies.refined = 1;
+    world.state.bodies.refined = 1;
     let error = World::from_bytes(&world.to_bytes()).unwrap_err();
     assert!(error.to_string().contains("miscounted"), "{error}");
 }

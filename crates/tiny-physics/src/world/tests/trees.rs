@@ -12,7 +12,7 @@ fn sleepless() -> World {
 
 /// Joints that are solved directly.
 fn in_trees(world: &World) -> usize {
-    world.joint_graph.count_in_trees()
+    world.state.joint_graph.count_in_trees()
 }
 
 /// A bar of 1 m and 1 kg that collides with nothing, around a point.

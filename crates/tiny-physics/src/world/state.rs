@@ -1,0 +1,71 @@
+//! What a world is, apart from its gravity and settings: all that is saved, copied and hashed.
+
+use super::events::Events;
+use super::tiles::TileGrids;
+use crate::broad_phase::BroadPhase;
+use crate::dynamics::{
+    Bodies, Contacts, Graph, JointGraph, Joints, Sensors, Shapes, Waiting, cloned_data,
+};
+use crate::stages::islands::Stores;
+
+/// The stores of a world.
+#[derive(Debug)]
+pub(super) struct State {
+    pub(super) bodies: Bodies,
+    pub(super) shapes: Shapes,
+    pub(super) contacts: Contacts,
+    pub(super) waiting: Waiting,
+    pub(super) graph: Graph,
+    pub(super) joints: Joints,
+    pub(super) joint_graph: JointGraph,
+    pub(super) broad_phase: BroadPhase,
+    pub(super) tiles: TileGrids,
+    pub(super) sensors: Sensors,
+    pub(super) events: Events,
+    pub(super) step_count: u64,
+    /// 1 / substep length of the last step, at the plain pace.
+    pub(super) inv_h: f32,
+}
+
+cloned_data!(State {
+    bodies,
+    shapes,
+    contacts,
+    waiting,
+    graph,
+    joints,
+    joint_graph,
+    broad_phase,
+    tiles,
+    sensors,
+    events,
+    step_count,
+    inv_h
+});
+
+impl State {
+    /// Of an empty world.
+    pub(super) fn new() -> Self {
+        Self {
+            bodies: Bodies::new(),
+            shapes: Shapes::default(),
+            contacts: Contacts::default(),
+            waiting: Waiting::default(),
+            graph: Graph::new(),
+            joints: Joints::default(),
+            joint_graph: JointGraph::new(),
+            broad_phase: BroadPhase::new(),
+            tiles: TileGrids::default(),
+            sensors: Sensors::default(),
+            events: Events::default(),
+            step_count: 0,
+            inv_h: 0.0,
+        }
+    }
+
+    /// What the solver works on.
+    pub(super) fn solved(&mut self) -> Stores<'_> {
+        let Self { bodies, contacts, graph, joints, joint_graph, .. } = self;
+        Stores { bodies, contacts, graph, joints, joint_graph }
+    }
+}
