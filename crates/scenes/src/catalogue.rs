@@ -1,6 +1,6 @@
 //! The list of all scenes that this crate can build.
 
-use crate::build::{Options, benchmark, course, features, joints, level, seed, show};
+use crate::build::{Options, benchmark, course, features, joints, level, seed, show, small};
 use crate::scene::Scene;
 use core::fmt;
 
@@ -42,6 +42,8 @@ pub mod tags {
     pub const SEEDED: &str = "seeded";
     /// Scenes with very many bodies or shapes.
     pub const HUGE: &str = "huge";
+    /// Scenes of the size that games have, to measure time on.
+    pub const SMALL: &str = "small";
     /// One scene in several sizes: what a body costs as they become more.
     pub const SCALE: &str = "scale";
 }
@@ -51,6 +53,7 @@ const BOX2D_HUGE: &[&str] = &[tags::BENCHMARK, tags::BOX2D, tags::HUGE];
 const BENCHMARK: &[&str] = &[tags::BENCHMARK];
 const SCALE: &[&str] = &[tags::BENCHMARK, tags::SCALE];
 const SCALE_HUGE: &[&str] = &[tags::BENCHMARK, tags::SCALE, tags::HUGE];
+const SMALL: &[&str] = &[tags::BENCHMARK, tags::SMALL];
 const SHOW: &[&str] = &[tags::SHOW];
 
 const fn entry(
@@ -83,6 +86,21 @@ static ENTRIES: &[Entry] = &[
     entry("circles_10k", "A pile of 10,000 circles", 120, SCALE, seed::circles_10k),
     entry("circles_100k", "A pile of 100,000 circles", 120, SCALE_HUGE, seed::circles_100k),
     entry("circles_1m", "A pile of 1,000,000 circles", 120, SCALE_HUGE, seed::circles_1m),
+    entry("crates_1", "One crate at rest, awake", 300, SMALL, small::crates_1),
+    entry("crates_10", "10 crates at rest, awake", 300, SMALL, small::crates_10),
+    entry("crates_30", "30 crates at rest, awake", 300, SMALL, small::crates_30),
+    entry("crates_100", "100 crates at rest in rows of 30, awake", 300, SMALL, small::crates_100),
+    entry("crates_300", "300 crates at rest in rows of 30, awake", 300, SMALL, small::crates_300),
+    entry("crates_1000", "1000 crates at rest in rows of 30, awake", 300, SMALL, small::crates_1000),
+    entry("pile_hexagons", "A pyramid of 210 hexagons comes down and falls asleep", 900, SMALL, small::pile_hexagons),
+    entry("pile_capsules", "150 capsules fall into a pit and asleep", 900, SMALL, small::pile_capsules),
+    entry("pile_triangles", "150 triangles fall into a pit and asleep", 900, SMALL, small::pile_triangles),
+    entry("pile_bricks", "A wall of 900 bricks settles and falls asleep", 900, SMALL, small::pile_bricks),
+    entry("pile_mixed", "300 shapes of every kind fall into a pit and asleep", 900, SMALL, small::pile_mixed),
+    entry("pile_planks", "100 thin planks fall into a pit and asleep", 900, SMALL, small::pile_planks),
+    entry("pile_rings", "60 rings of eight boxes fall into a pit and asleep", 900, SMALL, small::pile_rings),
+    entry("pile_by_size", "14 boxes stacked by size fall asleep", 900, SMALL, small::pile_by_size),
+    entry("game", "A platformer level with crates, lifts, a door, a rope and a character", 600, &[tags::BENCHMARK, tags::SMALL, tags::SEEDED], small::game),
     entry("tiles", "500 movers walk in a platformer level", 600, &[tags::BENCHMARK, tags::SEEDED], level::tiles),
     entry("tile_map", "Balls and crates on hills and platforms of tiles, and a chain", 600, &[tags::SEEDED], level::tile_map),
     entry("stack", "A tower of crates", 600, SHOW, show::stack),

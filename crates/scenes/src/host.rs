@@ -57,8 +57,14 @@ pub trait Host {
         0
     }
 
-    /// Does what a timeline asks for before the next step, which begins at `time` and is `dt` long, seconds.
-    fn act(&mut self, _deed: &Deed, _time: f32, _dt: f32) {}
+    /// Does what a timeline asks for before the next step, which begins at `time` and is `dt` long, seconds. As it is
+    /// given here, it sets velocities and leaves every other deed undone.
+    fn act(&mut self, deed: &Deed, _time: f32, _dt: f32) {
+        if let Deed::SetVelocity { body, velocity, angular_velocity } = *deed {
+            self.set_velocity(body, velocity);
+            self.set_angular_velocity(body, angular_velocity);
+        }
+    }
 
     /// Does a sensor of this body see anything?
     fn is_entered(&mut self, _body: usize) -> bool {

@@ -1,7 +1,7 @@
 //! The builders make what they should, the same every time, and every scene survives its file.
 
 use tiny_physics::{BodyKind, Mix, Settings, Shape};
-use tiny_physics_scenes::{Counts, Options, Scene, Script, all, find, tags};
+use tiny_physics_scenes::{Counts, Options, Run, Scene, Script, all, find, tags};
 
 fn build(name: &str) -> Scene {
     find(name).unwrap().build(Options::default())
@@ -160,4 +160,23 @@ fn scripts_are_where_they_belong() {
     assert!(matches!(build("tiles").script, Some(Script::Walkers(_))));
     let Some(Script::WakeSleepers(wake)) = build("sleep").script else { panic!("no script") };
     assert_eq!(wake.bodies[..3], [1, 1831, 3661], "the first box of each pyramid");
+}
+
+/// What is timed until it sleeps has to fall asleep within the run; small worlds are cheap enough to see that.
+#[test]
+fn piles_fall_asleep_within_their_run() {
+    for entry in all().iter().filter(|e| e.name.starts_with("pile_")) {
+        let mut run = Run::start(&entry.build(Options::default())).expect(entry.name);
+        (0..entry.steps).for_each(|_| run.step());
+        assert_eq!(run.world().awake_body_count(), 0, "{} is still awake", entry.name);
+    }
+}
+
+#[test]
+fn small_scenes_have_their_counts() {
+    for (name, dynamic) in [("crates_1", 1), ("crates_1000", 1000), ("pile_hexagons", 210)] {
+        assert_eq!(build(name).counts().dynamic, dynamic, "{name}");
+    }
+    let game = build("game").counts();
+    assert_eq!((game.dynamic, game.joints), (30 + 1 + 1 + 12, 13));
 }

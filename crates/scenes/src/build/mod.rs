@@ -7,6 +7,7 @@ pub(crate) mod joints;
 pub(crate) mod level;
 pub(crate) mod seed;
 pub(crate) mod show;
+pub(crate) mod small;
 
 use crate::scene::Scene;
 use crate::shapes;
