@@ -78,6 +78,7 @@ impl Simulation {
         let mut run = Run::start(&scene)?;
         let world = run.world_mut();
         world.set_threads(usize::from(how.threads));
+        world.time_stages(true);
         if let Some(level) = how.simd {
             world.set_simd(level)?;
         }

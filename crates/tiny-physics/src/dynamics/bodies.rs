@@ -30,14 +30,10 @@ impl Slot {
 #[derive(Clone, Copy, Default, PartialEq, Debug)]
 #[repr(C, align(32))]
 pub(crate) struct Motion {
-    /// Velocity gained from gravity and forces in a substep: x, y, angular.
-    pub(crate) gain: [f32; 3],
-    /// Factor of linear damping in a substep.
-    pub(crate) linear: f32,
-    /// Factor of angular damping in a substep.
-    pub(crate) angular: f32,
-    /// 0 on locked axes, else 1.
-    pub(crate) free: [f32; 3],
+    /// Velocity gained from gravity and forces in a substep: x, y, angular, and nothing. 0 on locked axes.
+    pub(crate) gain: [f32; 4],
+    /// Factor of damping in a substep: x, y, angular, and 1. 0 on locked axes.
+    pub(crate) factor: [f32; 4],
 }
 
 /// All of a body that a step does not touch in its inner loops. What it does touch once a step lies in the
@@ -369,33 +365,11 @@ impl Bodies {
         row[Slot::INV_MASS] = if dynamic && info.mass > 0.0 { 1.0 / info.mass } else { 0.0 };
         row[Slot::INV_INERTIA] = if turns { 1.0 / info.inertia } else { 0.0 };
     }
-
-    /// Two bodies' records at once, to change both. `None` where they are the same body or one does
-    /// not exist.
-    pub(crate) fn pair_mut(&mut self, a: u32, b: u32) -> Option<(&mut BodyInfo, &mut BodyInfo)> {
-        let [a, b] = self.infos.get_disjoint_mut([a as usize, b as usize]).ok()?;
-        Some((a, b))
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn two_bodies_can_be_changed_at_once() {
-        let mut bodies = Bodies::new();
-        let a = bodies.insert(BodyInfo::default(), Pose::default());
-        let b = bodies.insert(BodyInfo::default(), Pose::default());
-        {
-            let (a, b) = bodies.pair_mut(a, b).expect("two different bodies");
-            core::mem::swap(&mut a.mass, &mut b.inertia);
-            a.mass = 2.0;
-            b.mass = 3.0;
-        }
-        assert_eq!((bodies.infos[a as usize].mass, bodies.infos[b as usize].mass), (2.0, 3.0));
-        assert!(bodies.pair_mut(a, a).is_none() && bodies.pair_mut(a, 99).is_none());
-    }
 
     #[test]
     fn a_reused_place_has_another_generation() {

@@ -13,7 +13,7 @@ use super::shapes::ShapeRecord;
 use crate::codec::{Data, Reader, Sink, data, data_enum};
 use crate::error::Error;
 
-data!(Motion { gain, linear, angular, free });
+data!(Motion { gain, factor });
 data!(BodyInfo { kind, alive, enabled, awake, bullet, can_sleep, never_turns, pace, locks, force, torque, gravity_scale, linear_damping, angular_damping, sleep_time, sleep_speed, min_extent, max_extent, first_shape, first_joint, local_center, mass, inertia, fixed_mass, shape_count, first_contact, contact_colours, joint_colours, island_next, user_data } apart { generation });
 data!(ShapeRecord { body, next, proxy, class, alive, sensor, contact_events, hit_events, filter, material, local, central, box_frame, one_way, link, user_data, shape } apart { generation });
 data!(SavedPoint { id, normal_impulse, tangent_impulse });

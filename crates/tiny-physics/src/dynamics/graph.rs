@@ -1,55 +1,24 @@
 //! The constraint graph: contacts in colours, so that no two of a colour share a moving body.
 //!
-//! Within a colour the order of work cannot matter, so lanes and threads do not change results. A
-//! contact keeps its colour while it touches; colours are given first-fit in the order of contact
-//! ids, so they depend on the history of the world alone. Contacts between two dynamic bodies take
-//! the lowest free colour, contacts with a body that nothing moves take the highest: those are solved
-//! last and so hold best. What finds no colour goes to the overflow, solved one by one with the
-//! one-lane instance of the same kernel. Contacts that do not touch wait in a colour of their own
-//! (`IDLE`) that the narrow phase visits and the solver does not.
-//!
-//! Inside a colour, contacts lie in buckets by pair class, so a block is of one kind.
+//! See [`coloured`](super::coloured). Contacts that do not touch wait in a place of their own ([`IDLE`]) that the narrow
+//! phase visits and the solver does not. Inside a place, contacts lie in buckets by pair class, so a block is of one
+//! kind.
 
 use super::blocks::{
     BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, SurfaceBlock, flags, move_lane,
 };
 use super::bodies::Bodies;
 use super::clone::clone_by_field;
+use super::coloured::{Bucketful, Coloured, IDLE, give_colour_back, place_of, take_colour};
 use super::contacts::{Contact, Contacts, Place, SavedPoint};
-use super::pace::PACES;
+use super::schedule::Stage;
 use crate::codec::{Data, Reader, Sink};
 use crate::error::Error;
-use crate::footprint::{Footprint, MemoryUse, each, footprint};
+use crate::footprint::{MemoryUse, each, footprint};
 use crate::geometry::manifold::PairClass;
 use crate::simd::BLOCK;
-use crate::threads::SharedSlice;
-
-/// Number of colours.
-pub(crate) const COLOURS: usize = 24;
-/// Places of one pace: its colours and, last, its overflow.
-const PER_PACE: usize = COLOURS + 1;
-/// Place of the contacts that do not touch, after those of all paces.
-pub(crate) const IDLE: usize = PER_PACE * PACES;
-
-/// The colour at a place below [`IDLE`], or [`COLOURS`] for an overflow.
-pub(crate) fn colour_at(place: usize) -> usize {
-    place % PER_PACE
-}
-
-/// Is a place an overflow, whose contacts may have bodies in common?
-pub(crate) fn is_overflow(place: usize) -> bool {
-    place != IDLE && colour_at(place) == COLOURS
-}
-
-/// The places of a pace in the order in which they are solved: the overflow, then the colours.
-pub(crate) fn places_of(pace: usize) -> impl Iterator<Item = usize> {
-    core::iter::once(COLOURS).chain(0..COLOURS).map(move |colour| pace * PER_PACE + colour)
-}
-
-/// The pace of a place below [`IDLE`].
-pub(crate) fn pace_at(place: usize) -> usize {
-    place / PER_PACE
-}
+use crate::threads::{SharedSlice, Team};
+use core::ops::Range;
 
 /// Contacts of one colour and class.
 #[derive(Debug, PartialEq, Default)]
@@ -65,6 +34,12 @@ pub(crate) struct Bucket {
 
 clone_by_field!(Bucket { contacts, manifolds, constraints, surfaces, heads });
 footprint!(Bucket { contacts, manifolds, constraints, surfaces, heads });
+
+impl Bucketful for Bucket {
+    fn is_empty(&self) -> bool {
+        self.contacts.is_empty()
+    }
+}
 
 impl Bucket {
     /// The two bodies of a slot.
@@ -191,14 +166,69 @@ fn contact_flags(contact: &Contact) -> u8 {
         | flag(contact.hit_events, flags::HIT)
 }
 
-/// Where a block is: colour, class, index.
+/// Blocks of one bucket that are worked on together.
+pub(crate) struct Blocks<'a> {
+    /// Contacts in these blocks; the last block may be part full.
+    pub(crate) count: usize,
+    pub(crate) manifolds: &'a mut [ManifoldBlock],
+    pub(crate) heads: &'a mut [BlockHead],
+    /// Empty for contacts that do not touch.
+    pub(crate) constraints: &'a mut [ConstraintBlock],
+    pub(crate) surfaces: &'a mut [SurfaceBlock],
+}
+
+/// A bucket, shared between members of the team.
+#[derive(Clone, Copy)]
+struct Shared<'a> {
+    count: usize,
+    manifolds: SharedSlice<'a, ManifoldBlock>,
+    heads: SharedSlice<'a, BlockHead>,
+    constraints: SharedSlice<'a, ConstraintBlock>,
+    surfaces: SharedSlice<'a, SurfaceBlock>,
+}
+
+impl<'a> Shared<'a> {
+    #[inline]
+    fn new(bucket: &'a mut Bucket) -> Self {
+        Self {
+            count: bucket.contacts.len(),
+            manifolds: SharedSlice::new(&mut bucket.manifolds),
+            heads: SharedSlice::new(&mut bucket.heads),
+            constraints: SharedSlice::new(&mut bucket.constraints),
+            surfaces: SharedSlice::new(&mut bucket.surfaces),
+        }
+    }
+
+    #[inline]
+    fn blocks(self, range: Range<usize>) -> Blocks<'a> {
+        Blocks {
+            count: self.count.min(range.end * BLOCK) - range.start * BLOCK,
+            manifolds: self.manifolds.range(range.clone()),
+            heads: self.heads.range(range.clone()),
+            constraints: self.constraints.range(range.clone()),
+            surfaces: self.surfaces.range(range),
+        }
+    }
+}
+
+/// Where a block is: place, class, index.
 pub(crate) type BlockAddress = (u8, u8, u32);
 
-/// All colours, the overflow and the idle contacts.
-#[derive(Debug, PartialEq)]
+/// The key of a bucket.
+pub(super) fn key(place: usize, class: PairClass) -> usize {
+    place * PairClass::COUNT + class as usize
+}
+
+/// The place of a key.
+pub(super) fn place_at(key: usize) -> usize {
+    key / PairClass::COUNT
+}
+
+/// All contacts of bodies that are awake.
+#[derive(Debug, PartialEq, Default)]
 pub(crate) struct Graph {
-    /// `buckets[colour][class]`.
-    pub(crate) buckets: Vec<[Bucket; PairClass::COUNT]>,
+    /// By place and class: see [`key`].
+    pub(crate) buckets: Coloured<Bucket>,
     touching: usize,
     /// Blocks that got a touching contact since the last narrow phase.
     fresh: Vec<BlockAddress>,
@@ -209,55 +239,91 @@ pub(crate) struct Graph {
 }
 
 clone_by_field!(Graph { buckets, touching, fresh, mixed, news });
-
-impl Footprint for Graph {
-    fn footprint(&self) -> MemoryUse {
-        let Self { buckets, touching: _, fresh, mixed: _, news: _ } = self;
-        [buckets.footprint(), each(buckets.iter().flatten()), fresh.footprint()].into_iter().sum()
-    }
-}
+footprint!(Graph { buckets, fresh } none { touching, mixed, news });
 
 impl Data for Graph {
     fn save(&self, sink: &mut impl Sink) {
         // Fresh blocks are those of the step at work.
         let Self { buckets, touching: _, fresh: _, mixed, news } = self;
-        buckets.iter().flatten().for_each(|bucket| bucket.save(sink));
+        buckets.save(sink);
         mixed.save(sink);
         news.save(sink);
     }
 
     fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
-        let mut graph = Self::new();
-        for bucket in graph.buckets.iter_mut().flatten() {
-            *bucket = Data::load(reader)?;
-        }
+        let mut graph = Self { buckets: Data::load(reader)?, ..Self::default() };
         graph.mixed = Data::load(reader)?;
         graph.news = Data::load(reader)?;
-        let coloured = graph.buckets[..IDLE].iter().flatten();
-        graph.touching = coloured.map(|bucket| bucket.contacts.len()).sum();
+        graph.touching = graph.touching_buckets().map(|(_, bucket)| bucket.contacts.len()).sum();
         Ok(graph)
     }
 }
 
 impl Graph {
-    pub(crate) fn new() -> Self {
-        Self {
-            buckets: (0..=IDLE).map(|_| Default::default()).collect(),
-            touching: 0,
-            fresh: Vec::new(),
-            mixed: false,
-            news: 0,
+    /// All buckets, each with its place and class.
+    pub(crate) fn all(&self) -> impl Iterator<Item = (usize, PairClass, &Bucket)> {
+        let keys = self.buckets.keys().map(|key| (place_at(key), key % PairClass::COUNT));
+        keys.zip(self.buckets.list())
+            .map(|((place, class), bucket)| (place, PairClass::ALL[class], bucket))
+    }
+
+    /// The buckets of contacts that touch, each with its place.
+    pub(crate) fn touching_buckets(&self) -> impl Iterator<Item = (usize, &Bucket)> {
+        self.all().map(|(place, _, bucket)| (place, bucket)).take_while(|&(place, _)| place != IDLE)
+    }
+
+    /// The bucket of a place and class, if that has contacts.
+    pub(crate) fn find(&self, place: usize, class: PairClass) -> Option<&Bucket> {
+        self.buckets.get(key(place, class))
+    }
+
+    /// The bucket of a place and class that has contacts.
+    pub(crate) fn bucket(&self, place: usize, class: PairClass) -> &Bucket {
+        &self.buckets[key(place, class)]
+    }
+
+    /// The same, to change.
+    pub(crate) fn bucket_mut(&mut self, place: usize, class: PairClass) -> &mut Bucket {
+        &mut self.buckets[key(place, class)]
+    }
+
+    /// Works on the runs of a stage, shared out to the team; those of an overflow one after the other.
+    #[inline]
+    pub(crate) fn for_each_run(
+        &mut self,
+        team: &Team,
+        stage: &Stage<'_>,
+        work: impl Fn(PairClass, Blocks<'_>) + Sync,
+    ) {
+        let Stage { runs, chunk, .. } = *stage;
+        let buckets = &mut self.buckets.list_mut()[stage.buckets.clone()];
+        let first = stage.buckets.start;
+        if team.member_count() == 1 || runs.len() <= chunk {
+            for run in runs {
+                let bucket = Shared::new(&mut buckets[run.bucket - first]);
+                work(run.class, bucket.blocks(run.blocks.clone()));
+            }
+            return;
         }
+        let mut buckets = buckets.iter_mut().map(Shared::new);
+        let buckets: [_; PairClass::COUNT] = core::array::from_fn(|_| buckets.next());
+        team.for_each_chunk(runs.len(), chunk, |range| {
+            for run in &runs[range] {
+                if let Some(bucket) = buckets[run.bucket - first] {
+                    work(run.class, bucket.blocks(run.blocks.clone()));
+                }
+            }
+        });
     }
 
     /// Contacts in the graph, touching or not.
     pub(crate) fn len(&self) -> usize {
-        self.touching + self.buckets[IDLE].iter().map(|bucket| bucket.contacts.len()).sum::<usize>()
+        self.buckets.list().iter().map(|bucket| bucket.contacts.len()).sum()
     }
 
     /// Memory of the constraints alone: what every pass of the solver goes through.
     pub(crate) fn constraints_footprint(&self) -> MemoryUse {
-        each(self.buckets.iter().flatten().map(|bucket| &bucket.constraints))
+        each(self.buckets.list().iter().map(|bucket| &bucket.constraints))
     }
 
     /// Contacts that touch and are awake.
@@ -269,7 +335,7 @@ impl Graph {
     pub(crate) fn insert(&mut self, bodies: &mut Bodies, contacts: &mut Contacts, index: u32) {
         let contact = &mut contacts.records[index as usize];
         let (place, slot) = self.admit(bodies, contact, index);
-        self.buckets[place][contact.class as usize].fill(slot, contact);
+        self.buckets[key(place, contact.class)].fill(slot, contact);
     }
 
     /// Chooses where a contact goes and makes room for it there.
@@ -286,11 +352,13 @@ impl Graph {
             self.mixed |= bodies.are_mixed(a, b);
             let both_move = bodies.is_dynamic(a) && bodies.is_dynamic(b);
             self.news = self.news.saturating_add(u32::from(both_move));
-            bodies.common_pace(a, b) * PER_PACE + take_colour(bodies, a, b)
+            let colour = take_colour(bodies, [a, b], |info| &mut info.contact_colours);
+            place_of(bodies.common_pace(a, b), colour)
         } else {
             IDLE
         };
-        let slot = self.buckets[place][contact.class as usize].reserve(index, place != IDLE);
+        let bucket = self.buckets.open(key(place, contact.class));
+        let slot = bucket.reserve(index, place != IDLE);
         contact.place = Place::Graph { colour: place as u8, slot };
         if place != IDLE {
             self.fresh.push((place as u8, contact.class as u8, slot / BLOCK as u32));
@@ -308,8 +376,9 @@ impl Graph {
         let Self { buckets, fresh, .. } = self;
         fresh.sort_unstable();
         fresh.dedup();
-        fresh.retain(|&(colour, class, block)| {
-            (block as usize) < buckets[colour as usize][class as usize].manifolds.len()
+        fresh.retain(|&(place, class, block)| {
+            let bucket = buckets.get(usize::from(place) * PairClass::COUNT + usize::from(class));
+            bucket.is_some_and(|bucket| (block as usize) < bucket.manifolds.len())
         });
     }
 
@@ -322,8 +391,9 @@ impl Graph {
     pub(crate) fn remove(&mut self, bodies: &mut Bodies, contacts: &mut Contacts, index: u32) {
         let contact = &contacts.records[index as usize];
         if let Some((place, slot)) = self.dismiss(bodies, contact) {
-            let bucket = &mut self.buckets[place][contact.class as usize];
-            bucket.take_out(place, slot, SharedSlice::new(&mut contacts.records));
+            let key = key(place, contact.class);
+            self.buckets[key].take_out(place, slot, SharedSlice::new(&mut contacts.records));
+            self.buckets.close(key);
         }
     }
 
@@ -337,42 +407,9 @@ impl Graph {
         let place = usize::from(colour);
         if place != IDLE {
             self.touching -= 1;
-            give_colour_back(bodies, contact.body_a, contact.body_b, colour_at(place));
+            let ends = [contact.body_a, contact.body_b];
+            give_colour_back(bodies, ends, place, |info| &mut info.contact_colours);
         }
         Some((place, slot))
-    }
-}
-
-/// Finds a colour that neither moving body uses and marks it used.
-fn take_colour(bodies: &mut Bodies, a: u32, b: u32) -> usize {
-    const ALL: u32 = (1 << COLOURS) - 1;
-    let (dynamic_a, dynamic_b) = (bodies.is_dynamic(a), bodies.is_dynamic(b));
-    let used = |dynamic: bool, i: u32| {
-        if dynamic { bodies.infos[i as usize].contact_colours } else { 0 }
-    };
-    let free = !(used(dynamic_a, a) | used(dynamic_b, b)) & ALL;
-    if free == 0 {
-        return COLOURS;
-    }
-    let colour = if dynamic_a && dynamic_b {
-        free.trailing_zeros()
-    } else {
-        u32::BITS - 1 - free.leading_zeros()
-    };
-    if let Some((a, b)) = bodies.pair_mut(a, b) {
-        a.contact_colours |= u32::from(dynamic_a) << colour;
-        b.contact_colours |= u32::from(dynamic_b) << colour;
-    }
-    colour as usize
-}
-
-fn give_colour_back(bodies: &mut Bodies, a: u32, b: u32, colour: usize) {
-    if colour == COLOURS {
-        return;
-    }
-    for i in [a, b] {
-        if bodies.is_dynamic(i) {
-            bodies.infos[i as usize].contact_colours &= !(1 << colour);
-        }
     }
 }

@@ -12,9 +12,9 @@
 
 use super::bodies::{Bodies, NULL};
 use super::clone::clone_by_field;
+use super::coloured::{TREES, colour_at, place_of};
 use super::disjoint_sets::DisjointSets;
 use super::joint_blocks::{AxisLanes, JointClass};
-use super::joint_graph::{JOINT_PLACES, JOINT_TREES};
 use super::joints::{JointPlace, Joints};
 use crate::codec::{Data, Reader, Sink};
 use crate::describe::{JointDef, JointKind};
@@ -266,7 +266,7 @@ impl JointForest {
             walk.collect(bodies, joints, body, &mut found);
             found.joints.iter().for_each(|&joint| self.dissolve(joint));
             let tree = plant(bodies, joints, &found, &walk.places).unwrap_or_default();
-            let in_trees = tree.pace * JOINT_PLACES + JOINT_TREES;
+            let in_trees = place_of(tree.pace, TREES);
             self.insert(tree);
             for &joint in &found.joints {
                 let JointPlace::Graph { colour, .. } = joints.records[joint as usize].place else {
@@ -274,7 +274,7 @@ impl JointForest {
                 };
                 let place = usize::from(colour);
                 if self.tree_of[joint as usize] == NULL {
-                    if place % JOINT_PLACES == JOINT_TREES {
+                    if colour_at(place) == TREES {
                         moves.into_lanes.push(joint);
                     }
                 } else if place != in_trees {

@@ -1,30 +1,25 @@
-//! The constraint graph of joints: colours as in that of contacts, buckets by class.
+//! The constraint graph of joints: [colours](super::coloured) as in that of contacts, buckets by class.
 //!
-//! A joint keeps its colour while its bodies are awake; colours are given first-fit in the order in
-//! which joints come in. Between two dynamic bodies the lowest free colour, else the highest: joints
-//! to the ground are solved last. What finds no colour goes to the overflow. Joints of the
-//! [forest](super::joint_forest) have lanes of their own, which keep their numbers between steps.
+//! A joint keeps its colour while its bodies are awake. Joints of the [forest](super::joint_forest) have lanes of their
+//! own, which keep their numbers between steps.
 
 use super::blocks::move_lane;
 use super::bodies::Bodies;
 use super::clone::{clone_by_field, cloned_data};
+use super::coloured::{
+    Bucketful, COLOURS, Coloured, TREES, colour_at, give_colour_back, pace_at, place_of,
+    take_colour,
+};
 use super::joint_blocks::{
     DistanceBlock, DriveBlock, GearBlock, Impulses, JointClass, JointLanes, PrismaticBlock,
     PulleyBlock, RevoluteBlock, WeldBlock, WheelBlock,
 };
 use super::joint_forest::{JointForest, JointTree, is_rigid};
 use super::joints::{JointPlace, JointRecord, Joints};
-use super::pace::{PACES, PLAIN};
+use super::pace::PLAIN;
 use crate::footprint::footprint;
 use crate::simd::BLOCK;
 use crate::threads::Team;
-
-/// Number of colours of joints.
-pub(crate) const JOINT_COLOURS: usize = 24;
-/// Place of the joints that are solved directly, in trees: no colours of bodies keep them apart.
-pub(super) const JOINT_TREES: usize = JOINT_COLOURS + 1;
-/// Places of one pace: its colours, its overflow, its trees.
-pub(crate) const JOINT_PLACES: usize = JOINT_COLOURS + 2;
 
 /// Joints of one colour and class.
 #[derive(Debug, PartialEq)]
@@ -158,6 +153,12 @@ pub(crate) enum JointBlocks<'a> {
     Gear(&'a mut [GearBlock]),
 }
 
+impl Bucketful for JointColour {
+    fn is_empty(&self) -> bool {
+        self.count() == 0
+    }
+}
+
 impl JointColour {
     /// Number of joints.
     pub(crate) fn count(&self) -> usize {
@@ -180,9 +181,11 @@ impl JointColour {
         let length = if alone { usize::MAX } else { RUN };
         macro_rules! share_out {
             ($($bucket:ident: $class:ident),*) => {
-                $(team.for_each_chunk_mut(&mut self.$bucket.blocks, length, |_, blocks| {
-                    work(JointBlocks::$class(blocks));
-                });)*
+                $(if !self.$bucket.blocks.is_empty() {
+                    team.for_each_chunk_mut(&mut self.$bucket.blocks, length, |_, blocks| {
+                        work(JointBlocks::$class(blocks));
+                    });
+                })*
             };
         }
         share_out!(
@@ -199,10 +202,10 @@ impl JointColour {
 }
 
 /// All colours, the overflow and the trees.
-#[derive(Debug, PartialEq)]
+#[derive(Debug, PartialEq, Default)]
 pub(crate) struct JointGraph {
-    /// For each pace: colours, then the overflow, then the trees.
-    pub(crate) colours: Vec<JointColour>,
+    /// By place.
+    pub(crate) colours: Coloured<JointColour>,
     /// Plain substep length that the lanes were described for, seconds.
     pub(crate) described_h: f32,
     /// Some block is stale.
@@ -214,43 +217,41 @@ pub(crate) struct JointGraph {
 }
 
 cloned_data!(JointGraph { colours, described_h, any_stale, count, mixed, forest });
-footprint!(JointGraph { forest } each { colours } none { described_h, any_stale, count, mixed });
+footprint!(JointGraph { colours, forest } none { described_h, any_stale, count, mixed });
 
 impl JointGraph {
-    pub(crate) fn new() -> Self {
-        Self {
-            colours: (0..JOINT_PLACES * PACES).map(|_| JointColour::default()).collect(),
-            described_h: 0.0,
-            any_stale: false,
-            count: 0,
-            mixed: false,
-            forest: JointForest::default(),
-        }
+    /// The joints of a pace that are solved in lanes, in that order, and whether they are its overflow, in which they
+    /// may not be worked on at once.
+    pub(crate) fn in_lanes(
+        &mut self,
+        pace: usize,
+    ) -> impl Iterator<Item = (bool, &mut JointColour)> {
+        let [start, overflow, end] =
+            [0, COLOURS, TREES].map(|colour| self.colours.range(0..place_of(pace, colour)).end);
+        let list = &mut self.colours.list_mut()[start..end];
+        let (colours, last) = list.split_at_mut(overflow - start);
+        last.iter_mut().map(|c| (true, c)).chain(colours.iter_mut().map(|c| (false, c)))
     }
 
-    /// The colours of a pace, in which joints may be worked on at once, and its overflow, in which they may
-    /// not.
-    pub(crate) fn of_pace(&mut self, pace: usize) -> (&mut [JointColour], &mut JointColour) {
-        let first = pace * JOINT_PLACES;
-        let (colours, overflow) =
-            self.colours[first..first + JOINT_TREES].split_at_mut(JOINT_COLOURS);
-        (colours, &mut overflow[0])
-    }
-
-    /// The lanes of a pace's trees, and the trees of all paces.
-    pub(crate) fn trees_of_pace(&mut self, pace: usize) -> (&mut JointColour, &mut [JointTree]) {
-        (&mut self.colours[pace * JOINT_PLACES + JOINT_TREES], &mut self.forest.trees)
+    /// The lanes of a pace's trees, if it has any, and the trees of all paces.
+    pub(crate) fn trees_of_pace(
+        &mut self,
+        pace: usize,
+    ) -> Option<(&mut JointColour, &mut [JointTree])> {
+        let lanes = self.colours.get_mut(place_of(pace, TREES))?;
+        Some((lanes, &mut self.forest.trees))
     }
 
     /// Joints of all trees.
     pub(crate) fn count_in_trees(&self) -> usize {
-        self.colours.iter().skip(JOINT_TREES).step_by(JOINT_PLACES).map(JointColour::count).sum()
+        let all = self.colours.keys().zip(self.colours.list());
+        all.filter(|&(place, _)| colour_at(place) == TREES).map(|(_, joints)| joints.count()).sum()
     }
 
     /// The pace at which a joint is solved.
     pub(crate) fn pace_of(&self, record: &JointRecord) -> usize {
         match record.place {
-            JointPlace::Graph { colour, .. } => usize::from(colour) / JOINT_PLACES,
+            JointPlace::Graph { colour, .. } => pace_at(colour.into()),
             JointPlace::Asleep => PLAIN,
         }
     }
@@ -279,19 +280,20 @@ impl JointGraph {
 
     fn put_in_lanes(&mut self, bodies: &mut Bodies, joints: &mut Joints, index: u32) {
         let JointRecord { body_a: a, body_b: b, .. } = joints.records[index as usize];
-        let colour = bodies.common_pace(a, b) * JOINT_PLACES + take_colour(bodies, a, b);
-        self.put(joints, index, colour);
+        let colour = take_colour(bodies, [a, b], |info| &mut info.joint_colours);
+        self.put(joints, index, place_of(bodies.common_pace(a, b), colour));
     }
 
     /// Gives a joint lanes.
-    fn put(&mut self, joints: &mut Joints, index: u32, colour: usize) {
+    fn put(&mut self, joints: &mut Joints, index: u32, place: usize) {
         let record = &mut joints.records[index as usize];
         let Some(class) = record.class() else { return };
         let ends = [record.body_a, record.body_b];
-        let slot = with_bucket!([&mut] self.colours[colour], class, bucket => {
+        let lanes = self.colours.open(place);
+        let slot = with_bucket!([&mut] lanes, class, bucket => {
             bucket.push(index, ends, &record.saved)
         });
-        record.place = JointPlace::Graph { colour: colour as u8, slot };
+        record.place = JointPlace::Graph { colour: place as u8, slot };
         self.any_stale = true;
         self.count += 1;
     }
@@ -321,7 +323,8 @@ impl JointGraph {
         if let Some(moved) = moved {
             joints.records[moved as usize].place = JointPlace::Graph { colour, slot };
         }
-        give_colour_back(bodies, ends, usize::from(colour) % JOINT_PLACES);
+        self.colours.close(colour.into());
+        give_colour_back(bodies, ends, colour.into(), |info| &mut info.joint_colours);
         self.count -= 1;
     }
 
@@ -401,40 +404,6 @@ impl JointGraph {
     }
 }
 
-/// Finds a colour that neither dynamic body uses and marks it used.
-fn take_colour(bodies: &mut Bodies, a: u32, b: u32) -> usize {
-    const ALL: u32 = (1 << JOINT_COLOURS) - 1;
-    let (dynamic_a, dynamic_b) = (bodies.is_dynamic(a), bodies.is_dynamic(b));
-    let used =
-        |dynamic: bool, i: u32| if dynamic { bodies.infos[i as usize].joint_colours } else { 0 };
-    let free = !(used(dynamic_a, a) | used(dynamic_b, b)) & ALL;
-    if free == 0 {
-        return JOINT_COLOURS;
-    }
-    let colour = if dynamic_a && dynamic_b {
-        free.trailing_zeros()
-    } else {
-        u32::BITS - 1 - free.leading_zeros()
-    };
-    for (dynamic, i) in [(dynamic_a, a), (dynamic_b, b)] {
-        if dynamic {
-            bodies.infos[i as usize].joint_colours |= 1 << colour;
-        }
-    }
-    colour as usize
-}
-
-fn give_colour_back(bodies: &mut Bodies, ends: [u32; 2], colour: usize) {
-    if colour >= JOINT_COLOURS {
-        return;
-    }
-    for i in ends {
-        if bodies.is_dynamic(i) {
-            bodies.infos[i as usize].joint_colours &= !(1 << colour);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -466,7 +435,7 @@ mod tests {
             bodies.insert(BodyInfo { kind, ..BodyInfo::default() }, Pose::default());
         }
         let mut joints = Joints::default();
-        let mut graph = JointGraph::new();
+        let mut graph = JointGraph::default();
         let mut state = 3_u32;
         let mut random = |below: usize| {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -493,7 +462,7 @@ mod tests {
         }
         assert_eq!(graph.count(), 0);
         assert!(bodies.infos.iter().all(|info| info.joint_colours == 0));
-        assert!(graph.colours.iter().all(|colour| colour.count() == 0));
+        assert!(graph.colours.list().is_empty());
     }
 
     fn check(bodies: &Bodies, joints: &Joints, graph: &mut JointGraph) {
@@ -511,7 +480,7 @@ mod tests {
                 assert_eq!(frame.body_a[slot as usize % BLOCK], ends[0]);
                 assert_eq!(frame.body_b[slot as usize % BLOCK], ends[1]);
             });
-            if usize::from(colour) % JOINT_PLACES >= JOINT_COLOURS {
+            if colour_at(colour.into()) >= COLOURS {
                 continue;
             }
             for end in ends.into_iter().filter(|&end| bodies.is_dynamic(end)) {

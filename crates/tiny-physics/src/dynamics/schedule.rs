@@ -1,6 +1,7 @@
 //! Who works on which blocks of the graph, and when.
 
-use super::graph::{BlockAddress, Graph, is_overflow};
+use super::coloured::{COLOURS, is_overflow, place_of};
+use super::graph::{BlockAddress, Graph, key};
 use crate::geometry::manifold::PairClass;
 use core::ops::Range;
 
@@ -8,6 +9,8 @@ use core::ops::Range;
 #[derive(Clone, Debug)]
 pub(crate) struct Run {
     pub(crate) place: usize,
+    /// Where in the graph's list the bucket is.
+    pub(crate) bucket: usize,
     pub(crate) class: PairClass,
     pub(crate) blocks: Range<usize>,
     /// Where in its bucket the run begins, 0 to 1.
@@ -16,59 +19,82 @@ pub(crate) struct Run {
 
 /// The runs of one place, which are worked on at the same time: no two share a moving body, unless the place
 /// is an overflow, whose runs are for one member alone.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Stage<'a> {
     pub(crate) place: usize,
+    /// Where in the graph's list the buckets of the place are.
+    pub(crate) buckets: Range<usize>,
     pub(crate) runs: &'a [Run],
     /// Runs that one member takes at a time.
     pub(crate) chunk: usize,
 }
 
-/// The runs of some places of the graph, stage by stage.
+/// A stage whose runs are somewhere in a list.
+#[derive(Clone, Debug)]
+struct Listed {
+    place: usize,
+    buckets: Range<usize>,
+    runs: Range<usize>,
+    chunk: usize,
+}
+
+/// The runs of some places of the graph, stage by stage. It holds until buckets come to the graph or leave it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Schedule {
     runs: Vec<Run>,
-    /// Place, its runs, and how many of them are one chunk.
-    stages: Vec<(usize, Range<usize>, usize)>,
+    stages: Vec<Listed>,
     blocks: usize,
 }
 
 crate::footprint::footprint!(Schedule { runs, stages } none { blocks });
 
 impl Schedule {
-    /// Lists the occupied ones of these places in their order, in runs of up to `len` blocks.
+    /// Lists all places in runs of up to `len` blocks.
+    pub(crate) fn fill(&mut self, graph: &Graph, len: usize) {
+        self.clear();
+        self.add(graph, 0..graph.buckets.list().len(), len);
+    }
+
+    /// Lists the places of a pace in the order in which they are solved: its overflow, then its colours.
+    pub(crate) fn fill_pace(&mut self, graph: &Graph, pace: usize, len: usize) {
+        let start = |colour: usize| place_of(pace, colour) * PairClass::COUNT;
+        self.clear();
+        for places in [COLOURS..COLOURS + 1, 0..COLOURS] {
+            let buckets = graph.buckets.range(start(places.start)..start(places.end));
+            self.add(graph, buckets, len);
+        }
+    }
+
+    /// Lists places by their buckets.
     ///
     /// The runs of a colour go by where in their buckets they are, so that a member, which starts from its own part
     /// of the list, comes by the same parts of all buckets. What that saves has not been measured by itself.
-    pub(crate) fn fill(
-        &mut self,
-        graph: &Graph,
-        places: impl IntoIterator<Item = usize>,
-        len: usize,
-    ) {
-        self.clear();
-        for place in places {
-            let first = self.runs.len();
-            for (bucket, class) in graph.buckets[place].iter().zip(PairClass::ALL) {
-                let count = bucket.manifolds.len();
-                self.runs.extend((0..count).step_by(len).map(|start| Run {
-                    place,
-                    class,
-                    blocks: start..count.min(start + len),
-                    at: start as f32 / count as f32,
-                }));
+    fn add(&mut self, graph: &Graph, buckets: Range<usize>, len: usize) {
+        let (mut first, mut start) = (self.runs.len(), buckets.start);
+        let mut all = graph.all().enumerate().skip(start).take(buckets.len()).peekable();
+        while let Some((index, (place, class, bucket))) = all.next() {
+            let count = bucket.manifolds.len();
+            self.runs.extend((0..count).step_by(len).map(|start| Run {
+                place,
+                bucket: index,
+                class,
+                blocks: start..count.min(start + len),
+                at: start as f32 / count as f32,
+            }));
+            if all.peek().is_none_or(|&(_, (next, ..))| next != place) {
+                if !is_overflow(place) && self.runs.len() > first + 1 {
+                    self.runs[first..].sort_unstable_by(|a, b| {
+                        a.at.total_cmp(&b.at).then_with(|| a.class.cmp(&b.class))
+                    });
+                }
+                self.end_stage(place, start..index + 1, first, len);
+                (first, start) = (self.runs.len(), index + 1);
             }
-            if !is_overflow(place) {
-                self.runs[first..].sort_unstable_by(|a, b| {
-                    a.at.total_cmp(&b.at).then_with(|| a.class.cmp(&b.class))
-                });
-            }
-            self.end_stage(place, first, len);
         }
     }
 
     /// Lists single blocks, sorted and each once, in runs of up to `len` of neighbours.
-    pub(crate) fn fill_with(&mut self, blocks: &[BlockAddress], len: usize) {
+    pub(crate) fn fill_with(&mut self, graph: &Graph, blocks: &[BlockAddress], len: usize) {
         self.clear();
         for blocks in blocks.chunk_by(|a, b| a.0 == b.0) {
             let (place, first) = (usize::from(blocks[0].0), self.runs.len());
@@ -79,10 +105,15 @@ impl Schedule {
                 });
                 match run {
                     Some(run) => run.blocks.end += 1,
-                    None => self.runs.push(Run { place, class, blocks: block..block + 1, at: 0.0 }),
+                    None => {
+                        let bucket = graph.buckets.position(key(place, class));
+                        let blocks = block..block + 1;
+                        self.runs.push(Run { place, bucket, class, blocks, at: 0.0 });
+                    }
                 }
             }
-            self.end_stage(place, first, len);
+            let (start, end) = (self.runs[first].bucket, self.runs[self.runs.len() - 1].bucket);
+            self.end_stage(place, start..end + 1, first, len);
         }
     }
 
@@ -92,16 +123,13 @@ impl Schedule {
         self.blocks = 0;
     }
 
-    /// Makes a stage of the runs from `first` on, if there are any. A chunk has about `len` blocks, so that few
-    /// blocks are no reason to wake threads, in however many buckets they are.
-    fn end_stage(&mut self, place: usize, first: usize, len: usize) {
+    /// Makes a stage of the runs from `first` on. A chunk has about `len` blocks, so that few blocks are no reason to
+    /// wake threads, in however many buckets they are.
+    fn end_stage(&mut self, place: usize, buckets: Range<usize>, first: usize, len: usize) {
         let runs = &self.runs[first..];
-        if runs.is_empty() {
-            return;
-        }
         let blocks = runs.iter().map(|run| run.blocks.len()).sum::<usize>();
         let chunk = if is_overflow(place) { usize::MAX } else { chunk(runs.len(), blocks, len) };
-        self.stages.push((place, first..self.runs.len(), chunk));
+        self.stages.push(Listed { place, buckets, runs: first..self.runs.len(), chunk });
         self.blocks += blocks;
     }
 
@@ -112,10 +140,11 @@ impl Schedule {
 
     /// The stages.
     pub(crate) fn stages(&self) -> impl Iterator<Item = Stage<'_>> {
-        self.stages.iter().map(|(place, runs, chunk)| Stage {
-            place: *place,
-            runs: &self.runs[runs.clone()],
-            chunk: *chunk,
+        self.stages.iter().map(|stage| Stage {
+            place: stage.place,
+            buckets: stage.buckets.clone(),
+            runs: &self.runs[stage.runs.clone()],
+            chunk: stage.chunk,
         })
     }
 }

@@ -53,7 +53,7 @@ impl Stores {
             };
             contacts.insert(&mut bodies, contact);
         }
-        Self { bodies, contacts, graph: Graph::new() }
+        Self { bodies, contacts, graph: Graph::default() }
     }
 
     fn insert(&mut self, team: &Team, indices: impl Iterator<Item = u32>) {
@@ -73,7 +73,7 @@ impl Stores {
             let contact = &self.contacts.records[index as usize];
             let Place::Graph { colour, slot } = contact.place else { panic!("{index} is not in") };
             assert_eq!(usize::from(colour) == IDLE, !contact.touching, "{index}");
-            let bucket = &self.graph.buckets[usize::from(colour)][contact.class as usize];
+            let bucket = self.graph.bucket(colour.into(), contact.class);
             assert_eq!(bucket.contacts[slot as usize], index);
             assert_eq!(bucket.bodies(slot as usize), (contact.body_a, contact.body_b));
             count += 1;
@@ -123,7 +123,7 @@ fn a_schedule_has_every_block_once() {
     let mut stores = Stores::new(3000);
     stores.insert(&Team::alone(), 0..3000);
     let mut schedule = Schedule::default();
-    schedule.fill(&stores.graph, 0..=IDLE, 4);
+    schedule.fill(&stores.graph, 4);
     let mut seen: Vec<_> = schedule
         .stages()
         .flat_map(|stage| stage.runs.iter().inspect(move |run| assert_eq!(run.place, stage.place)))
@@ -131,14 +131,10 @@ fn a_schedule_has_every_block_once() {
         .collect();
     assert_eq!(schedule.runs(4).0.len(), schedule.stages().map(|s| s.runs.len()).sum::<usize>());
     seen.sort_unstable();
-    let buckets = stores.graph.buckets.iter().enumerate().flat_map(|(place, buckets)| {
-        buckets.iter().enumerate().map(move |(class, bucket)| (place, class, bucket))
-    });
-    let all: Vec<_> = buckets
-        .flat_map(|(place, class, bucket)| {
-            (0..bucket.manifolds.len()).map(move |block| (place, class, block))
-        })
-        .collect();
+    let blocks = |(place, class, bucket): (usize, PairClass, &Bucket)| {
+        (0..bucket.manifolds.len()).map(move |block| (place, class as usize, block))
+    };
+    let all: Vec<_> = stores.graph.all().flat_map(blocks).collect();
     assert_eq!(seen, all);
     assert!(all.iter().any(|&(place, ..)| is_overflow(place)), "no overflow to test");
     // An overflow is for one member, and in order.
@@ -154,7 +150,7 @@ fn few_blocks_are_one_chunk() {
     let mut stores = Stores::new(30);
     stores.insert(&Team::alone(), 0..30);
     let mut schedule = Schedule::default();
-    schedule.fill(&stores.graph, 0..=IDLE, 8);
+    schedule.fill(&stores.graph, 8);
     assert!(schedule.stages().any(|stage| stage.runs.len() > 1), "one kind of pair alone");
     for stage in schedule.stages() {
         assert!(stage.chunk >= stage.runs.len());
@@ -163,11 +159,37 @@ fn few_blocks_are_one_chunk() {
 
 #[test]
 fn listed_blocks_make_runs_of_neighbours() {
+    let mut stores = Stores::new(3000);
+    stores.insert(&Team::alone(), 0..3000);
+    // Two classes of one place, and one of another.
+    let all: Vec<_> = stores.graph.all().map(|(place, class, _)| (place, class as usize)).collect();
+    let at = (1..all.len() - 1).find(|&i| all[i].0 == all[i - 1].0 && all[i].0 != all[i + 1].0);
+    let at = at.expect("two classes of a place, and another place");
+    let [first, second, third] = [all[at - 1], all[at], all[at + 1]];
+    let listed = [(first, 1), (first, 2), (first, 4), (second, 5), (third, 6)];
+    let listed = listed.map(|((place, class), block)| (place as u8, class as u8, block));
     let mut schedule = Schedule::default();
-    schedule.fill_with(&[(0, 0, 1), (0, 0, 2), (0, 0, 4), (0, 1, 5), (3, 1, 6)], 8);
+    schedule.fill_with(&stores.graph, &listed, 8);
     let runs = |stage: Stage<'_>| -> Vec<_> {
-        stage.runs.iter().map(|run| (stage.place, run.class as usize, run.blocks.clone())).collect()
+        assert_eq!(stage.buckets.len(), if stage.place == first.0 { 2 } else { 1 });
+        let run = |run: &Run| ((stage.place, run.class as usize), run.blocks.clone());
+        stage.runs.iter().map(run).collect()
     };
     let stages: Vec<_> = schedule.stages().map(runs).collect();
-    assert_eq!(stages, [vec![(0, 0, 1..3), (0, 0, 4..5), (0, 1, 5..6)], vec![(3, 1, 6..7)]]);
+    assert_eq!(stages, [vec![(first, 1..3), (first, 4..5), (second, 5..6)], vec![(third, 6..7)]]);
+}
+
+/// Copies into a store keep what both have and forget the rest; empty buckets are gone from both.
+#[test]
+fn a_copy_into_another_graph_is_that_graph() {
+    let (mut full, mut small) = (Stores::new(900), Stores::new(900));
+    full.insert(&Team::alone(), 0..900);
+    small.insert(&Team::alone(), 0..40);
+    let mut copy = full.graph.clone();
+    for source in [&small.graph, &full.graph, &Graph::default(), &small.graph] {
+        copy.clone_from(source);
+        assert_eq!(&copy, source);
+    }
+    small.remove(&Team::alone(), 0..40);
+    assert_eq!(small.graph.buckets.list().len(), 0);
 }

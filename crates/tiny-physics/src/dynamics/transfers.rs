@@ -5,8 +5,7 @@
 
 use super::bodies::Bodies;
 use super::contacts::{Contacts, Place};
-use super::graph::{Bucket, Graph};
-use crate::geometry::manifold::PairClass;
+use super::graph::{Bucket, Graph, key, place_at};
 use crate::threads::{SharedSlice, Team};
 use core::ops::Range;
 
@@ -40,7 +39,7 @@ impl Transfers {
             let contact = &mut contacts.records[index as usize];
             if contact.place == Place::Asleep {
                 let (place, slot) = graph.admit(bodies, contact, index);
-                self.moves.push((flat(place, contact.class), slot, index));
+                self.moves.push((key(place, contact.class) as u32, slot, index));
             }
         }
         self.group();
@@ -65,7 +64,7 @@ impl Transfers {
         for index in indices {
             let contact = &contacts.records[index as usize];
             if let Some((place, slot)) = graph.dismiss(bodies, contact) {
-                self.moves.push((flat(place, contact.class), slot, index));
+                self.moves.push((key(place, contact.class) as u32, slot, index));
             }
         }
         self.group();
@@ -76,6 +75,9 @@ impl Transfers {
                 bucket.take_out(place, slot, records);
             }
         });
+        for group in &self.groups {
+            graph.buckets.close(self.moves[group.start].0 as usize);
+        }
     }
 
     /// Sorts the moves by bucket and slot.
@@ -100,18 +102,12 @@ impl Transfers {
     ) {
         let Self { moves, groups } = self;
         let chunk = if moves.len() < MANY { usize::MAX } else { 1 };
-        let buckets = SharedSlice::new(graph.buckets.as_flattened_mut());
+        let buckets = graph.buckets.share();
         team.for_each_chunk(groups.len(), chunk, |range| {
             for moves in groups[range].iter().map(|group| &moves[group.clone()]) {
-                let index = moves[0].0;
-                let place = index as usize / PairClass::COUNT;
-                buckets.update(index, |bucket| work(bucket, place, moves));
+                let key = moves[0].0 as usize;
+                buckets.update(key, |bucket| work(bucket, place_at(key), moves));
             }
         });
     }
-}
-
-/// The number of a bucket among all.
-fn flat(place: usize, class: PairClass) -> u32 {
-    (place * PairClass::COUNT + class as usize) as u32
 }

@@ -75,6 +75,17 @@ impl SimdLevel {
         }
     }
 
+    /// The level with the fewest lanes, up to those of this one, that takes so many at once: for a few contacts wide
+    /// lanes gather and scatter for nothing.
+    #[inline]
+    pub(crate) fn for_count(self, count: usize) -> Self {
+        match self {
+            Self::Avx2 | Self::Avx512 if count <= 4 => Self::Sse2,
+            Self::Avx512 if count <= 8 => Self::Avx2,
+            _ => self,
+        }
+    }
+
     #[allow(unreachable_patterns, reason = "each platform has its own part of the levels")]
     fn of(level: Level) -> Self {
         match level {

@@ -2,7 +2,7 @@
 //!
 //! They are not kept from step to step; what needs them finds them anew.
 
-use crate::dynamics::{Bodies, Contacts, DisjointSets, Graph, IDLE, JointGraph, Joints};
+use crate::dynamics::{Bodies, Contacts, DisjointSets, Graph, JointGraph, Joints};
 
 /// The stores that change when islands fall asleep, wake, or are solved at another pace.
 pub(crate) struct Stores<'a> {
@@ -40,6 +40,6 @@ impl Islands {
 
 /// The bodies of every touching contact that is awake.
 pub(crate) fn touching(graph: &Graph) -> impl Iterator<Item = (u32, u32)> + '_ {
-    let buckets = graph.buckets[..IDLE].iter().flatten();
-    buckets.flat_map(|bucket| (0..bucket.contacts.len()).map(|slot| bucket.bodies(slot)))
+    let buckets = graph.touching_buckets();
+    buckets.flat_map(|(_, bucket)| (0..bucket.contacts.len()).map(|slot| bucket.bodies(slot)))
 }

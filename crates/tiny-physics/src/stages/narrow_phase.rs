@@ -7,14 +7,12 @@
 
 use super::surfaces::{self, LanePoints, Surroundings};
 use crate::dynamics::{
-    BlockHead, BodyInfo, Bucket, ConstraintBlock, Graph, ManifoldBlock, NULL, Schedule,
-    ShapeRecord, Stage, SurfaceBlock, flags,
+    BlockHead, Blocks, BodyInfo, Graph, ManifoldBlock, NULL, Schedule, ShapeRecord, flags,
 };
 use crate::geometry::manifold::{self, LaneManifold, LanePair, PairClass};
 use crate::math::{Pose, Rot, Transform, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, Row, SimdLevel, dispatch};
-use crate::threads::{SharedSlice, Team};
-use core::ops::Range;
+use crate::threads::Team;
 
 /// What the narrow phase reads.
 #[derive(Clone, Copy)]
@@ -32,61 +30,13 @@ pub(crate) struct Context<'a> {
     pub(crate) surroundings: Surroundings<'a>,
 }
 
-/// Blocks of one bucket that are updated together.
-struct Blocks<'a> {
-    manifolds: &'a mut [ManifoldBlock],
-    heads: &'a mut [BlockHead],
-    /// Empty for contacts that do not touch.
-    constraints: &'a mut [ConstraintBlock],
-    surfaces: &'a mut [SurfaceBlock],
-    /// Contacts in these blocks; the last block may be part full.
-    count: usize,
-}
-
 /// Blocks that one member of the team updates at a time.
 pub(crate) const CHUNK: usize = 4;
 
 /// Updates the blocks of a schedule.
 pub(crate) fn run(team: &Team, context: Context<'_>, graph: &mut Graph, schedule: &Schedule) {
-    for Stage { place, runs, chunk } in schedule.stages() {
-        let parts = graph.buckets[place].each_mut().map(Part::new);
-        team.for_each_chunk(runs.len(), chunk, |range| {
-            for run in &runs[range] {
-                update(context, run.class, parts[run.class as usize].blocks(run.blocks.clone()));
-            }
-        });
-    }
-}
-
-/// A bucket, shared between members of the team.
-#[derive(Clone, Copy)]
-struct Part<'a> {
-    count: usize,
-    manifolds: SharedSlice<'a, ManifoldBlock>,
-    heads: SharedSlice<'a, BlockHead>,
-    constraints: SharedSlice<'a, ConstraintBlock>,
-    surfaces: SharedSlice<'a, SurfaceBlock>,
-}
-
-impl<'a> Part<'a> {
-    fn new(bucket: &'a mut Bucket) -> Self {
-        Self {
-            count: bucket.contacts.len(),
-            manifolds: SharedSlice::new(&mut bucket.manifolds),
-            heads: SharedSlice::new(&mut bucket.heads),
-            constraints: SharedSlice::new(&mut bucket.constraints),
-            surfaces: SharedSlice::new(&mut bucket.surfaces),
-        }
-    }
-
-    fn blocks(self, range: Range<usize>) -> Blocks<'a> {
-        Blocks {
-            count: self.count.min(range.end * BLOCK) - range.start * BLOCK,
-            manifolds: self.manifolds.range(range.clone()),
-            heads: self.heads.range(range.clone()),
-            constraints: self.constraints.range(range.clone()),
-            surfaces: self.surfaces.range(range),
-        }
+    for stage in schedule.stages() {
+        graph.for_each_run(team, &stage, |class, blocks| update(context, class, blocks));
     }
 }
 
@@ -103,7 +53,8 @@ fn update(context: Context<'_>, class: PairClass, blocks: Blocks<'_>) {
 }
 
 fn run_kernel<K: PairKernel>(context: Context<'_>, blocks: Blocks<'_>) {
-    dispatch(context.level, Update::<K> { context, blocks, kernel: core::marker::PhantomData });
+    let level = context.level.for_count(blocks.count);
+    dispatch(level, Update::<K> { context, blocks, kernel: core::marker::PhantomData });
 }
 
 /// A manifold kernel for a class of pairs.

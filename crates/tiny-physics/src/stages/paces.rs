@@ -11,7 +11,7 @@
 use super::islands::{Islands, Stores};
 use crate::describe::BodyKind;
 use crate::dynamics::{
-    Bodies, Bucket, Graph, IDLE, JointPlace, NULL, PACES, PLAIN, Place, PointLanes, REFINEMENT,
+    Bodies, Bucket, Graph, JointPlace, NULL, PACES, PLAIN, Place, PointLanes, REFINEMENT,
     next_edge, pace_at,
 };
 use crate::math::Vec2;
@@ -124,8 +124,8 @@ fn is_due(stores: &Stores<'_>, rules: Rules) -> bool {
 /// Would a point between two moving bodies of the plain pace sink visibly?
 fn is_any_strained(bodies: &Bodies, graph: &Graph, rules: Rules) -> bool {
     let least = VISIBLE[1] * rules.length_unit * rules.omega_squared / rules.inv_h;
-    let plain = graph.buckets[..IDLE].iter().enumerate().filter(|&(at, _)| pace_at(at) == PLAIN);
-    let mut blocks = plain.flat_map(|(_, buckets)| buckets).flat_map(|bucket| &bucket.constraints);
+    let plain = graph.touching_buckets().take_while(|&(place, _)| pace_at(place) == PLAIN);
+    let mut blocks = plain.flat_map(|(_, bucket)| &bucket.constraints);
     blocks.any(|block| {
         let strained = |lane: usize| {
             let over =
@@ -182,24 +182,22 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         island.bodies += 1;
         island.pace = island.pace.max(bodies.infos[body as usize].pace);
     }
-    for (at, buckets) in graph.buckets[..IDLE].iter().enumerate() {
-        let refinement = REFINEMENT[pace_at(at)] as f32;
+    for (place, bucket) in graph.touching_buckets() {
+        let refinement = REFINEMENT[pace_at(place)] as f32;
         let scale = refinement * rules.inv_h / rules.omega_squared;
-        for bucket in buckets {
-            for slot in 0..bucket.contacts.len() {
-                let (a, b) = bucket.bodies(slot);
-                if !(bodies.is_dynamic(a) && bodies.is_dynamic(b)) {
-                    continue;
-                }
-                let island = &mut found[islands.root(a) as usize];
-                if island.bodies > rules.most_bodies {
-                    continue;
-                }
-                let speed = (bodies.velocity(b) - bodies.velocity(a)).length();
-                island.lively |= speed > LIVELY * rules.length_unit;
-                if speed < SETTLED * rules.length_unit {
-                    island.strain = island.strain.max(scale * greatest_load(bucket, slot));
-                }
+        for slot in 0..bucket.contacts.len() {
+            let (a, b) = bucket.bodies(slot);
+            if !(bodies.is_dynamic(a) && bodies.is_dynamic(b)) {
+                continue;
+            }
+            let island = &mut found[islands.root(a) as usize];
+            if island.bodies > rules.most_bodies {
+                continue;
+            }
+            let speed = (bodies.velocity(b) - bodies.velocity(a)).length();
+            island.lively |= speed > LIVELY * rules.length_unit;
+            if speed < SETTLED * rules.length_unit {
+                island.strain = island.strain.max(scale * greatest_load(bucket, slot));
             }
         }
     }

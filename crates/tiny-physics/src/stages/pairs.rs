@@ -7,8 +7,7 @@
 use crate::broad_phase::{BroadPhase, ProxyId, sort_pairs};
 use crate::describe::Settings;
 use crate::dynamics::{
-    Bodies, Contact, Contacts, Graph, IDLE, Joints, NULL, Place, SavedPoint, Schedule, Shapes,
-    Waiting,
+    Bodies, Contact, Contacts, Graph, Joints, NULL, Place, SavedPoint, Schedule, Shapes, Waiting,
 };
 use crate::footprint::footprint;
 use crate::geometry::manifold::PairClass;
@@ -181,12 +180,12 @@ impl Search {
     }
 
     fn find_parted_in_graph(&mut self, team: &Team, shapes: &Shapes, graph: &Graph) {
-        self.schedule.fill(graph, 0..=IDLE, SCANNED);
+        self.schedule.fill(graph, SCANNED);
         let ((runs, chunk), moved) = (self.schedule.runs(SCANNED), &self.moved);
         let chunks = team.map_chunks(runs.len(), chunk, &mut self.found_parted, |range, parted| {
             parted.clear();
             for run in &runs[range] {
-                let bucket = &graph.buckets[run.place][run.class as usize];
+                let bucket = &graph.buckets.list()[run.bucket];
                 let slots = run.blocks.start * BLOCK..;
                 let contacts = bucket.contacts[slots].chunks(BLOCK);
                 for (contacts, block) in contacts.zip(&bucket.manifolds[run.blocks.clone()]) {

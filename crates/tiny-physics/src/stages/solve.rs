@@ -7,7 +7,7 @@ use super::contact_solver::{self, BounceMemory, Parameters, Pass, Softness};
 use super::islands::Stores;
 use super::{integrate, joint_solver, paces};
 use crate::describe::Settings;
-use crate::dynamics::{JointLoad, PACES, PLAIN, REFINEMENT, Schedule, places_of};
+use crate::dynamics::{JointLoad, PACES, PLAIN, REFINEMENT, Schedule};
 use crate::footprint::footprint;
 use crate::math::Vec2;
 use crate::simd::SimdLevel;
@@ -124,6 +124,9 @@ impl Solver {
             let mut listed = core::mem::take(&mut self.listed);
             for pace in (0..PACES).rev() {
                 paces::list_bodies(stores.bodies, pace, &mut listed);
+                if listed.is_empty() {
+                    continue;
+                }
                 let lengths = rules.lengths.refined(pace);
                 self.solve_pace(team, stores, Rules { lengths, ..rules }, pace, &listed);
             }
@@ -150,7 +153,7 @@ impl Solver {
         let Rules { settings, gravity, level, lengths } = rules;
         let h = lengths.h;
         let parameters = rules.contact_parameters();
-        schedule.fill(stores.graph, places_of(pace), contact_solver::CHUNK);
+        schedule.fill_pace(stores.graph, pace, contact_solver::CHUNK);
         prepare_joints(team, stores, level, pace, h);
         integrate::prepare(team, listed, stores.bodies, gravity, h);
         let Stores { bodies, graph, .. } = stores;
@@ -189,13 +192,13 @@ impl Solver {
 fn prepare_joints(team: &Team, stores: &mut Stores<'_>, level: SimdLevel, pace: usize, h: f32) {
     let Stores { joint_graph, joints, bodies, .. } = stores;
     let poses = &bodies.poses;
-    let (colours, overflow) = joint_graph.of_pace(pace);
-    for colour in colours.iter_mut().chain([overflow]) {
-        colour.for_each_run(team, |blocks| joint_solver::prepare(level, poses, h, blocks));
+    for (_, lanes) in joint_graph.in_lanes(pace) {
+        lanes.for_each_run(team, |blocks| joint_solver::prepare(level, poses, h, blocks));
     }
-    let (lanes, trees) = joint_graph.trees_of_pace(pace);
-    lanes.for_each_run(team, |blocks| joint_solver::prepare(level, poses, h, blocks));
-    joint_solver::trees::prepare(team, pace, lanes, trees, joints);
+    if let Some((lanes, trees)) = joint_graph.trees_of_pace(pace) {
+        lanes.for_each_run(team, |blocks| joint_solver::prepare(level, poses, h, blocks));
+        joint_solver::trees::prepare(team, pace, lanes, trees, joints);
+    }
 }
 
 /// Runs one pass over all joints: the overflow one by one, then colour by colour, then tree by tree.
@@ -213,14 +216,16 @@ fn run_joints(
     }
     let rows = SharedRows::new(&mut bodies.rows);
     let inv_h = 1.0 / h;
-    let (colours, overflow) = joint_graph.of_pace(pace);
-    overflow.for_each_run(&Team::alone(), |blocks| {
-        joint_solver::run_in_order(pass, inv_h, rows, blocks);
-    });
-    for colour in colours {
-        colour.for_each_run(team, |blocks| joint_solver::run(level, pass, inv_h, rows, blocks));
+    for (in_order, lanes) in joint_graph.in_lanes(pace) {
+        if in_order {
+            lanes.for_each_run(&Team::alone(), |blocks| {
+                joint_solver::run_in_order(pass, inv_h, rows, blocks);
+            });
+        } else {
+            lanes.for_each_run(team, |blocks| joint_solver::run(level, pass, inv_h, rows, blocks));
+        }
     }
-    let (lanes, trees) = joint_graph.trees_of_pace(pace);
+    let Some((lanes, trees)) = joint_graph.trees_of_pace(pace) else { return };
     joint_solver::trees::run(team, pace, pass, inv_h, rows, trees);
     // Loads are read from the lanes: after the step, and in each substep where joints can break.
     let breakable = !joints.breakable.is_empty();

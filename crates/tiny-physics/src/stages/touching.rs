@@ -44,7 +44,7 @@ impl Changes {
     }
 
     fn look(&mut self, graph: &Graph, run: &Run) {
-        let bucket = &graph.buckets[run.place][run.class as usize];
+        let bucket = &graph.buckets.list()[run.bucket];
         for block in run.blocks.clone() {
             let touching = bucket.heads[block].touching;
             let first = block * BLOCK;

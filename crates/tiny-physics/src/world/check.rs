@@ -6,8 +6,8 @@ use super::World;
 use crate::broad_phase::ProxyId;
 use crate::describe::BodyKind;
 use crate::dynamics::{
-    BodyInfo, Bucket, Contact, FrameLanes, IDLE, JOINT_PLACES, JointBucket, JointClass, JointLanes,
-    JointPlace, JointRecord, NULL, PACES, PLAIN, Place, guard,
+    BodyInfo, Bucket, Contact, FrameLanes, IDLE, JointBucket, JointClass, JointLanes, JointPlace,
+    JointRecord, NULL, PACES, PLAIN, Place, guard,
 };
 use crate::geometry::manifold::{PairClass, ShapeClass};
 use crate::simd::BLOCK;
@@ -205,11 +205,10 @@ impl World {
 
     fn check_graph(&self) -> Check {
         let mut placed = 0;
-        for (colour, buckets) in self.state.graph.buckets.iter().enumerate() {
-            for (class, bucket) in PairClass::ALL.into_iter().zip(buckets) {
-                self.check_bucket(colour, class, bucket)?;
-                placed += bucket.contacts.len();
-            }
+        for (place, class, bucket) in self.state.graph.all() {
+            ensure(place <= IDLE, "a place is unknown")?;
+            self.check_bucket(place, class, bucket)?;
+            placed += bucket.contacts.len();
         }
         let alive = self.state.contacts.records.iter().filter(|contact| contact.alive);
         let waiting = alive.filter(|contact| contact.place != Place::Asleep).count();
@@ -278,8 +277,8 @@ impl World {
 
     fn check_joint_graph(&self) -> Check {
         let graph = &self.state.joint_graph;
-        ensure(graph.colours.len() == JOINT_PLACES * PACES, "colours of joints are missing")?;
-        for (colour, buckets) in graph.colours.iter().enumerate() {
+        for (colour, buckets) in graph.colours.keys().zip(graph.colours.list()) {
+            ensure(colour < IDLE, "a place is unknown")?;
             self.check_joint_bucket(colour, JointClass::Distance, &buckets.distance)?;
             self.check_joint_bucket(colour, JointClass::Revolute, &buckets.revolute)?;
             self.check_joint_bucket(colour, JointClass::Prismatic, &buckets.prismatic)?;
@@ -291,7 +290,7 @@ impl World {
         }
         let in_trees = graph.count_in_trees();
         ensure(graph.forest.is_stale() || graph.forest.count() == in_trees, "trees lack joints")?;
-        let placed: usize = graph.colours.iter().map(|colour| colour.count()).sum();
+        let placed: usize = graph.colours.list().iter().map(|colour| colour.count()).sum();
         let records = self.state.joints.records.iter().filter(|record| record.alive);
         let waiting = records.filter(|record| record.place != JointPlace::Asleep).count();
         ensure(placed == graph.count && placed == waiting, "joints are lost")

@@ -5,7 +5,7 @@ use super::events::{ContactBegin, ContactEnd, Hit};
 use super::ids::{BodyId, ShapeId};
 use super::state::State;
 use crate::describe::BodyKind;
-use crate::dynamics::{Bucket, IDLE, NULL, flags};
+use crate::dynamics::{Bucket, NULL, flags};
 use crate::math::{DVec2, Vec2};
 use crate::simd::BLOCK;
 use crate::stages::islands::Stores;
@@ -59,7 +59,7 @@ impl World {
     /// The contacts that touch (or are about to) and are awake, as of the last step, in a fixed order
     /// that threads do not change.
     pub fn contacts(&self) -> impl Iterator<Item = ContactView> + '_ {
-        self.state.graph.buckets[..IDLE].iter().flatten().flat_map(move |bucket| {
+        self.state.graph.touching_buckets().flat_map(move |(_, bucket)| {
             (0..bucket.contacts.len()).map(move |slot| self.view(bucket, slot))
         })
     }
@@ -117,7 +117,7 @@ impl World {
     pub(super) fn collect_hits(&mut self) {
         let threshold = self.settings.hit_event_threshold * self.settings.length_unit;
         let mut hits = core::mem::take(&mut self.state.events.hits);
-        for bucket in self.state.graph.buckets[..IDLE].iter().flatten() {
+        for (_, bucket) in self.state.graph.touching_buckets() {
             for (block, head) in bucket.heads.iter().enumerate() {
                 if head.flags & flags::HIT == 0 {
                     continue;

@@ -53,7 +53,8 @@ impl World {
     }
 
     fn hash_contacts(&self, hasher: &mut Hasher) {
-        for bucket in self.state.graph.buckets.iter().flatten() {
+        for (place, class, bucket) in self.state.graph.all() {
+            hasher.record(&(place as u32, class as u32));
             bucket.contacts.save(hasher);
             for (slot, saved) in bucket.saved_points().enumerate() {
                 hasher.record(&saved);

@@ -8,6 +8,7 @@ use super::World;
 use super::contacts::ContactView;
 use super::ids::{BodyId, ShapeId};
 use crate::dynamics::{Bodies, Bucket, IDLE, Shapes, Slot, flags};
+use crate::geometry::manifold::PairClass;
 use crate::simd::BLOCK;
 use crate::stages::pairs::PairRule;
 use crate::threads::Team;
@@ -91,8 +92,8 @@ impl PairRule for Hooks {
 /// Contacts that one member of the team asks about at a time.
 const CHUNK: usize = 64;
 
-/// A contact of the graph: colour, class, slot.
-pub(super) type At = (u8, u8, u32);
+/// A contact of the graph: place, class, slot.
+pub(super) type At = (u8, PairClass, u32);
 
 impl World {
     /// Sets a function that decides, beyond the filters of the shapes, which pairs may collide. It is asked when
@@ -177,7 +178,7 @@ impl World {
             answers.clear();
             answers.extend(places[range].iter().map(|&at| {
                 let mut rules = world.rules(at);
-                let bucket = &world.state.graph.buckets[usize::from(at.0)][usize::from(at.1)];
+                let bucket = world.state.graph.bucket(at.0.into(), at.1);
                 hook(world, &world.view(bucket, at.2 as usize), &mut rules);
                 rules
             }));
@@ -192,17 +193,16 @@ impl World {
     /// Lists all contacts that touch and are awake, in the order of the graph.
     fn list_touching(&self, places: &mut Vec<At>) {
         places.clear();
-        for (colour, buckets) in self.state.graph.buckets[..IDLE].iter().enumerate() {
-            for (class, bucket) in buckets.iter().enumerate() {
-                let slots = 0..bucket.contacts.len() as u32;
-                places.extend(slots.map(|slot| (colour as u8, class as u8, slot)));
-            }
+        let touching = self.state.graph.all().take_while(|&(place, ..)| place != IDLE);
+        for (place, class, bucket) in touching {
+            let slots = 0..bucket.contacts.len() as u32;
+            places.extend(slots.map(|slot| (place as u8, class, slot)));
         }
     }
 
     /// How a contact behaves by its materials.
-    fn rules(&self, (colour, class, slot): At) -> ContactRules {
-        let bucket = &self.state.graph.buckets[usize::from(colour)][usize::from(class)];
+    fn rules(&self, (place, class, slot): At) -> ContactRules {
+        let bucket = self.state.graph.bucket(place.into(), class);
         let contact = &self.state.contacts.records[bucket.contacts[slot as usize] as usize];
         ContactRules {
             enabled: true,
@@ -214,9 +214,9 @@ impl World {
     }
 
     /// Writes the rules into the lanes of a contact.
-    fn apply_rules(&mut self, (colour, class, slot): At, rules: &ContactRules) {
+    fn apply_rules(&mut self, (place, class, slot): At, rules: &ContactRules) {
         let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
-        let bucket = &mut self.state.graph.buckets[usize::from(colour)][usize::from(class)];
+        let bucket = self.state.graph.bucket_mut(place.into(), class);
         let restitution = positive(rules.restitution);
         let known = flags::RESTITUTION | flags::HIT;
         if restitution > 0.0 && bucket.heads[block].flags & known == 0 {

@@ -45,7 +45,7 @@ pub use shapes::ShapeRef;
 pub use stats::{Stage, Stats};
 
 use crate::describe::Settings;
-use crate::dynamics::{IDLE, Overlap, Schedule, Transfers};
+use crate::dynamics::{Overlap, Schedule, Transfers};
 use crate::error::Error;
 use crate::math::Vec2;
 use crate::simd::SimdLevel;
@@ -166,7 +166,7 @@ impl World {
 
     /// The step: one line a stage.
     fn run_stages(&mut self, team: &Team, lengths: Lengths) {
-        let mut watch = Stopwatch::start();
+        let mut watch = Stopwatch::start(&self.stats);
         self.state.events.clear();
         self.moved.take();
         self.state.bodies.sort_awake();
@@ -233,14 +233,15 @@ impl World {
 
     /// Computes the manifolds and constraints of all contacts in the graph.
     fn update_manifolds(&mut self, team: &Team) {
-        self.scratch.schedule.fill(&self.state.graph, 0..=IDLE, narrow_phase::CHUNK);
+        self.scratch.schedule.fill(&self.state.graph, narrow_phase::CHUNK);
         self.run_narrow_phase(team);
     }
 
     /// The same for the blocks that have got other contacts since.
     fn update_fresh_manifolds(&mut self, team: &Team) {
         self.state.graph.sort_fresh();
-        self.scratch.schedule.fill_with(self.state.graph.fresh(), narrow_phase::CHUNK);
+        let graph = &self.state.graph;
+        self.scratch.schedule.fill_with(graph, graph.fresh(), narrow_phase::CHUNK);
         self.run_narrow_phase(team);
     }
 
@@ -379,7 +380,13 @@ impl World {
         Ok(())
     }
 
-    /// Times and counts of the last step.
+    /// Says whether steps time their stages. They do not at first: reading a clock costs more than a small world's
+    /// stage.
+    pub fn time_stages(&mut self, on: bool) {
+        self.stats = Stats { timed: on, seconds: Default::default(), ..self.stats };
+    }
+
+    /// Counts of the last step, and times where [`World::time_stages`] asks for them.
     pub fn stats(&self) -> &Stats {
         &self.stats
     }

@@ -77,8 +77,9 @@ impl World {
         {
             alive += 1;
             if let Place::Graph { colour, slot } = contact.place {
-                let bucket = &self.state.graph.buckets[usize::from(colour)][contact.class as usize];
-                if bucket.contacts.get(slot as usize) != Some(&(index as u32)) {
+                let bucket = self.state.graph.find(colour.into(), contact.class);
+                let found = bucket.and_then(|bucket| bucket.contacts.get(slot as usize));
+                if found != Some(&(index as u32)) {
                     return Err(format!("contact {index} is not in its slot"));
                 }
             }
@@ -241,11 +242,11 @@ impl World {
         let mut used = vec![0_u32; infos.len()];
         let is_dynamic: Vec<bool> =
             infos.iter().map(|info| info.kind == BodyKind::Dynamic).collect();
-        for (place, buckets) in self.state.graph.buckets[..IDLE].iter().enumerate() {
+        for (place, bucket) in self.state.graph.touching_buckets() {
             let colour = colour_at(place);
             // Empty lanes are of body 0, which is static.
-            let blocks = buckets.iter().flat_map(|bucket| &bucket.manifolds);
-            let lanes = blocks.flat_map(|block| block.body_a.iter().chain(&block.body_b));
+            let lanes =
+                bucket.manifolds.iter().flat_map(|block| block.body_a.iter().chain(&block.body_b));
             for &body in lanes.filter(|&&i| colour < COLOURS && is_dynamic[i as usize]) {
                 if used[body as usize] >> colour & 1 != 0 {
                     return Err(format!("body {body} occurs twice in colour {colour}"));

@@ -34,13 +34,10 @@ mod pair;
 
 pub(crate) use bounce::{Memory as BounceMemory, run as run_bounces};
 
-use crate::dynamics::{
-    BlockHead, Bucket, ConstraintBlock, Graph, Schedule, Stage, SurfaceBlock, flags, is_overflow,
-};
+use crate::dynamics::{Blocks, ConstraintBlock, Graph, Schedule, SurfaceBlock, flags, is_overflow};
 use crate::math::Vec2;
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
-use crate::threads::{SharedRows, SharedSlice, Team};
-use core::ops::Range;
+use crate::threads::{SharedRows, Team};
 use friction::{roll, solve_friction, solve_rolling};
 use normals::solve_normals;
 use pair::{ALL_BODIES, Constants, Pair, Stride};
@@ -120,58 +117,18 @@ pub(crate) fn run(
     graph: &mut Graph,
     schedule: &Schedule,
 ) {
-    for Stage { place, runs, chunk } in schedule.stages() {
-        let level = if is_overflow(place) { SimdLevel::Scalar } else { level };
-        let parts = graph.buckets[place].each_mut().map(Part::new);
-        team.for_each_chunk(runs.len(), chunk, |range| {
-            for run in &runs[range] {
-                let blocks = parts[run.class as usize].blocks(run.blocks.clone());
-                let work = RunPass { pass, parameters, rows, blocks };
-                run_blocks(level, work, run.class.max_points());
+    for stage in schedule.stages() {
+        let level = if is_overflow(stage.place) { SimdLevel::Scalar } else { level };
+        graph.for_each_run(team, &stage, |class, blocks| {
+            let level = level.for_count(blocks.count);
+            let work = RunPass { pass, parameters, rows, blocks };
+            if class.max_points() == 1 {
+                dispatch(level, Points::<1, _>(work));
+            } else {
+                dispatch(level, Points::<2, _>(work));
             }
         });
     }
-}
-
-/// A bucket, shared between members of the team.
-#[derive(Clone, Copy)]
-struct Part<'a> {
-    constraints: SharedSlice<'a, ConstraintBlock>,
-    surfaces: SharedSlice<'a, SurfaceBlock>,
-    heads: &'a [BlockHead],
-}
-
-impl<'a> Part<'a> {
-    fn new(bucket: &'a mut Bucket) -> Self {
-        Self {
-            constraints: SharedSlice::new(&mut bucket.constraints),
-            surfaces: SharedSlice::new(&mut bucket.surfaces),
-            heads: &bucket.heads,
-        }
-    }
-
-    fn blocks(self, range: Range<usize>) -> Blocks<'a> {
-        Blocks {
-            constraints: self.constraints.range(range.clone()),
-            surfaces: self.surfaces.range(range.clone()),
-            heads: &self.heads[range],
-        }
-    }
-}
-
-fn run_blocks(level: SimdLevel, work: RunPass<'_>, points: usize) {
-    if points == 1 {
-        dispatch(level, Points::<1, _>(work));
-    } else {
-        dispatch(level, Points::<2, _>(work));
-    }
-}
-
-/// A run of blocks of one colour and class.
-struct Blocks<'a> {
-    constraints: &'a mut [ConstraintBlock],
-    surfaces: &'a mut [SurfaceBlock],
-    heads: &'a [BlockHead],
 }
 
 struct RunPass<'a> {
@@ -197,7 +154,8 @@ impl<const POINTS: usize> LaneKernel for Points<POINTS, RunPass<'_>> {
                 continue;
             }
             let surface = &mut blocks.surfaces[index];
-            for at in (0..BLOCK).step_by(L::WIDTH) {
+            let lanes = blocks.count - index * BLOCK;
+            for at in (0..BLOCK.min(lanes)).step_by(L::WIDTH) {
                 let stride = Stride { token, rows, at, constants: &constants };
                 match pass {
                     Pass::WarmStart => {

@@ -42,8 +42,8 @@ mod tests;
 
 use crate::describe::{BodyKind, JointDef};
 use crate::dynamics::{
-    BodyInfo, JOINT_PLACES, JointBlocks, JointBucket, JointClass, JointGraph, JointLanes,
-    JointLoad, JointPlace, Joints, REFINEMENT,
+    BodyInfo, JointBlocks, JointBucket, JointClass, JointGraph, JointLanes, JointLoad, JointPlace,
+    Joints, REFINEMENT, pace_at,
 };
 use crate::math::{Pose, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
@@ -113,8 +113,9 @@ pub(crate) fn describe(graph: &mut JointGraph, joints: &Joints, infos: &[BodyInf
         let h = h / refinement as f32;
         [Rates::new(h), Rates::anchored(h)]
     });
-    for (place, colour) in graph.colours.iter_mut().enumerate() {
-        let rates = &rates[place / JOINT_PLACES];
+    let paces: Vec<usize> = graph.colours.keys().map(pace_at).collect();
+    for (pace, colour) in paces.into_iter().zip(graph.colours.list_mut()) {
+        let rates = &rates[pace];
         describe_bucket(&mut colour.distance, joints, infos, rates, all);
         describe_bucket(&mut colour.revolute, joints, infos, rates, all);
         describe_bucket(&mut colour.prismatic, joints, infos, rates, all);

@@ -12,9 +12,7 @@ mod search;
 use super::friction::solve_friction;
 use super::pair::{Constants, Pair, Stride};
 use super::{CHUNK, Parameters};
-use crate::dynamics::{
-    Bodies, Bucket, ConstraintBlock, Graph, LaneBlock, Schedule, flags, is_overflow,
-};
+use crate::dynamics::{Bodies, ConstraintBlock, Graph, LaneBlock, Schedule, flags, is_overflow};
 use crate::footprint::footprint;
 use crate::geometry::manifold::PairClass;
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
@@ -126,7 +124,7 @@ fn copy_out(team: &Team, graph: &Graph, hits: &[Vec<Hit>], batches: &mut Vec<Bat
     let hit_count = hits.iter().map(Vec::len).sum::<usize>();
     let chunk = if hit_count < MANY { usize::MAX } else { 1 };
     team.for_each_chunk_mut(&mut batches[..count], chunk, |_, batches| {
-        batches.iter_mut().for_each(|batch| batch.fill(&graph.buckets[batch.place]));
+        batches.iter_mut().for_each(|batch| batch.fill(graph));
     });
     count
 }
@@ -141,8 +139,8 @@ impl Batch {
     }
 
     /// Copies the contacts out of the graph, with the speeds at which their points are to leave.
-    fn fill(&mut self, buckets: &[Bucket; PairClass::COUNT]) {
-        let Self { blocks, aims, sources, targets, .. } = self;
+    fn fill(&mut self, graph: &Graph) {
+        let Self { place, blocks, aims, sources, targets } = self;
         for (index, (&(class, slot), targets)) in sources.iter().zip(targets).enumerate() {
             let (from, at) = (slot as usize / BLOCK, slot as usize % BLOCK);
             let lane = index % BLOCK;
@@ -151,7 +149,7 @@ impl Batch {
                 aims.push(Aims::NULL);
             }
             let (Some(block), Some(aims)) = (blocks.last_mut(), aims.last_mut()) else { return };
-            let bucket = &buckets[class as usize];
+            let bucket = graph.bucket(*place, class);
             block.copy_lane(lane, &bucket.constraints[from], at);
             for point in &mut block.points {
                 point.normal_impulse[lane] = 0.0;
@@ -167,7 +165,7 @@ impl Batch {
     /// Notes impulses for the events of hits.
     fn note_peaks(&self, graph: &mut Graph) {
         for (index, &(class, slot)) in self.sources.iter().enumerate() {
-            let bucket = &mut graph.buckets[self.place][class as usize];
+            let bucket = graph.bucket_mut(self.place, class);
             let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
             if bucket.heads[block].flags & flags::HIT == 0 {
                 continue;

@@ -94,7 +94,7 @@ impl LaneKernel for Look<'_> {
         let Search { graph, rows, parameters, .. } = search;
         let constants = Constants::<L>::new(token, parameters);
         for run in runs {
-            let bucket = &graph.buckets[run.place][run.class as usize];
+            let bucket = &graph.buckets.list()[run.bucket];
             for block in run.blocks.clone() {
                 let mut lanes = search.candidates(bucket, block);
                 if lanes == 0 {

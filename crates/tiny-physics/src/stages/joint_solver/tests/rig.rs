@@ -22,7 +22,7 @@ impl Rig {
         Self {
             bodies: Bodies::new(),
             joints: Joints::default(),
-            graph: JointGraph::new(),
+            graph: JointGraph::default(),
             gravity: Vec2::new(0.0, -G),
             dt: 1.0 / 60.0,
             substeps: 4,
@@ -60,9 +60,10 @@ impl Rig {
     pub(super) fn pass(&mut self, pass: Pass) {
         let inv_h = self.inv_h();
         let rows = SharedRows::new(&mut self.bodies.rows);
-        for (i, colour) in self.graph.colours.iter_mut().enumerate() {
+        let places: Vec<usize> = self.graph.colours.keys().collect();
+        for (place, colour) in places.into_iter().zip(self.graph.colours.list_mut()) {
             colour.for_each_run(&Team::alone(), |blocks| {
-                if i % crate::dynamics::JOINT_PLACES == crate::dynamics::JOINT_PLACES - 2 {
+                if crate::dynamics::is_overflow(place) {
                     run_in_order(pass, inv_h, rows, blocks);
                 } else {
                     run(self.level, pass, inv_h, rows, blocks);
@@ -77,7 +78,7 @@ impl Rig {
         let listed = self.bodies.awake.clone();
         integrate::prepare(&team, &listed, &mut self.bodies, self.gravity, h);
         describe(&mut self.graph, &self.joints, &self.bodies.infos, h);
-        for colour in &mut self.graph.colours {
+        for colour in self.graph.colours.list_mut() {
             colour.for_each_run(&team, |blocks| {
                 prepare(self.level, &self.bodies.poses, h, blocks);
             });
