@@ -10,30 +10,8 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 unset RUSTFLAGS
 goldens=(crates/scenes/tests/golden.txt crates/quality/tests/golden.txt)
-sysroots=${TINY_PHYSICS_SYSROOTS:-$HOME/.cache/tiny-physics-sysroots}
+. scripts/sysroot.sh
 target_dir=${CARGO_TARGET_DIR:-$PWD/target}
-debian_version() { /usr/bin/rustc -vV | sha256sum | cut -c1-16; }
-
-# Builds the standard library for a target with Debian's compiler from Debian's source.
-sysroot() {
-  local target=$1 flags=$2 dir; dir=$sysroots/$(debian_version)/$1
-  if [ ! -e "$dir/done" ]; then
-    local work; work=$(mktemp -d)
-    local vendor; vendor=$(/usr/bin/rustc --print sysroot)/lib/rustlib/src/rust/library/vendor
-    mkdir -p "$work/src" "$work/.cargo" "$dir/lib/rustlib/$target/lib"
-    printf '[package]\nname = "empty"\nversion = "0.0.0"\nedition = "2021"\n' > "$work/Cargo.toml"
-    echo '#![no_std]' > "$work/src/lib.rs"
-    printf '[source.crates-io]\nreplace-with = "vendored"\n[source.vendored]\ndirectory = "%s"\n' "$vendor" \
-      > "$work/.cargo/config.toml"
-    (cd "$work" && RUSTC=/usr/bin/rustc RUSTC_BOOTSTRAP=1 CARGO_TARGET_DIR=$work/target \
-      RUSTFLAGS="-Cembed-bitcode=yes $flags" /usr/bin/cargo build --offline --release --target "$target" \
-      -Zbuild-std=std,panic_abort -Zbuild-std-features= >&2)
-    cp "$work/target/$target/release/deps/"*.rlib "$dir/lib/rustlib/$target/lib/"
-    rm -rf "$work"
-    touch "$dir/done"
-  fi
-  echo "$dir"
-}
 
 # Puts the platform before lines of `level threads name steps hash`.
 label() { sed "s/^/$1 /"; }

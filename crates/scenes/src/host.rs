@@ -96,7 +96,7 @@ pub trait Host {
 ///     player.step();
 /// }
 /// ```
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Player<H> {
     host: H,
     bodies: Vec<usize>,
@@ -140,7 +140,9 @@ impl<H: Host> Player<H> {
         }
         self.steps_done = self.steps_done.saturating_add(1);
     }
+}
 
+impl<H> Player<H> {
     /// Has the scene run for all its steps? It can go on.
     pub fn is_done(&self) -> bool {
         self.steps_done >= self.steps
@@ -179,5 +181,11 @@ impl<H: Host> Player<H> {
     /// The host, for good.
     pub fn into_host(self) -> H {
         self.host
+    }
+
+    /// Goes on playing on what is made of the host.
+    pub(crate) fn map<G>(self, change: impl FnOnce(H) -> G) -> Player<G> {
+        let Self { host, bodies, joints, running, steps_done, steps, dt } = self;
+        Player { host: change(host), bodies, joints, running, steps_done, steps, dt }
     }
 }

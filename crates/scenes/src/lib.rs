@@ -20,6 +20,7 @@ mod churn;
 mod error;
 mod file;
 mod golden;
+mod grip;
 mod host;
 mod human;
 mod json;
@@ -27,6 +28,7 @@ mod random;
 mod scene;
 mod script;
 mod shapes;
+mod tape;
 mod world_host;
 
 pub use build::Options;
@@ -34,10 +36,12 @@ pub use catalogue::{Entry, UnknownScene, all, find, resolve, tags};
 pub use churn::{Churn, ChurnCounts};
 pub use error::{Problem, SceneError};
 pub use golden::{Golden, golden, run_hash};
+pub use grip::Grip;
 pub use host::{Host, Player};
 pub use scene::{Counts, Scene, SceneJoint, VERSION};
 pub use script::{
     Act, Character, Deed, Key, Leg, Pull, Queries, Rain, Ride, Script, Terrain, Timeline,
     WakeSleepers, Walkers, When, lead_progress,
 };
-pub use world_host::{CommandHost, Commanded, Run, WorldHost};
+pub use tape::Tape;
+pub use world_host::{CommandHost, Commanded, PausedScript, Run, WorldHost};

@@ -3,7 +3,9 @@
 use crate::host::{Host, Player};
 use crate::scene::Scene;
 use crate::script::{Deed, Pull, lead_progress};
-use tiny_physics::record::{BodyCommand, Command, FilterData, Made, Recorder, ShapeCommand};
+use tiny_physics::record::{
+    BodyCommand, Command, FilterData, History, Made, Recorder, ShapeCommand,
+};
 use tiny_physics::{
     Aabb, Body, BodyId, CharacterMover, DVec2, Error, Explosion, ForceZone, JointDef, JointId,
     MoverInput, Pose, QueryFilter, RigidBody, Rot, Settings, Shape, ShapeId, Transform, Vec2,
@@ -46,6 +48,57 @@ impl Run {
     }
 }
 
+/// A scene's script without the world that it acts on.
+///
+/// ```
+/// use tiny_physics_scenes::{Options, PausedScript, Run, find};
+/// let scene = find("rain")?.build(Options::default());
+/// let (mut script, mut world) = PausedScript::start(&scene)?;
+/// let mut run = Run::start(&scene)?;
+/// for _ in 0..30 {
+///     script.before_step(&mut world);
+///     world.step(scene.dt);
+///     run.step();
+/// }
+/// assert_eq!(world.state_hash(), run.world().state_hash());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct PausedScript(Option<Player<CommandHost<()>>>);
+
+impl PausedScript {
+    /// The world of a scene, and its script.
+    ///
+    /// # Errors
+    /// A body or joint that the world refuses.
+    pub fn start(scene: &Scene) -> Result<(Self, World), Error> {
+        let run = Run::start(scene)?;
+        let mut world = World::new(scene.gravity);
+        let script = run.map(|host| host.onto((), |target| world = target));
+        Ok((Self(Some(script)), world))
+    }
+
+    /// Lets the script act on the world, or on what passes commands on to it, before a step.
+    pub fn before_step<T: Commanded>(&mut self, target: T) {
+        if let Some(script) = self.0.take() {
+            let mut script = script.map(|host| host.onto(target, |()| {}));
+            script.before_step();
+            self.0 = Some(script.map(|host| host.onto((), drop)));
+        }
+    }
+
+    /// The world's handle of a body of the scene.
+    pub fn body_id(&self, body: usize) -> Option<BodyId> {
+        let script = self.0.as_ref()?;
+        script.host().bodies.get(*script.bodies().get(body)?).copied().flatten()
+    }
+
+    /// The first thing that the world refused.
+    pub fn error(&self) -> Option<&Error> {
+        self.0.as_ref()?.host().error.as_ref()
+    }
+}
+
 /// What commands are sent to: a [`World`] does them, a [`Recorder`] notes them as well.
 pub trait Commanded {
     /// The world, to read.
@@ -71,6 +124,30 @@ impl Commanded for World {
     }
 }
 
+impl Commanded for History {
+    fn world(&self) -> &World {
+        self.world()
+    }
+    fn apply(&mut self, command: Command) -> Result<Made, Error> {
+        self.apply(command)
+    }
+    fn step(&mut self, dt: f32) {
+        self.step(dt);
+    }
+}
+
+impl<T: Commanded> Commanded for &mut T {
+    fn world(&self) -> &World {
+        (**self).world()
+    }
+    fn apply(&mut self, command: Command) -> Result<Made, Error> {
+        (**self).apply(command)
+    }
+    fn step(&mut self, dt: f32) {
+        (**self).step(dt);
+    }
+}
+
 impl Commanded for Recorder {
     fn world(&self) -> &World {
         self.world()
@@ -88,7 +165,7 @@ pub type WorldHost = CommandHost<World>;
 
 /// Plays scenes in a world, with numbers for its bodies and joints in the order in which they were added. All that
 /// it does are commands, so what is recorded is what happens without recording.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct CommandHost<T> {
     target: T,
     bodies: Vec<Option<BodyId>>,
@@ -125,9 +202,18 @@ impl CommandHost<Recorder> {
     }
 }
 
+impl<T> CommandHost<T> {
+    /// The same numbers for another target; the old one goes to `leave`.
+    fn onto<U>(self, target: U, leave: impl FnOnce(T)) -> CommandHost<U> {
+        let Self { target: old, bodies, joints, error } = self;
+        leave(old);
+        CommandHost { target, bodies, joints, error }
+    }
+}
+
 impl<T: Commanded> CommandHost<T> {
     /// Sends commands to something in whose world nothing is yet.
-    fn on(target: T) -> Self {
+    pub fn on(target: T) -> Self {
         Self { target, bodies: Vec::new(), joints: Vec::new(), error: None }
     }
 

@@ -162,7 +162,7 @@ impl Leg {
 }
 
 /// A script on its way.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Walking {
     mover: CharacterMover,
     script: Character,

@@ -75,7 +75,7 @@ impl Script {
 }
 
 /// A script that is being played, with what it has to remember.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Running {
     Rain(rain::Raining),
     Wake(wake::Waking),

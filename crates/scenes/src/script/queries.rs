@@ -50,7 +50,7 @@ impl Queries {
 }
 
 /// The questions, drawn once.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Asking {
     queries: Queries,
     paddle: Option<usize>,

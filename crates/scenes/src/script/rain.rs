@@ -62,7 +62,7 @@ impl Rain {
 }
 
 /// Rain that falls.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Raining {
     rain: Rain,
     /// Humans of each column that has been filled.
@@ -72,7 +72,7 @@ pub(crate) struct Raining {
 }
 
 /// The host's numbers of a human's bodies and joints.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Bones {
     bodies: [usize; BONE_COUNT],
     joints: [usize; BONE_COUNT - 1],

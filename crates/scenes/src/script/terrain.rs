@@ -92,7 +92,7 @@ impl Terrain {
 }
 
 /// Ground on the move.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Streaming {
     terrain: Terrain,
     /// The host's numbers of the pieces, from left to right.

@@ -62,7 +62,7 @@ impl Timeline {
 }
 
 /// A timeline on the way.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Happening {
     dt: f32,
     /// Acts with the host's numbers, and whether one that happens once has happened.

@@ -25,7 +25,7 @@ impl WakeSleepers {
 }
 
 /// The host's numbers of the bodies to wake.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Waking {
     bodies: Vec<usize>,
 }

@@ -39,7 +39,7 @@ impl Walkers {
 }
 
 /// The host's number and the direction of each walker.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Walking {
     speed: f32,
     bodies: Vec<(usize, f32)>,

@@ -4,6 +4,8 @@ use super::{DVec2, Vec2};
 
 /// An axis-aligned bounding box: `min` and `max` corners, metres.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[repr(C)]
 pub struct Aabb {
     /// Lower left corner.

@@ -4,6 +4,8 @@ use super::{Vec2, atan2, sin_cos};
 
 /// A rotation, kept as cosine and sine so that turning a vector needs no trigonometry.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[repr(C)]
 pub struct Rot {
     /// Cosine of the angle.

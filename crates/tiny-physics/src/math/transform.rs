@@ -67,6 +67,8 @@ impl Transform {
 
 /// A frame in the world: 64-bit position, 32-bit rotation.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[repr(C)]
 pub struct Pose {
     /// Origin, metres in the world.

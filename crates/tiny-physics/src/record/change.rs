@@ -8,6 +8,8 @@ use crate::world::{BodyMut, ShapeMut, Wind};
 
 /// Something that is done to a body, named after the function of [`BodyMut`] that does it.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum BodyCommand {
     /// [`BodyMut::set_position`].
@@ -98,6 +100,8 @@ impl BodyCommand {
 
 /// Something that is done to a shape, named after the function of [`ShapeMut`] that does it.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum ShapeCommand {
     /// [`ShapeMut::set_shape`].

@@ -11,6 +11,8 @@ use crate::world::{
 
 /// Something that is done to a world between two steps. Most are named after the function that they stand for.
 #[derive(Clone, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Command {
     /// [`World::add_body`].
@@ -60,6 +62,8 @@ pub enum Command {
 
 /// What a command made.
 #[derive(Clone, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Made {
     /// Nothing new.
@@ -89,6 +93,8 @@ pub enum Made {
 /// # Ok::<(), tiny_physics::Error>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct FilterData {
     /// As [`QueryFilter::filter`].
     pub filter: Filter,

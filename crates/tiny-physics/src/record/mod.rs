@@ -37,6 +37,8 @@
 mod change;
 mod command;
 mod data;
+mod delta;
+mod history;
 mod player;
 mod recorder;
 mod recording;
@@ -45,6 +47,7 @@ mod tests;
 
 pub use change::{BodyCommand, ShapeCommand};
 pub use command::{Command, FilterData, Made};
+pub use history::History;
 pub use player::Player;
 pub use recorder::Recorder;
 pub use recording::Recording;

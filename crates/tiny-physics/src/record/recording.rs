@@ -22,6 +22,17 @@ pub(super) struct Step {
 
 data!(Step { commands, dt, hash });
 
+impl Step {
+    /// Does it to a world; false where that does not end as it was recorded.
+    pub(super) fn play(&self, world: &mut World) -> Result<bool, Error> {
+        for command in &self.commands {
+            command.apply(world)?;
+        }
+        world.step(self.dt);
+        Ok(world.state_hash() == self.hash)
+    }
+}
+
 /// A run: its first frame and what was done in each step.
 ///
 /// With the feature `serde` it can be part of other files, as one string of bytes: those of
@@ -43,9 +54,20 @@ impl Recording {
         self.steps.is_empty()
     }
 
+    /// About how much memory the steps take.
+    pub(super) fn rough_bytes(&self) -> usize {
+        let commands: usize = self.steps.iter().map(|step| step.commands.capacity()).sum();
+        self.steps.capacity() * size_of::<Step>() + commands * size_of::<Command>()
+    }
+
     /// The state hash after a step, counted from 1.
     pub fn hash(&self, step: usize) -> Option<u64> {
         self.steps.get(step.checked_sub(1)?).map(|step| step.hash)
+    }
+
+    /// The length of a step, counted from 1, seconds.
+    pub fn dt(&self, step: usize) -> Option<f32> {
+        self.steps.get(step.checked_sub(1)?).map(|step| step.dt)
     }
 
     /// What was done before a step, counted from 1, in order.

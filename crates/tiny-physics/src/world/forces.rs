@@ -11,6 +11,8 @@ use crate::math::{Aabb, DVec2, Pose, Vec2};
 
 /// A blast: impulses away from a point.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Explosion {
     /// Where: world, metres.
     pub center: DVec2,
@@ -24,6 +26,8 @@ pub struct Explosion {
 
 /// Moving air (or water all around).
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Wind {
     /// Metres a second.
     pub velocity: Vec2,
@@ -35,6 +39,8 @@ pub struct Wind {
 
 /// A body of water: everything below its surface, or what of that lies in an area.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Water {
     /// A point of the surface: world, metres.
     pub surface: DVec2,
@@ -54,6 +60,8 @@ pub struct Water {
 
 /// What a zone does to the bodies in it.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 pub enum ZoneForce {
     /// Accelerates them, metres a second squared: gravity of its own.
     Acceleration(Vec2),
@@ -77,6 +85,8 @@ pub enum ZoneForce {
 
 /// An area in which a force acts on every body that overlaps it.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ForceZone {
     /// Form of the area.
     pub shape: Shape,

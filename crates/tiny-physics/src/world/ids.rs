@@ -21,6 +21,17 @@ macro_rules! handle {
             pub fn index(self) -> usize {
                 self.index as usize
             }
+
+            /// The handle as a number, for other languages and tables: its index in the lower half, its
+            /// generation in the upper.
+            pub fn to_bits(self) -> u64 {
+                u64::from(self.generation) << 32 | u64::from(self.index)
+            }
+
+            /// The handle of [`Self::to_bits`]. Of any other number it makes a handle that is stale.
+            pub fn from_bits(bits: u64) -> Self {
+                Self { index: bits as u32, generation: (bits >> 32) as u32 }
+            }
         }
 
         impl fmt::Display for $name {

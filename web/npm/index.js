@@ -1,0 +1,661 @@
+// tiny-physics for JavaScript: one WebAssembly module behind plain classes. What everything means is in index.d.ts.
+
+/** What the engine refused, in its words. */
+export class PhysicsError extends Error {
+  name = "PhysicsError";
+}
+
+let wasm;
+let loading;
+const decoder = new TextDecoder();
+const encoder = new TextEncoder();
+
+/** Loads the module, once. */
+export function init(source) {
+  loading ??= load(source).catch((error) => {
+    loading = undefined;
+    throw error;
+  });
+  return loading;
+}
+
+/** Loads the module at once, of bytes or a compiled module. */
+export function initSync(source) {
+  const module = source instanceof WebAssembly.Module ? source : new WebAssembly.Module(source);
+  wasm ??= new WebAssembly.Instance(module, {}).exports;
+  loading ??= Promise.resolve();
+}
+
+async function load(source) {
+  const found = await (source ?? moduleBeside());
+  if (found instanceof WebAssembly.Module || found instanceof ArrayBuffer || ArrayBuffer.isView(found)) {
+    const made = await WebAssembly.instantiate(found, {});
+    wasm = (made.instance ?? made).exports;
+    return;
+  }
+  const response = found instanceof Response ? found : await fetch(found);
+  if (!response.ok) throw new PhysicsError(`${response.url}: ${response.status} ${response.statusText}`);
+  // Servers that do not know the type of wasm files are common.
+  const streams = response.headers.get("content-type")?.startsWith("application/wasm");
+  const made = streams
+    ? await WebAssembly.instantiateStreaming(response, {})
+    : await WebAssembly.instantiate(await response.arrayBuffer(), {});
+  wasm = made.instance.exports;
+}
+
+/** The file beside this one: read in Node, fetched elsewhere. */
+async function moduleBeside() {
+  const url = new URL("./tiny_physics.wasm", import.meta.url);
+  if (url.protocol !== "file:" || typeof process === "undefined") return url;
+  const fs = "node:fs/promises";
+  return (await import(/* @vite-ignore */ fs)).readFile(url);
+}
+
+function engine() {
+  if (!wasm) throw new PhysicsError("call `await init()` before anything else");
+  return wasm;
+}
+
+// Arguments and answers. Memory may have grown in any call, so its views are made anew each time.
+
+function give(bytes) {
+  const at = engine().tp_input(bytes.length);
+  new Uint8Array(wasm.memory.buffer, at, bytes.length).set(bytes);
+}
+
+const giveText = (text) => give(encoder.encode(text));
+const giveData = (data) => giveText(JSON.stringify(data));
+
+/** A question without anything unusual in it is nothing at all. */
+function giveQuestion(filter, shape, angle = 0) {
+  const question = {};
+  if (filter) {
+    const { category, mask, group, sensors, excludeBody } = filter;
+    const kinds = Object.entries({ category, mask, group }).filter(([, value]) => value !== undefined);
+    question.filter = { sensors: !!sensors };
+    // Whole 64 bits do not go through JSON as numbers.
+    if (kinds.length) question.filter.filter = { category: ALL, mask: ALL, ...Object.fromEntries(kinds) };
+    if (excludeBody !== undefined) question.filter.exclude_body = parts(excludeBody);
+  }
+  if (shape) Object.assign(question, { shape, angle });
+  const text = JSON.stringify(question, (_, value) => (typeof value === "bigint" ? `\u0001${value}\u0001` : value));
+  if (text === "{}") give(new Uint8Array());
+  else giveText(text.replace(/"\\u0001(\d+)\\u0001"/g, "$1"));
+}
+
+const ALL = 2n ** 64n - 1n;
+
+const text = () => decoder.decode(rawText());
+const rawText = () => new Uint8Array(wasm.memory.buffer, wasm.tp_text(), wasm.tp_text_length());
+const numbers = () => new Float64Array(wasm.memory.buffer, wasm.tp_numbers(), wasm.tp_numbers_length());
+const list = () => Array.from(numbers());
+
+function check(done) {
+  if (!done) throw new PhysicsError(text());
+}
+
+const point = (x, y) => ({ x, y });
+
+/** The parts of a handle. */
+const parts = (id) => ({ index: id % 2 ** 24, generation: Math.floor(id / 2 ** 24) });
+
+const forgotten = new FinalizationRegistry((session) => wasm.tp_free(session));
+const own = Symbol("made here");
+const KINDS = ["static", "kinematic", "dynamic"];
+const EVENTS = {
+  contactBegin: 0,
+  contactEnd: 1,
+  hits: 2,
+  sensorBegin: 3,
+  sensorEnd: 4,
+  jointBreaks: 5,
+  woke: 6,
+  fellAsleep: 7,
+};
+
+export class World {
+  #session;
+  #token = {};
+
+  constructor(def = {}, from) {
+    if (from?.[0] === own) {
+      this.#session = from[1];
+    } else {
+      giveData(def);
+      this.#session = wasm.tp_new();
+    }
+    check(this.#session);
+    forgotten.register(this, this.#session, this.#token);
+    /** Handles of the bodies of the scene that it was loaded from, by their index there. */
+    this.sceneBodies = from?.[2] ?? [];
+  }
+
+  static #of(session, bodies) {
+    check(session);
+    return new World({}, [own, session, bodies]);
+  }
+
+  static loadScene(scene) {
+    giveText(typeof scene === "string" ? scene : JSON.stringify(scene));
+    const session = wasm.tp_new_scene();
+    return World.#of(session, session ? list() : []);
+  }
+
+  static fromBytes(bytes) {
+    give(bytes);
+    return World.#of(wasm.tp_new_frame());
+  }
+
+  static openRecording(bytes, budget = 64 * 2 ** 20) {
+    give(bytes);
+    return World.#of(wasm.tp_new_recording(budget));
+  }
+
+  /** Number of the session, for code that calls the module itself. */
+  get session() {
+    if (!this.#session) throw new PhysicsError("this world has been freed");
+    return this.#session;
+  }
+
+  clone() {
+    return World.#of(wasm.tp_clone(this.session), this.sceneBodies);
+  }
+
+  free() {
+    if (!this.#session) return;
+    forgotten.unregister(this.#token);
+    wasm.tp_free(this.#session);
+    this.#session = 0;
+  }
+
+  [Symbol.dispose ?? Symbol("dispose")]() {
+    this.free();
+  }
+
+  // Time.
+
+  step(dt = 0) {
+    if (dt === 0) check(wasm.tp_step(this.session, 0));
+    else check(wasm.tp_step(this.session, Number.isFinite(dt) ? dt : NaN));
+  }
+
+  get dt() {
+    return wasm.tp_dt(this.session);
+  }
+
+  get gravity() {
+    check(wasm.tp_settings(this.session));
+    const [x, y] = numbers();
+    return point(x, y);
+  }
+
+  setGravity(x, y) {
+    this.apply({ set_gravity: [x, y] });
+  }
+
+  get settings() {
+    check(wasm.tp_settings(this.session));
+    return JSON.parse(text());
+  }
+
+  setSettings(settings) {
+    this.apply({ set_settings: { ...this.settings, ...settings } });
+  }
+
+  // What is done to it.
+
+  apply(command) {
+    giveData(command);
+    check(wasm.tp_apply(this.session));
+    return list();
+  }
+
+  addBody(body) {
+    return this.apply({ add_body: body })[0];
+  }
+
+  removeBody(body) {
+    this.apply({ remove_body: parts(body) });
+  }
+
+  body(id) {
+    return wasm.tp_has_body(this.session, id) ? new Body(this, id) : undefined;
+  }
+
+  addShape(body, shape) {
+    return this.apply({ add_shape: [parts(body), shape] })[0];
+  }
+
+  addChain(body, chain) {
+    return this.apply({ add_chain: [parts(body), chain] });
+  }
+
+  addOutline(body, outline, like = { shape: { circle: { radius: 1 } } }) {
+    return this.apply({ add_outline: [parts(body), outline, like] });
+  }
+
+  shape(id) {
+    if (!wasm.tp_shape(this.session, id)) return undefined;
+    return { id, body: numbers()[0], ...JSON.parse(text()) };
+  }
+
+  shapeIds() {
+    check(wasm.tp_ids(this.session, 0));
+    return list();
+  }
+
+  changeShape(id, change) {
+    this.apply({ shape: [parts(id), change] });
+  }
+
+  removeShape(id) {
+    this.apply({ remove_shape: parts(id) });
+  }
+
+  addJoint(a, b, joint) {
+    return this.apply({ add_joint: [parts(a), parts(b), joint] })[0];
+  }
+
+  joint(id) {
+    if (!wasm.tp_joint(this.session, id)) return undefined;
+    const [bodyA, bodyB, ax, ay, bx, by, fx, fy, torque] = numbers();
+    const def = JSON.parse(text());
+    return { id, bodyA, bodyB, anchorA: point(ax, ay), anchorB: point(bx, by), force: point(fx, fy), torque, def };
+  }
+
+  jointIds() {
+    check(wasm.tp_ids(this.session, 1));
+    return list();
+  }
+
+  setJoint(id, joint) {
+    this.apply({ set_joint: [parts(id), joint] });
+  }
+
+  removeJoint(id) {
+    this.apply({ remove_joint: parts(id) });
+  }
+
+  addTiles(grid) {
+    return this.apply({ add_tiles: grid })[0];
+  }
+
+  setTile(grid, x, y, value) {
+    this.apply({ set_tile: [parts(grid), x, y, value] });
+  }
+
+  removeTiles(grid) {
+    this.apply({ remove_tiles: parts(grid) });
+  }
+
+  explode(explosion, filter = {}) {
+    this.apply({ explode: [explosion, filter] });
+  }
+
+  applyWater(water, dt = this.dt, filter = {}) {
+    this.apply({ apply_water: [water, filter, dt] });
+  }
+
+  applyZone(zone, dt = this.dt, filter = {}) {
+    this.apply({ apply_zone: [zone, filter, dt] });
+  }
+
+  moveCharacter(character, input, dt = this.dt) {
+    this.apply({ move_character: [character, input, dt] });
+    return JSON.parse(text());
+  }
+
+  // What there is.
+
+  bodies(alpha = 1) {
+    check(wasm.tp_bodies(this.session, alpha));
+    const [count, ids, poses, velocities, states] = numbers();
+    const memory = wasm.memory.buffer;
+    return {
+      count,
+      ids: new Float64Array(memory, ids, count),
+      poses: new Float32Array(memory, poses, 3 * count),
+      velocities: new Float32Array(memory, velocities, 3 * count),
+      states: new Uint8Array(memory, states, count),
+    };
+  }
+
+  events(which) {
+    check(wasm.tp_events(this.session, EVENTS[which] ?? 99));
+    return numbers();
+  }
+
+  contacts() {
+    check(wasm.tp_contacts(this.session));
+    return numbers();
+  }
+
+  counts() {
+    check(wasm.tp_counts(this.session));
+    const [bodies, awake, shapes, joints, contacts, steps, deepest, kinetic, potential, px, py] = numbers();
+    return { bodies, awake, shapes, joints, contacts, steps, deepest, kinetic, potential, momentum: point(px, py) };
+  }
+
+  sensorOverlaps(sensor) {
+    check(wasm.tp_sensor_overlaps(this.session, sensor));
+    return list();
+  }
+
+  // Questions.
+
+  rayCast(x, y, dx, dy, filter) {
+    giveQuestion(filter);
+    check(wasm.tp_cast(this.session, x, y, dx, dy, false));
+    return hits()[0];
+  }
+
+  rayCastAll(x, y, dx, dy, filter) {
+    giveQuestion(filter);
+    check(wasm.tp_cast(this.session, x, y, dx, dy, true));
+    return hits();
+  }
+
+  castShape(shape, x, y, angle, dx, dy, filter) {
+    giveQuestion(filter, shape, angle);
+    check(wasm.tp_cast(this.session, x, y, dx, dy, false));
+    return hits()[0];
+  }
+
+  overlapPoint(x, y, filter) {
+    giveQuestion(filter);
+    check(wasm.tp_overlap(this.session, x, y));
+    return list();
+  }
+
+  overlapShape(shape, x, y, angle = 0, filter) {
+    giveQuestion(filter, shape, angle);
+    check(wasm.tp_overlap(this.session, x, y));
+    return list();
+  }
+
+  overlapAabb(left, bottom, right, top, filter) {
+    giveQuestion(filter);
+    check(wasm.tp_overlap_aabb(this.session, left, bottom, right, top));
+    return list();
+  }
+
+  closestPoint(x, y, maxDistance, filter) {
+    giveQuestion(filter);
+    check(wasm.tp_closest(this.session, x, y, maxDistance));
+    const [shape, body, px, py, distance] = numbers();
+    return shape === undefined ? undefined : { shape, body, point: point(px, py), distance };
+  }
+
+  // A pointer that pulls.
+
+  grab(x, y) {
+    check(wasm.tp_grab(this.session, x, y));
+    return numbers()[0];
+  }
+
+  drag(x, y) {
+    check(wasm.tp_drag(this.session, x, y));
+    const [px, py] = numbers();
+    return px === undefined ? undefined : point(px, py);
+  }
+
+  release() {
+    check(wasm.tp_release(this.session));
+  }
+
+  // Frames, recordings, history.
+
+  hash() {
+    return BigInt.asUintN(64, wasm.tp_hash(this.session)).toString(16).padStart(16, "0");
+  }
+
+  save() {
+    check(wasm.tp_save(this.session));
+    return rawText().slice();
+  }
+
+  restore(bytes) {
+    give(bytes);
+    check(wasm.tp_restore(this.session, 0));
+  }
+
+  deltaFrom(frame) {
+    give(frame);
+    check(wasm.tp_delta(this.session));
+    return rawText().slice();
+  }
+
+  restoreDelta(frame, delta) {
+    const both = new Uint8Array(frame.length + delta.length);
+    both.set(frame);
+    both.set(delta, frame.length);
+    give(both);
+    check(wasm.tp_restore(this.session, frame.length));
+  }
+
+  startRecording() {
+    check(wasm.tp_record(this.session));
+  }
+
+  recording() {
+    check(wasm.tp_recording(this.session));
+    return rawText().slice();
+  }
+
+  keepHistory(budget = 64 * 2 ** 20) {
+    check(wasm.tp_keep(this.session, budget));
+  }
+
+  get history() {
+    check(wasm.tp_history(this.session));
+    const [at, length, bytes] = numbers();
+    return { at, length, bytes };
+  }
+
+  goTo(step) {
+    check(wasm.tp_go_to(this.session, Math.max(0, Math.round(step))));
+  }
+
+  forgetLater() {
+    check(wasm.tp_forget_later(this.session));
+  }
+
+  /** Are the world's data sound? For tests. */
+  validate() {
+    check(wasm.tp_validate(this.session));
+  }
+}
+
+function hits() {
+  const rows = numbers();
+  const found = [];
+  for (let i = 0; i < rows.length; i += 7) {
+    const [shape, body, x, y, nx, ny, fraction] = rows.subarray(i, i + 7);
+    found.push({ shape, body, point: point(x, y), normal: point(nx, ny), fraction });
+  }
+  return found;
+}
+
+/** Numbers of the module's commands to a body. */
+const COMMANDS = [
+  "setPosition",
+  "setAngle",
+  "setPose",
+  "setVelocity",
+  "setAngularVelocity",
+  "setTarget",
+  "applyForce",
+  "applyForceToCenter",
+  "applyTorque",
+  "applyImpulse",
+  "applyImpulseToCenter",
+  "applyAngularImpulse",
+  "wake",
+  "sleep",
+  "setKind",
+  "setEnabled",
+  "setLocks",
+  "setMass",
+  "setGravityScale",
+  "setDamping",
+  "setCanSleep",
+  "setSleepSpeed",
+  "setBullet",
+  "setUserData",
+];
+
+export class Body {
+  constructor(world, id) {
+    this.world = world;
+    this.id = id;
+  }
+
+  #numbers() {
+    check(wasm.tp_body(this.world.session, this.id));
+    return numbers();
+  }
+
+  #state(bit) {
+    return (this.#numbers()[10] & bit) !== 0;
+  }
+
+  get position() {
+    const [x, y] = this.#numbers();
+    return point(x, y);
+  }
+
+  get angle() {
+    return this.#numbers()[2];
+  }
+
+  get velocity() {
+    const [, , , x, y] = this.#numbers();
+    return point(x, y);
+  }
+
+  get angularVelocity() {
+    return this.#numbers()[5];
+  }
+
+  get mass() {
+    return this.#numbers()[6];
+  }
+
+  get inertia() {
+    return this.#numbers()[7];
+  }
+
+  get center() {
+    const all = this.#numbers();
+    return point(all[8], all[9]);
+  }
+
+  get kind() {
+    return KINDS[this.#numbers()[10] & 3];
+  }
+
+  get isAwake() {
+    return this.#state(4);
+  }
+
+  get isEnabled() {
+    return this.#state(8);
+  }
+
+  get isBullet() {
+    return this.#state(16);
+  }
+
+  get gravityScale() {
+    return this.#numbers()[11];
+  }
+
+  get damping() {
+    const all = this.#numbers();
+    return { linear: all[12], angular: all[13] };
+  }
+
+  get locks() {
+    const bits = this.#numbers()[14];
+    return { x: !!(bits & 1), y: !!(bits & 2), rotation: !!(bits & 4) };
+  }
+
+  get sleepSpeed() {
+    return this.#numbers()[15];
+  }
+
+  get canSleep() {
+    return this.#numbers()[16] !== 0;
+  }
+
+  get userData() {
+    return this.#numbers()[17];
+  }
+
+  get shapes() {
+    check(wasm.tp_body_shapes(this.world.session, this.id));
+    return list();
+  }
+
+  get joints() {
+    check(wasm.tp_body_joints(this.world.session, this.id));
+    return list();
+  }
+
+  remove() {
+    this.world.removeBody(this.id);
+  }
+}
+
+/** What a method takes, as the module's four numbers. */
+const NUMBERS = {
+  setKind: (kind) => [KINDS.indexOf(kind) < 0 ? 9 : KINDS.indexOf(kind)],
+  setLocks: ({ x = false, y = false, rotation = false } = {}) => [+x, +y, +rotation],
+  setEnabled: (flag) => [+flag],
+  setCanSleep: (flag) => [+flag],
+  setBullet: (flag) => [+flag],
+  setMass: (mass) => [mass ?? 0],
+};
+
+COMMANDS.forEach((name, which) => {
+  const numbersOf = NUMBERS[name] ?? ((...all) => all);
+  Body.prototype[name] = function (...all) {
+    const [a = 0, b = 0, c = 0, d = 0] = numbersOf(...all);
+    check(wasm.tp_body_command(this.world.session, this.id, which, a, b, c, d));
+    return this;
+  };
+});
+
+export class FixedStep {
+  #left = 0;
+
+  constructor(dt = 1 / 60, maxSteps = 4) {
+    this.dt = dt;
+    this.maxSteps = maxSteps;
+  }
+
+  advance(elapsed) {
+    if (!(elapsed > 0)) return 0;
+    this.#left += elapsed;
+    const due = Math.floor(this.#left / this.dt);
+    // What cannot be caught up with is dropped.
+    this.#left = due > this.maxSteps ? 0 : this.#left - due * this.dt;
+    return Math.min(due, this.maxSteps);
+  }
+
+  get alpha() {
+    return this.#left / this.dt;
+  }
+}
+
+/** Plays a recording and compares every step; how many there are. */
+export function checkRecording(bytes) {
+  give(bytes);
+  check(wasm.tp_check_recording());
+  return numbers()[0];
+}
+
+/** The module's own functions, for code that goes without these classes. */
+export function exports() {
+  return engine();
+}

@@ -1,0 +1,298 @@
+//! What is to be drawn of a world, as rows that WebGL takes as they are. Places are relative to the camera.
+
+use crate::session::Session;
+use crate::with;
+use tiny_physics::{
+    BodyKind, Color, DVec2, DebugDraw, DebugDrawOptions, Polygon, Pose, Rot, Shape, ShapeRef,
+    Transform, Vec2, World,
+};
+
+/// Rows of the last picture.
+#[derive(Clone, Default)]
+pub(crate) struct Picture {
+    /// Rounded boxes: place (2), cosine, sine, half extents (2), radius, style, body, tint.
+    boxes: Vec<f32>,
+    /// Polygons: place (2), cosine, sine, radius, corners, style, body, tint, and up to eight corners.
+    polygons: Vec<f32>,
+    /// Lines: ends (4), width in pixels (negative: metres), colour (red, green, blue, opacity).
+    lines: Vec<f32>,
+    /// What each body is tinted by, by its index.
+    tints: Vec<f32>,
+}
+
+/// Numbers of a row.
+const CORNERS: usize = 8;
+
+/// What is drawn besides shapes.
+mod show {
+    pub(super) const JOINTS: u32 = 1;
+    pub(super) const CONTACTS: u32 = 2;
+    pub(super) const IMPULSES: u32 = 4;
+    pub(super) const BOUNDS: u32 = 8;
+    pub(super) const MASS: u32 = 16;
+    pub(super) const VELOCITIES: u32 = 32;
+    pub(super) const DEPTH: u32 = 64;
+    pub(super) const ISLANDS: u32 = 128;
+    pub(super) const LOAD: u32 = 256;
+}
+
+/// Draws the world as seen from a camera at a point: bodies between the start (`alpha` 0) and the end (1) of the last step,
+/// and what `shown` says. The numbers are address and length of the rows of boxes, polygons and lines.
+#[unsafe(no_mangle)]
+pub extern "C" fn tp_draw(session: u32, x: f64, y: f64, alpha: f32, shown: u32) -> bool {
+    with(session, |session, shelf| {
+        let mut picture = core::mem::take(&mut session.picture);
+        picture.draw(session.world(), DVec2::new(x, y), alpha, shown);
+        let lists = [&picture.boxes, &picture.polygons, &picture.lines];
+        shelf.count(
+            lists.iter().flat_map(|list| [list.as_ptr() as usize as f64, list.len() as f64]),
+        );
+        session.picture = picture;
+        Ok(())
+    })
+}
+
+/// The box around all that is not too large to be seen whole: left, bottom, right, top; and the same of what moves.
+#[unsafe(no_mangle)]
+pub extern "C" fn tp_bounds(session: u32) -> bool {
+    with(session, |session, shelf| {
+        shelf.count(bounds(session));
+        Ok(())
+    })
+}
+
+fn bounds(session: &Session) -> Vec<f64> {
+    let world = session.world();
+    let mut boxes = [[f64::MAX, f64::MAX, f64::MIN, f64::MIN]; 2];
+    for shape in world.shape_ids().filter_map(|id| world.shape(id)) {
+        let Some(body) = world.body(shape.body()) else { continue };
+        let pose = body.pose();
+        let around = shape.shape().aabb(Transform::new(Vec2::ZERO, pose.q).compose(shape.local()));
+        let (p, [min, max]) = (pose.p, [around.min, around.max]);
+        let sides = [p.x + f64::from(min.x), p.y + f64::from(min.y)];
+        let sides = [sides[0], sides[1], p.x + f64::from(max.x), p.y + f64::from(max.y)];
+        let moves = usize::from(body.kind() != BodyKind::Static);
+        let own = &mut boxes[moves];
+        *own = [
+            own[0].min(sides[0]),
+            own[1].min(sides[1]),
+            own[2].max(sides[2]),
+            own[3].max(sides[3]),
+        ];
+    }
+    boxes.concat()
+}
+
+impl Picture {
+    fn draw(&mut self, world: &World, camera: DVec2, alpha: f32, shown: u32) {
+        self.boxes.clear();
+        self.polygons.clear();
+        self.lines.clear();
+        self.tints.clear();
+        if shown & show::DEPTH != 0 {
+            self.tint_by_depth(world);
+        } else if shown & show::ISLANDS != 0 {
+            self.tint_by_island(world);
+        }
+        for fixed in [true, false] {
+            for shape in world.shape_ids().filter_map(|id| world.shape(id)) {
+                let Some(body) = world.body(shape.body()) else { continue };
+                if (body.kind() == BodyKind::Static) == fixed {
+                    let frame = frame(body.interpolated_pose(alpha), camera);
+                    let style = style(&shape, body.kind(), body.is_awake());
+                    self.shape(&shape, frame, style, body.id().index());
+                }
+            }
+        }
+        let options = DebugDrawOptions {
+            shapes: false,
+            joints: shown & show::JOINTS != 0 && shown & show::LOAD == 0,
+            bounds: shown & show::BOUNDS != 0,
+            mass: shown & show::MASS != 0,
+            contacts: shown & show::CONTACTS != 0,
+            normals: false,
+            velocities: shown & show::VELOCITIES != 0,
+            depth_tint: false,
+            origin: camera,
+            ..DebugDrawOptions::default()
+        };
+        world.debug_draw(self, &options);
+        if shown & show::IMPULSES != 0 {
+            self.impulses(world, camera);
+        }
+        if shown & show::LOAD != 0 {
+            self.loads(world, camera);
+        }
+    }
+
+    fn shape(&mut self, shape: &ShapeRef<'_>, frame: Transform, style: f32, body: usize) {
+        let frame = frame.compose(shape.local());
+        let tint = self.tints.get(body).copied().unwrap_or(-1.0);
+        let body = body as f32;
+        let mut rounded = |place: Vec2, q: Rot, half: Vec2, radius: f32| {
+            let row = [place.x, place.y, q.c, q.s, half.x, half.y, radius, style, body, tint];
+            self.boxes.extend(row);
+        };
+        let mut along = |a: Vec2, b: Vec2, radius: f32| {
+            let (a, b) = (frame.apply(a), frame.apply(b));
+            let (way, middle) = (b - a, (a + b) * 0.5);
+            let length = way.length();
+            let q = if length > 0.0 {
+                Rot { c: way.x / length, s: way.y / length }
+            } else {
+                Rot::IDENTITY
+            };
+            rounded(middle, q, Vec2::new(0.5 * length, 0.0), radius);
+        };
+        match shape.shape() {
+            Shape::Circle { radius } => rounded(frame.p, frame.q, Vec2::ZERO, *radius),
+            Shape::Aabb { half_extents } => rounded(frame.p, Rot::IDENTITY, *half_extents, 0.0),
+            Shape::Capsule { a, b, radius } => along(*a, *b, *radius),
+            Shape::Segment { a, b } => along(*a, *b, 0.0),
+            Shape::Polygon(polygon) => match polygon.as_rect() {
+                Some((half, local)) => {
+                    let frame = frame.compose(local);
+                    rounded(frame.p, frame.q, half, polygon.radius());
+                }
+                None => self.polygon_row(polygon, frame, [style, body, tint]),
+            },
+        }
+    }
+
+    fn polygon_row(&mut self, polygon: &Polygon, frame: Transform, [style, body, tint]: [f32; 3]) {
+        let corners = polygon.vertices();
+        let (p, q) = (frame.p, frame.q);
+        self.polygons.extend([p.x, p.y, q.c, q.s, polygon.radius(), corners.len() as f32]);
+        self.polygons.extend([style, body, tint]);
+        let last = corners.last().copied().unwrap_or(Vec2::ZERO);
+        for i in 0..CORNERS {
+            let corner = corners.get(i).copied().unwrap_or(last);
+            self.polygons.extend([corner.x, corner.y]);
+        }
+    }
+
+    fn line(&mut self, a: Vec2, b: Vec2, width: f32, color: Color) {
+        let color = [color.r, color.g, color.b, color.a].map(|part| f32::from(part) / 255.0);
+        self.lines.extend([a.x, a.y, b.x, b.y, width]);
+        self.lines.extend(color);
+    }
+
+    /// Metres of the deepest overlap.
+    fn tint_by_depth(&mut self, world: &World) {
+        for contact in world.contacts() {
+            for point in contact.points() {
+                for body in [contact.body_a, contact.body_b] {
+                    let tint = place(&mut self.tints, body.index(), 0.0);
+                    *tint = tint.max(-point.separation / world.settings.length_unit);
+                }
+            }
+        }
+    }
+
+    /// 1 and up: what touches or is joined has the same number; -1 for what stands by itself.
+    fn tint_by_island(&mut self, world: &World) {
+        let mut roots: Vec<usize> = Vec::new();
+        let moves = |id| world.body(id).is_some_and(|body| body.kind() == BodyKind::Dynamic);
+        let contacts = world.contacts().map(|contact| (contact.body_a, contact.body_b));
+        let joints = world.joint_ids().filter_map(|id| Some(world.joint(id)?.bodies()));
+        for (a, b) in contacts.chain(joints).filter(|(a, b)| moves(*a) && moves(*b)) {
+            let (a, b) = (root(&mut roots, a.index()), root(&mut roots, b.index()));
+            // The smaller index is the root, so that an island keeps its colour.
+            roots[a.max(b)] = a.min(b);
+        }
+        for body in world.body_ids().filter(|id| moves(*id)) {
+            let root = root(&mut roots, body.index());
+            *place(&mut self.tints, body.index(), -1.0) = 1.0 + root as f32;
+        }
+    }
+
+    /// Lines along the normals, as long as the impulse is large for what it acts on.
+    fn impulses(&mut self, world: &World, camera: DVec2) {
+        let color = Color::rgb(255, 196, 64);
+        for contact in world.contacts() {
+            let masses =
+                [contact.body_a, contact.body_b].map(|id| world.body(id).map_or(0.0, |b| b.mass()));
+            let mass = masses.into_iter().filter(|mass| *mass > 0.0).fold(f32::MAX, f32::min);
+            for point in contact.points() {
+                let from = point.position.relative_to(camera);
+                // A body at rest on one point gets an arrow of half a metre.
+                let length = point.normal_impulse / mass * 10.0 * world.settings.length_unit;
+                let length = length.min(3.0 * world.settings.length_unit);
+                self.line(from, from + contact.normal * length, 2.0, color);
+                self.line(from, from - contact.normal * length, 2.0, color);
+            }
+        }
+    }
+
+    /// Joints coloured by their load beside the weight of what they hold, from green to red.
+    fn loads(&mut self, world: &World, camera: DVec2) {
+        for joint in world.joint_ids().filter_map(|id| world.joint(id)) {
+            let (a, b) = joint.bodies();
+            let (from, to) = joint.anchors();
+            let force = joint.force().length();
+            let masses = [a, b].map(|id| world.body(id).map_or(0.0, |body| body.mass()));
+            let weight = (masses[0] + masses[1]) * world.gravity.length().max(1.0);
+            let strain =
+                joint.def().break_at.map_or(force / (8.0 * weight), |limit| force / limit.force);
+            let strain = strain.clamp(0.0, 1.0);
+            let color = Color::rgb(80, 220, 120).mix(Color::rgb(255, 60, 50), strain);
+            let (from, to) = (from.relative_to(camera), to.relative_to(camera));
+            for (body, anchor) in [(a, from), (b, to)] {
+                if let Some(body) = world.body(body).filter(|body| body.kind() != BodyKind::Static)
+                {
+                    self.line(body.center().relative_to(camera), anchor, 2.0 + 3.0 * strain, color);
+                }
+            }
+            self.line(from, to, 7.0, color);
+        }
+    }
+}
+
+impl DebugDraw for Picture {
+    fn polygon(&mut self, _: &Transform, _: &[Vec2], _: f32, _: Color) {}
+    fn circle(&mut self, _: &Transform, _: f32, _: Color) {}
+    fn capsule(&mut self, _: Vec2, _: Vec2, _: f32, _: Color) {}
+    fn segment(&mut self, a: Vec2, b: Vec2, color: Color) {
+        self.line(a, b, 1.5, color);
+    }
+    fn point(&mut self, p: Vec2, size: f32, color: Color) {
+        self.line(p, p, size, color);
+    }
+    fn text(&mut self, _: Vec2, _: &str, _: Color) {}
+}
+
+fn frame(pose: Pose, camera: DVec2) -> Transform {
+    Transform::new(pose.p.relative_to(camera), pose.q)
+}
+
+/// The kind of the body, 4 where it is awake, 8 for a sensor, 16 for a circle, whose turning is shown by a line.
+fn style(shape: &ShapeRef<'_>, kind: BodyKind, awake: bool) -> f32 {
+    let kind = match kind {
+        BodyKind::Static => 0,
+        BodyKind::Kinematic => 1,
+        BodyKind::Dynamic => 2,
+    };
+    let round = matches!(shape.shape(), Shape::Circle { .. });
+    let flags = u8::from(awake) << 2 | u8::from(shape.is_sensor()) << 3 | u8::from(round) << 4;
+    f32::from(kind | flags)
+}
+
+/// The place of an index in a list that grows as it needs to.
+fn place(list: &mut Vec<f32>, index: usize, empty: f32) -> &mut f32 {
+    if list.len() <= index {
+        list.resize(index + 1, empty);
+    }
+    &mut list[index]
+}
+
+/// The root of a body, with shorter ways behind it.
+fn root(roots: &mut Vec<usize>, mut body: usize) -> usize {
+    while roots.len() <= body {
+        roots.push(roots.len());
+    }
+    while roots[body] != body {
+        roots[body] = roots[roots[body]];
+        body = roots[body];
+    }
+    body
+}
