@@ -12,7 +12,7 @@ const LOOKS = {
     back: rgb("#f4f6fa"),
     grid: rgb("#e3e8f0"),
     accent: rgb("#111827"),
-    dim: 0.45,
+    dim: 0.3,
   },
   dark: {
     palette: all(["#5b9cff", "#ff8a6b", "#45c79b", "#ffc861", "#a08cff", "#ff86ae", "#58c9e6", "#aed25c"]),
@@ -22,7 +22,7 @@ const LOOKS = {
     back: rgb("#0f131b"),
     grid: rgb("#1a202c"),
     accent: rgb("#ffffff"),
-    dim: 0.55,
+    dim: 0.36,
   },
 };
 
