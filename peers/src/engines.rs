@@ -118,7 +118,7 @@ impl Config {
     /// The build fails.
     pub fn build(&self, threads: usize) -> Result<(), String> {
         let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        cargo.args(["build", "--release", "--quiet", "--package", self.package]);
+        cargo.args(["build", "--profile", profile(), "--quiet", "--package", self.package]);
         cargo.arg("--manifest-path").arg(home().join("Cargo.toml"));
         cargo.arg("--target-dir").arg(self.folder(threads));
         let features: Vec<_> = self.features.iter().chain(self.extra_features(threads)).collect();
@@ -126,7 +126,9 @@ impl Config {
             cargo.args(["--features", feature]);
         }
         cargo.env_remove("CARGO_ENCODED_RUSTFLAGS").env_remove("CARGO_BUILD_TARGET");
-        cargo.env("RUSTFLAGS", self.rust_flags).env("CFLAGS", "-O3 -DNDEBUG");
+        let quick = if is_quick() { "--cfg tiny_physics_quick " } else { "" };
+        cargo.env("RUSTFLAGS", format!("{quick}{}", self.rust_flags).trim());
+        cargo.env("CFLAGS", "-O3 -DNDEBUG");
         match cargo.status() {
             Ok(status) if status.success() => Ok(()),
             Ok(status) => Err(format!("{} does not build: {status}", self.name)),
@@ -137,12 +139,12 @@ impl Config {
     /// The worker program.
     pub fn program(&self, threads: usize) -> PathBuf {
         let file = format!("{}{}", self.package, std::env::consts::EXE_SUFFIX);
-        self.folder(threads).join("release").join(file)
+        self.folder(threads).join(profile()).join(file)
     }
 
-    /// The build folder: one for each set of flags and features, so that none undoes another.
+    /// The build folder: one for each set of flags and features, so that none undoes another. Engines share it.
     fn folder(&self, threads: usize) -> PathBuf {
-        let mut name = self.package.to_owned();
+        let mut name = "plain".to_owned();
         for part in self.features.iter().chain(self.extra_features(threads)) {
             name = name + "-" + part;
         }
@@ -155,6 +157,15 @@ impl Config {
     fn extra_features(&self, threads: usize) -> &'static [&'static str] {
         if threads > 1 { self.thread_features } else { &[] }
     }
+}
+
+/// Is the environment's `PEERS_QUICK` set? Then workers are built sooner and are slower: for what is not timed.
+fn is_quick() -> bool {
+    std::env::var_os("PEERS_QUICK").is_some()
+}
+
+fn profile() -> &'static str {
+    if is_quick() { "quick" } else { "release" }
 }
 
 /// The folder of this workspace.
@@ -174,7 +185,7 @@ mod tests {
                 let same_build = a.package == b.package
                     && a.features == b.features
                     && a.rust_flags == b.rust_flags;
-                assert_eq!(a.folder(1) == b.folder(1), same_build, "{} {}", a.name, b.name);
+                assert_eq!(a.program(1) == b.program(1), same_build, "{} {}", a.name, b.name);
             }
         }
         assert_ne!(RAPIER.folder(1), RAPIER.folder(2));

@@ -70,16 +70,18 @@ mod tests {
     use super::*;
     use peers_worker::QualityJob;
 
-    const TASK: Task = Task::Quality(QualityJob { row: 1, other: false, tape: None });
+    fn task() -> Task {
+        Task::Quality(QualityJob { row: "1".into(), other: false, tape: None })
+    }
 
     #[test]
     fn a_crash_and_a_hang_are_errors() {
         let limit = Duration::from_secs(60);
-        assert!(ask(Path::new("/no/such/worker"), &TASK, limit).is_err());
-        assert!(ask(Path::new("false"), &TASK, limit).unwrap_err().contains("exit status"));
+        assert!(ask(Path::new("/no/such/worker"), &task(), limit).is_err());
+        assert!(ask(Path::new("false"), &task(), limit).unwrap_err().contains("exit status"));
         // It writes the task back, which is no answer.
-        assert!(ask(Path::new("cat"), &TASK, limit).unwrap_err().contains("understood"));
-        let error = ask(Path::new("yes"), &TASK, Duration::ZERO).unwrap_err();
+        assert!(ask(Path::new("cat"), &task(), limit).unwrap_err().contains("understood"));
+        let error = ask(Path::new("yes"), &task(), Duration::ZERO).unwrap_err();
         assert!(error.contains("longer than 0 s"), "{error}");
     }
 }

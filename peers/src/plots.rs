@@ -68,9 +68,9 @@ fn overview(path: &Path) -> Result<(), String> {
 }
 
 /// A row in all engines, recorded every so many steps, in the order of [`chart::ENGINES`].
-fn record(engines: &Engines, (row, other): (u32, bool), every: u32) -> Result<Vec<Run>, String> {
+fn record(engines: &Engines, (row, other): (&str, bool), every: u32) -> Result<Vec<Run>, String> {
     eprintln!("recording row {row}");
-    let job = QualityJob { row, other, tape: Some(every) };
+    let job = QualityJob { row: row.into(), other, tape: Some(every) };
     let tapes = |answer| match answer {
         Ok(Answer::Played(played)) => Ok(Run { tapes: played.tapes }),
         Ok(Answer::Failed(reason)) => Err(reason),
@@ -108,7 +108,7 @@ fn greatest(tape: &Tape, number: impl Fn(usize) -> Option<f64>) -> Option<f64> {
 
 /// Towers of 100 crates: how far the top sinks, and how far the worst crate goes sideways.
 fn stack(engines: &Engines, path: &Path) -> Result<(), String> {
-    let runs = record(engines, (6, false), 12)?;
+    let runs = record(engines, ("6", false), 12)?;
     let sag = lines(&runs, 1, |tape, frame| {
         let top = tape.bodies.len() - 1;
         Some(place(tape, 0, top)?[1] - place(tape, frame, top)?[1])
@@ -140,7 +140,7 @@ fn stack(engines: &Engines, path: &Path) -> Result<(), String> {
 
 /// A crate on a lighter one: how deep anything overlaps, until it falls.
 fn heavy(engines: &Engines, path: &Path) -> Result<(), String> {
-    let runs = record(engines, (2, false), 6)?;
+    let runs = record(engines, ("2", false), 6)?;
     let overlap = |world| {
         lines(&runs, world, |tape, frame| {
             let ([_, light], [x, heavy]) = (place(tape, frame, 1)?, place(tape, frame, 2)?);
@@ -161,7 +161,7 @@ fn heavy(engines: &Engines, path: &Path) -> Result<(), String> {
 
 /// Light crates under a heavy one after ten seconds.
 fn tower(engines: &Engines, path: &Path) -> Result<(), String> {
-    let runs = record(engines, (3, false), 30)?;
+    let runs = record(engines, ("3", false), 30)?;
     let views: Vec<_> = runs.iter().map(|run| run.tapes.first().map(|tape| (tape, 20))).collect();
     let window = Window { x: (-3.2, 3.2), y: (-0.6, 5.6), circle: None };
     let title = "Four crates under one of 1000 times their weight, after 10 s";
@@ -170,7 +170,7 @@ fn tower(engines: &Engines, path: &Path) -> Result<(), String> {
 
 /// The chain of 30 links with a ball of 1000 times a link's weight, when the ball is farthest away.
 fn chain(engines: &Engines, path: &Path) -> Result<(), String> {
-    let runs = record(engines, (4, false), 2)?;
+    let runs = record(engines, ("4", false), 2)?;
     let farthest = |tape: &Tape| {
         let far = |frame: usize| {
             let [x, y] = place(tape, frame, tape.bodies.len() - 1).unwrap_or_default();
@@ -188,7 +188,7 @@ fn chain(engines: &Engines, path: &Path) -> Result<(), String> {
 
 /// A pyramid of 40 rows: how far the worst crate is off to the side.
 fn pyramid(engines: &Engines, path: &Path) -> Result<(), String> {
-    let runs = record(engines, (7, false), 3)?;
+    let runs = record(engines, ("7", false), 3)?;
     let sideways = lines(&runs, 0, |tape, frame| {
         let moved = |b| Some((place(tape, frame, b)?[0] - place(tape, 0, b)?[0]).abs() * 1000.0);
         if frame <= 120 { greatest(tape, moved) } else { None }
@@ -207,7 +207,7 @@ fn pyramid(engines: &Engines, path: &Path) -> Result<(), String> {
 
 /// A ball hits fifteen head on: half a second later.
 fn billiards(engines: &Engines, path: &Path) -> Result<(), String> {
-    let runs = record(engines, (20, false), 1)?;
+    let runs = record(engines, ("20", false), 1)?;
     let last = |tape: &Tape| tape.frames.len().saturating_sub(1);
     let views: Vec<_> =
         runs.iter().map(|run| run.tapes.first().map(|tape| (tape, last(tape)))).collect();
@@ -218,7 +218,7 @@ fn billiards(engines: &Engines, path: &Path) -> Result<(), String> {
 
 /// A box without friction over tiles: its speed.
 fn tiles(engines: &Engines, path: &Path) -> Result<(), String> {
-    let runs = record(engines, (23, true), 6)?;
+    let runs = record(engines, ("23", true), 6)?;
     let speed = |world| {
         lines(&runs, world, |tape, frame| {
             let (slider, before) = (tape.bodies.len() - 1, frame.checked_sub(1)?);

@@ -7,7 +7,8 @@ use peers_worker::{Answer, Played, QualityJob, Task};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use tiny_physics_quality::{
-    Figure, PeerMeasure, PeerRow, Peers, Report, Row, Variant, find, rows, still, table,
+    Figure, PeerMeasure, PeerRow, Peers, Report, Row, Variant, all_rows, our_engine, resolve,
+    still, table,
 };
 
 /// The configurations that play: the plain builds.
@@ -18,7 +19,7 @@ const LIMIT: Duration = Duration::from_secs(600);
 /// Options of `quality`.
 #[derive(Args)]
 pub struct QualityArgs {
-    /// Numbers or names of rows; all where not said.
+    /// Numbers or names of rows, `hard` for the second suite, a letter for a family of it; the first suite where not said.
     #[arg(value_name = "ROW")]
     rows: Vec<String>,
     /// Play each row in its other variant: other sizes, masses, angles and speeds.
@@ -30,9 +31,9 @@ pub struct QualityArgs {
     /// Print the table as Markdown, as it stands in docs/quality.md.
     #[arg(long, conflicts_with = "json")]
     markdown: bool,
-    /// Play all rows in both variants and write the other engines' figures to crates/quality/peers.json, from where
-    /// `tiny-physics quality` has its columns.
-    #[arg(long, conflicts_with_all = ["rows", "variant"])]
+    /// Play the rows, all of both suites where not said, in both variants and write the other engines' figures to
+    /// crates/quality/peers.json, from where `tiny-physics quality` has its columns.
+    #[arg(long, conflicts_with = "variant")]
     write: bool,
 }
 
@@ -41,10 +42,13 @@ pub struct QualityArgs {
 /// # Errors
 /// No such row, an engine that does not build or must not be measured, a file that cannot be written.
 pub fn run(args: &QualityArgs) -> Result<(), String> {
-    let chosen = choose(&args.rows)?;
+    let chosen = match resolve(&args.rows) {
+        Ok(_) if args.write && args.rows.is_empty() => all_rows().collect(),
+        Ok(rows) => rows,
+        Err(word) => return Err(format!("no row {word}; `tiny-physics quality` lists them")),
+    };
     let engines = Engines::build()?;
-    let mut record =
-        Peers { box2d: String::new(), rapier: String::new(), usual: Vec::new(), other: Vec::new() };
+    let mut record = Peers::recorded().map_err(|error| error.to_string())?;
     let variants = match (args.write, args.variant) {
         (true, _) => vec![Variant::Usual, Variant::Other],
         (false, false) => vec![Variant::Usual],
@@ -53,12 +57,7 @@ pub fn run(args: &QualityArgs) -> Result<(), String> {
     for variant in variants {
         let mut reports = Vec::new();
         for row in &chosen {
-            let (report, peer_row) = engines.play_row(row, variant, &mut record)?;
-            match variant {
-                Variant::Usual => record.usual.push(peer_row),
-                Variant::Other => record.other.push(peer_row),
-            }
-            reports.push(report);
+            reports.push(engines.play_row(row, variant, &mut record)?);
         }
         if args.json {
             print_json(&reports, &record, variant)?;
@@ -67,17 +66,6 @@ pub fn run(args: &QualityArgs) -> Result<(), String> {
         }
     }
     if args.write { write(&record) } else { Ok(()) }
-}
-
-fn choose(names: &[String]) -> Result<Vec<&'static Row>, String> {
-    if names.is_empty() {
-        return Ok(rows().iter().collect());
-    }
-    let known = || rows().iter().map(|row| row.name).collect::<Vec<_>>().join(", ");
-    names
-        .iter()
-        .map(|name| find(name).ok_or_else(|| format!("no row {name}; there are: {}", known())))
-        .collect()
 }
 
 /// The engines' programs, built.
@@ -101,25 +89,24 @@ impl Engines {
 
     /// One job in all engines at once, in the order ours, Box2D, Rapier.
     pub fn play(&self, job: QualityJob) -> Vec<Result<Answer, String>> {
-        let one = |config: &Config| launch::ask(&config.program(1), &Task::Quality(job), LIMIT);
+        let task = Task::Quality(job);
+        let one = |config: &Config| launch::ask(&config.program(1), &task, LIMIT);
         std::thread::scope(|scope| {
             let runs: Vec<_> =
-                self.configs.iter().map(|config| scope.spawn(move || one(config))).collect();
+                self.configs.iter().map(|config| scope.spawn(|| one(config))).collect();
             let crashed = |_| Err("its thread panicked".to_owned());
             runs.into_iter().map(|run| run.join().unwrap_or_else(crashed)).collect()
         })
     }
 
-    /// Our report of a row, and the others' figures.
-    fn play_row(
-        &self,
-        row: &Row,
-        variant: Variant,
-        record: &mut Peers,
-    ) -> Result<(Report, PeerRow), String> {
+    /// Our report of a row; the others' figures go into the record.
+    fn play_row(&self, row: &Row, variant: Variant, record: &mut Peers) -> Result<Report, String> {
         let start = Instant::now();
+        if row.alone.is_some() {
+            return Ok(row.run(&our_engine, variant, false, &mut |_, _| {}));
+        }
         let template = row.run(&still, variant, false, &mut |_, _| {});
-        let job = QualityJob { row: row.id, other: variant == Variant::Other, tape: None };
+        let job = QualityJob { row: row.id.into(), other: variant == Variant::Other, tape: None };
         let mut figures = Vec::new();
         for answer in self.play(job) {
             let (engine, column) = column(&template, answer)?;
@@ -147,7 +134,8 @@ impl Engines {
             })
             .collect();
         let values: Vec<f64> = ours.iter().map(Figure::value).collect();
-        Ok((template.with_values(&values), PeerRow { id: row.id, measures }))
+        record.record(variant, PeerRow { id: row.id.into(), measures });
+        Ok(template.with_values(&values))
     }
 }
 
@@ -177,7 +165,7 @@ fn column(
 
 fn print_table(reports: &[Report], record: &Peers, variant: Variant, markdown: bool) {
     println!("\n{variant:?} variant: {}, {}", record.box2d, record.rapier);
-    let line = |cells: &[String; 10]| {
+    let line = |cells: &[String; table::COLUMNS]| {
         if markdown { format!("| {} |", cells.join(" | ")) } else { table::line(cells) }
     };
     println!("{}", line(&table::HEADER.map(String::from)));
@@ -210,6 +198,8 @@ fn print_table(reports: &[Report], record: &Peers, variant: Variant, markdown: b
     let (box2d, rapier) = (count(|peer| &peer.box2d), count(|peer| &peer.rapier));
     let total = reports.len();
     println!("{ours} of {total} rows pass; {box2d} in Box2D, {rapier} in Rapier");
+    let good = reports.iter().filter(|r| table::as_good(r, &record.beside(variant, r))).count();
+    println!("{good} of {total} rows are as good as the best of the others");
     notes.dedup();
     notes.iter().for_each(|note| println!("{note}"));
 }
@@ -218,6 +208,8 @@ fn print_json(reports: &[Report], record: &Peers, variant: Variant) -> Result<()
     for report in reports {
         let mut row = serde_json::to_value(report).map_err(|error| error.to_string())?;
         let peers: Vec<_> = record.beside(variant, report).into_iter().flatten().collect();
+        let beside = record.beside(variant, report);
+        row["as_good"] = table::as_good(report, &beside).into();
         row["peers"] = serde_json::to_value(peers).map_err(|error| error.to_string())?;
         println!("{row}");
     }
@@ -239,7 +231,12 @@ mod tests {
     use peers_worker::Measured;
 
     fn template() -> Report {
-        find("stack").expect("a row").run(&still, Variant::Usual, false, &mut |_, _| {})
+        tiny_physics_quality::find("stack").expect("a row").run(
+            &still,
+            Variant::Usual,
+            false,
+            &mut |_, _| {},
+        )
     }
 
     #[test]

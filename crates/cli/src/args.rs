@@ -320,7 +320,8 @@ pub enum Figure {
 /// Options of `quality`.
 #[derive(Args, Clone, Debug)]
 pub struct QualityArgs {
-    /// Numbers or names of rows; all where not said
+    /// Numbers or names of rows, `hard` for the second suite, or a family of it (M, J, E, G, F, C); the first suite where
+    /// not said
     #[arg(value_name = "ROW")]
     pub rows: Vec<String>,
     /// Play each row in its other variant: other sizes, masses, angles and speeds

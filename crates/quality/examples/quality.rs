@@ -1,19 +1,19 @@
-//! Runs rows of the suite on this engine: `quality [other] [row...]`.
+//! Runs rows of the suites on this engine: `quality [other] [row...]`.
 
 use std::time::Instant;
-use tiny_physics_quality::{Variant, our_engine, rows};
+use tiny_physics_quality::{Variant, our_engine, resolve};
 
 fn main() {
     let mut variant = Variant::Usual;
     let mut wanted = Vec::new();
     for argument in std::env::args().skip(1) {
-        match argument.parse::<u32>() {
-            Ok(id) => wanted.push(id),
-            Err(_) => variant = Variant::Other,
+        match argument.as_str() {
+            "other" => variant = Variant::Other,
+            _ => wanted.push(argument),
         }
     }
     let mut passed = 0;
-    for row in rows().iter().filter(|row| wanted.is_empty() || wanted.contains(&row.id)) {
+    for row in resolve(&wanted).expect("rows, `hard`, or families") {
         let start = Instant::now();
         let report = row.run(&our_engine, variant, std::env::var("AWAKE").is_ok(), &mut |_, _| {});
         passed += u32::from(report.pass);

@@ -1,6 +1,6 @@
 //! Golden hashes of the quality suite: the first steps of each row's worlds.
 
-use crate::rows::Row;
+use crate::row::Row;
 use crate::subject::Subject;
 use crate::{Variant, rows};
 use std::cell::Cell;
@@ -88,6 +88,14 @@ impl Host for Hashed {
 
     fn set_velocity(&mut self, body: usize, velocity: Vec2) {
         self.host.set_velocity(body, velocity);
+    }
+
+    fn set_angular_velocity(&mut self, body: usize, radians_per_second: f32) {
+        self.host.set_angular_velocity(body, radians_per_second);
+    }
+
+    fn apply_force(&mut self, body: usize, newtons: Vec2) {
+        self.host.apply_force(body, newtons);
     }
 
     fn is_awake(&self, body: usize) -> bool {

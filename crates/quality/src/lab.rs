@@ -1,7 +1,10 @@
 //! Where rows are played: it makes worlds of scenes, steps them and counts the steps.
 
 use crate::subject::Subject;
-use tiny_physics::{DVec2, Pose, Rot, Vec2, collide};
+use tiny_physics::geometry::MassProperties;
+use tiny_physics::{
+    BodyKind, DVec2, JointDef, Pose, RigidBody, Rot, ShapeDef, Transform, Vec2, collide,
+};
 use tiny_physics_scenes::Scene;
 
 /// Makes the empty world of an engine for a scene.
@@ -61,7 +64,8 @@ impl<'a> Lab<'a> {
         for joint in &scene.joints {
             host.add_joint(bodies[joint.a], bodies[joint.b], &joint.def);
         }
-        Trial { host, bodies, scene, steps: 0 }
+        let masses = scene.bodies.iter().map(mass_of).collect();
+        Trial { host, bodies, masses, scene, steps: 0 }
     }
 
     /// Steps a trial once.
@@ -92,8 +96,22 @@ fn steps_in(seconds: f64, dt: f32) -> u64 {
 pub struct Trial {
     host: Box<dyn Subject>,
     bodies: Vec<usize>,
+    masses: Vec<MassProperties>,
     scene: Scene,
     steps: u64,
+}
+
+/// Mass, centre and moment of inertia of a dynamic body; nothing of others, which no force moves.
+fn mass_of(body: &RigidBody) -> MassProperties {
+    if body.kind != BodyKind::Dynamic {
+        return MassProperties::default();
+    }
+    let part = |def: &ShapeDef| {
+        let frame = Transform::from_angle(def.offset, def.angle);
+        def.shape.mass_properties(def.material.density).transformed(frame)
+    };
+    let all = MassProperties::combined(&body.shapes.iter().map(part).collect::<Vec<_>>());
+    body.mass.map_or(all, |mass| all.with_mass(mass))
 }
 
 impl Trial {
@@ -126,6 +144,92 @@ impl Trial {
     /// Sets that velocity.
     pub fn set_velocity(&mut self, body: usize, velocity: Vec2) {
         self.host.set_velocity(self.bodies[body], velocity);
+    }
+
+    /// Sets the angular velocity, radians a second.
+    pub fn set_angular_velocity(&mut self, body: usize, radians_per_second: f32) {
+        self.host.set_angular_velocity(self.bodies[body], radians_per_second);
+    }
+
+    /// Pushes a body's centre of mass during the next step, newtons.
+    pub fn push(&mut self, body: usize, force: Vec2) {
+        self.host.apply_force(self.bodies[body], force);
+    }
+
+    /// Adds a body on the way; its place in the scene.
+    pub fn add_body(&mut self, body: RigidBody) -> usize {
+        self.bodies.push(self.host.add_body(&body));
+        self.masses.push(mass_of(&body));
+        self.scene.body(body)
+    }
+
+    /// Adds a joint on the way; its place in the scene.
+    pub fn add_joint(&mut self, a: usize, b: usize, def: JointDef) -> usize {
+        self.host.add_joint(self.bodies[a], self.bodies[b], &def);
+        self.scene.joint(a, b, def)
+    }
+
+    /// Bodies, all kinds together: they go by 0 up to this.
+    pub fn len(&self) -> usize {
+        self.bodies.len()
+    }
+
+    /// Dynamic bodies by their places in the scene.
+    pub fn dynamic(&self) -> Vec<usize> {
+        let is_dynamic = |&body: &usize| self.scene.bodies[body].kind == BodyKind::Dynamic;
+        (0..self.len()).filter(is_dynamic).collect()
+    }
+
+    /// Is the body awake?
+    pub fn is_awake(&self, body: usize) -> bool {
+        self.host.is_awake(self.bodies[body])
+    }
+
+    /// Does every dynamic body sleep?
+    pub fn sleeps(&self) -> bool {
+        !self.dynamic().into_iter().any(|body| self.is_awake(body))
+    }
+
+    /// Kilograms; 0 for what no force moves.
+    pub fn mass(&self, body: usize) -> f64 {
+        self.masses[body].mass.into()
+    }
+
+    /// Energy of motion, turning included, joules.
+    pub fn kinetic_energy(&self) -> f64 {
+        let of = |body: usize| {
+            let (speed, spin) = (self.speed(body), self.angular_velocity(body));
+            let inertia = f64::from(self.masses[body].inertia);
+            0.5 * (self.mass(body) * speed * speed + inertia * spin * spin)
+        };
+        self.dynamic().into_iter().map(of).sum()
+    }
+
+    /// Energy of height in the scene's gravity, each body's share of it included, joules.
+    pub fn height_energy(&self) -> f64 {
+        let g = self.scene.gravity;
+        let of = |body: usize| {
+            let center = self.point(body, self.masses[body].center);
+            let scale = f64::from(self.scene.bodies[body].gravity_scale);
+            -self.mass(body) * scale * (f64::from(g.x) * center.x + f64::from(g.y) * center.y)
+        };
+        self.dynamic().into_iter().map(of).sum()
+    }
+
+    /// Energy of motion and height, joules.
+    pub fn energy(&self) -> f64 {
+        self.kinetic_energy() + self.height_energy()
+    }
+
+    /// Root mean square of the speeds of some bodies, metres a second.
+    pub fn rms_speed(&self, bodies: &[usize]) -> f64 {
+        let sum: f64 = bodies.iter().map(|&body| self.speed(body).powi(2)).sum();
+        (sum / bodies.len().max(1) as f64).sqrt()
+    }
+
+    /// Speed of the fastest of some bodies, metres a second.
+    pub fn fastest(&self, bodies: &[usize]) -> f64 {
+        greatest(bodies.iter().map(|&body| self.speed(body)))
     }
 
     /// Speed of a body, metres a second; infinite where it is no number.
@@ -171,15 +275,48 @@ impl Trial {
         greatest((1..self.bodies.len()).map(|b| self.overlap(b - 1, b)))
     }
 
-    /// How deep the first shapes of two bodies overlap, metres; 0 where they do not.
+    /// How deep any shapes of two bodies overlap, metres; 0 where they do not.
     pub fn overlap(&self, a: usize, b: usize) -> f64 {
-        let pose = |body: usize| {
-            let (s, c) = self.angle(body).sin_cos();
-            Pose::new(self.position(body), Rot { c: c as f32, s: s as f32 })
+        let pose = |body: usize, def: &ShapeDef| {
+            let (s, c) = (self.angle(body) + f64::from(def.angle)).sin_cos();
+            Pose::new(self.point(body, def.offset), Rot { c: c as f32, s: s as f32 })
         };
-        let shape = |body: usize| &self.scene.bodies[body].shapes[0].shape;
-        let manifold = collide(shape(a), shape(b), pose(b).relative_to(pose(a)), 0.0);
-        manifold.deepest().map_or(0.0, |point| -f64::from(point.separation))
+        let depth = |def_a: &ShapeDef, def_b: &ShapeDef| {
+            let between = pose(b, def_b).relative_to(pose(a, def_a));
+            let manifold = collide(&def_a.shape, &def_b.shape, between, 0.0);
+            manifold.deepest().map_or(0.0, |point| -f64::from(point.separation))
+        };
+        let (shapes_a, shapes_b) = (&self.scene.bodies[a].shapes, &self.scene.bodies[b].shapes);
+        let pairs = shapes_a.iter().flat_map(|a| shapes_b.iter().map(move |b| (a, b)));
+        greatest(pairs.map(|(a, b)| depth(a, b)))
+    }
+
+    /// How deep any two bodies overlap that no joint joins, metres.
+    pub fn deepest_overlap(&self) -> f64 {
+        let near = |a: usize, b: usize| {
+            let (p, q) = (self.position(a), self.position(b));
+            (p.x - q.x).hypot(p.y - q.y) < self.reach(a) + self.reach(b)
+        };
+        let joined = |a: usize, b: usize| {
+            let is = |joint: &tiny_physics_scenes::SceneJoint| {
+                [(a, b), (b, a)].contains(&(joint.a, joint.b)) && !joint.def.collide_connected
+            };
+            self.scene.joints.iter().any(is)
+        };
+        let moves = |body: usize| self.scene.bodies[body].kind == BodyKind::Dynamic;
+        let pairs = (0..self.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
+        let touching =
+            pairs.filter(|&(a, b)| (moves(a) || moves(b)) && near(a, b) && !joined(a, b));
+        greatest(touching.map(|(a, b)| self.overlap(a, b)))
+    }
+
+    /// How far from its position a body's shapes reach at most, metres.
+    fn reach(&self, body: usize) -> f64 {
+        let of = |def: &ShapeDef| {
+            let bounds = def.shape.aabb(Transform::from_angle(def.offset, def.angle));
+            f64::from(bounds.min.abs().max(bounds.max.abs()).length())
+        };
+        greatest(self.scene.bodies[body].shapes.iter().map(of))
     }
 }
 

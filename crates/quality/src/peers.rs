@@ -1,6 +1,6 @@
 //! What other engines made of the rows: figures that `peers` has measured and written to `peers.json`.
 
-use crate::{Report, Variant};
+use crate::{Measure, Report, Variant, all_rows};
 use core::fmt;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
@@ -116,8 +116,8 @@ pub struct Peers {
 /// One row.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct PeerRow {
-    /// Number of the row.
-    pub id: u32,
+    /// The row.
+    pub id: String,
     /// Its numbers, in the order of the report.
     pub measures: Vec<PeerMeasure>,
 }
@@ -131,6 +131,15 @@ pub struct PeerMeasure {
     pub box2d: Figure,
     /// What Rapier made of it.
     pub rapier: Figure,
+}
+
+impl PeerMeasure {
+    /// Is the number of a report as good as the better of the two? Yes where neither can play it.
+    pub fn as_good(&self, ours: &Measure) -> bool {
+        [&self.box2d, &self.rapier]
+            .iter()
+            .all(|theirs| ours.target.as_good(ours.value, theirs.value()))
+    }
 }
 
 impl Peers {
@@ -150,6 +159,20 @@ impl Peers {
         }
     }
 
+    /// Puts a row's figures in place of what is recorded of it.
+    pub fn record(&mut self, variant: Variant, row: PeerRow) {
+        let rows = match variant {
+            Variant::Usual => &mut self.usual,
+            Variant::Other => &mut self.other,
+        };
+        match rows.iter_mut().find(|known| known.id == row.id) {
+            Some(known) => *known = row,
+            None => rows.push(row),
+        }
+        let place = |row: &PeerRow| all_rows().position(|known| known.id == row.id);
+        rows.sort_by_key(|row| place(row).unwrap_or(usize::MAX));
+    }
+
     /// The figures that stand beside a report's numbers, in their order; `None` for a number that has none.
     pub fn beside(&self, variant: Variant, report: &Report) -> Vec<Option<&PeerMeasure>> {
         let row = self.rows(variant).iter().find(|row| row.id == report.id);
@@ -162,29 +185,36 @@ impl Peers {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{rows, still};
+    use crate::{find, rows, still};
 
     #[test]
     fn the_record_has_the_numbers_of_every_row_in_both_variants() {
         let peers = Peers::recorded().expect("peers.json has the form of `Peers`");
         for variant in [Variant::Usual, Variant::Other] {
-            let recorded: Vec<(u32, Vec<&str>)> = peers
-                .rows(variant)
-                .iter()
-                .map(|row| (row.id, row.measures.iter().map(|m| m.metric.as_str()).collect()))
-                .collect();
             let reports: Vec<Report> =
                 rows().iter().map(|row| row.run(&still, variant, false, &mut |_, _| {})).collect();
-            let measured: Vec<(u32, Vec<&str>)> = reports
-                .iter()
-                .map(|row| (row.id, row.measures.iter().map(|m| m.metric.as_str()).collect()))
-                .collect();
-            assert_eq!(recorded, measured, "{variant:?}; measure anew: {COMMAND}");
             for report in &reports {
                 assert!(
                     peers.beside(variant, report).iter().all(Option::is_some),
-                    "{}",
-                    report.name
+                    "{variant:?}, row {}; measure anew: {COMMAND}",
+                    report.id
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_recorded_is_of_a_row() {
+        let peers = Peers::recorded().expect("peers.json has the form of `Peers`");
+        for variant in [Variant::Usual, Variant::Other] {
+            for recorded in peers.rows(variant) {
+                let row = find(&recorded.id).expect("a row of that number");
+                let report = row.run(&still, variant, false, &mut |_, _| {});
+                let metrics = report.measures.iter().map(|measure| &measure.metric);
+                assert!(
+                    metrics.eq(recorded.measures.iter().map(|measure| &measure.metric)),
+                    "{variant:?}, row {}; measure anew: {COMMAND}",
+                    recorded.id
                 );
             }
         }

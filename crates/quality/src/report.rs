@@ -27,6 +27,11 @@ impl Measure {
         Self { metric: metric.into(), value, unit, target, pass }
     }
 
+    /// The same number where only twice the target has to be met.
+    pub(crate) fn with_twice_the_target(self) -> Self {
+        Self::new(self.metric, self.value, self.unit, self.target.doubled())
+    }
+
     /// How much of what is allowed it uses up; up to 1 passes.
     pub fn use_of_target(&self) -> f64 {
         self.target.use_of(self.value)
@@ -36,8 +41,9 @@ impl Measure {
 /// What came of a row: the number that is furthest from its target stands for it.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Report {
-    /// Number of the row, from 1.
-    pub id: u32,
+    /// Number of the row, or its family's letter and a number.
+    #[serde(serialize_with = "number_or_text")]
+    pub id: &'static str,
     /// Its short name.
     pub name: &'static str,
     /// What was measured.
@@ -58,7 +64,7 @@ pub struct Report {
 
 impl Report {
     /// The report of a row with at least one number.
-    pub(crate) fn new(id: u32, name: &'static str, measures: Vec<Measure>) -> Self {
+    pub(crate) fn new(id: &'static str, name: &'static str, measures: Vec<Measure>) -> Self {
         let worst = measures
             .iter()
             .reduce(|a, b| if b.use_of_target() > a.use_of_target() { b } else { a })
@@ -94,6 +100,14 @@ impl Report {
 /// JSON has no infinity: `null` stands for a scene that fell apart.
 fn finite<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     value.is_finite().then_some(*value).serialize(serializer)
+}
+
+/// Numbers of rows are numbers in JSON.
+fn number_or_text<S: Serializer>(id: &str, serializer: S) -> Result<S::Ok, S::Error> {
+    match id.parse::<u32>() {
+        Ok(number) => number.serialize(serializer),
+        Err(_) => id.serialize(serializer),
+    }
 }
 
 fn as_text<S: Serializer>(target: &Target, serializer: S) -> Result<S::Ok, S::Error> {

@@ -43,6 +43,35 @@ impl Target {
         if used.is_nan() { f64::INFINITY } else { used.max(0.0) }
     }
 
+    /// How far a value is from the ideal, and how far it may be, both in the value's unit; infinite where there is no number.
+    fn error(self, measured: f64) -> (f64, f64) {
+        let (error, allowed) = match self {
+            Self::AtMost(limit) => (measured.max(0.0), limit),
+            Self::AtLeast { limit, ideal } if ideal.is_infinite() => (limit - measured, 0.0),
+            Self::AtLeast { limit, ideal } => ((ideal - measured).max(0.0), ideal - limit),
+            Self::Within { value, tolerance } => ((measured - value).abs(), tolerance),
+        };
+        (if measured.is_finite() { error } else { f64::INFINITY }, allowed)
+    }
+
+    /// Is `ours` no further from the ideal than `theirs`, but for a tenth of what the target allows?
+    pub fn as_good(self, ours: f64, theirs: f64) -> bool {
+        let ((ours, allowed), (theirs, _)) = (self.error(ours), self.error(theirs));
+        ours <= theirs.max(0.0) + 0.1 * allowed
+    }
+
+    /// The target of the hard suite's other variant: twice as much is allowed.
+    pub(crate) fn doubled(self) -> Self {
+        match self {
+            Self::AtMost(limit) => Self::AtMost(2.0 * limit),
+            Self::AtLeast { limit, ideal } if ideal.is_infinite() => {
+                Self::AtLeast { limit: 0.5 * limit, ideal }
+            }
+            Self::AtLeast { limit, ideal } => Self::AtLeast { limit: 2.0 * limit - ideal, ideal },
+            Self::Within { value, tolerance } => Self::Within { value, tolerance: 2.0 * tolerance },
+        }
+    }
+
     /// What a perfect engine gets, where that is a number.
     pub fn reference(self) -> Option<f64> {
         let ideal = match self {
@@ -85,6 +114,30 @@ mod tests {
         assert_eq!(Target::AtLeast { limit: 600.0, ideal: f64::INFINITY }.use_of(300.0), 2.0);
         assert_eq!(Target::Within { value: 1.0, tolerance: 0.5 }.use_of(0.5), 1.0);
         assert_eq!(Target::AtMost(1.0).use_of(f64::NAN), f64::INFINITY);
+    }
+
+    #[test]
+    fn engines_are_held_against_each_other() {
+        let at_most = Target::AtMost(1.0);
+        assert!(at_most.as_good(0.5, 0.45) && !at_most.as_good(0.7, 0.45));
+        assert!(at_most.as_good(f64::NAN, f64::INFINITY) && !at_most.as_good(f64::NAN, 9.0));
+        assert!(!Target::AtMost(0.0).as_good(1.0, 0.0) && Target::AtMost(0.0).as_good(3.0, 4.0));
+        let stands = Target::AtLeast { limit: 600.0, ideal: f64::INFINITY };
+        assert!(stands.as_good(600.0, 900.0) && !stands.as_good(60.0, 90.0));
+        assert!(Target::Within { value: 1.0, tolerance: 0.5 }.as_good(0.96, 1.0));
+    }
+
+    #[test]
+    fn twice_the_target_is_half_as_strict() {
+        let within = Target::Within { value: 9.5, tolerance: 0.5 };
+        let kept = Target::AtLeast { limit: 0.9, ideal: 1.0 };
+        let stands = Target::AtLeast { limit: 600.0, ideal: f64::INFINITY };
+        for (target, value) in
+            [(within, 10.2), (kept, 0.86), (stands, 400.0), (Target::AtMost(3.0), 5.0)]
+        {
+            let (usual, other) = (target.use_of(value), target.doubled().use_of(value));
+            assert!((usual / other - 2.0).abs() < 1e-9, "{target}: {usual} and {other}");
+        }
     }
 
     #[test]

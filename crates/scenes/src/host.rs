@@ -26,6 +26,8 @@ pub trait Host {
     fn set_velocity(&mut self, body: usize, velocity: Vec2);
     /// Sets its angular velocity, radians a second.
     fn set_angular_velocity(&mut self, _body: usize, _radians_per_second: f32) {}
+    /// Pushes its centre of mass during the next step, newtons, and wakes it.
+    fn apply_force(&mut self, _body: usize, _newtons: Vec2) {}
     /// Is the body awake?
     fn is_awake(&self, body: usize) -> bool;
     /// Wakes a body and its island.

@@ -9,11 +9,11 @@ pub(crate) const BONE_COUNT: usize = 11;
 
 /// Where a human stands and which others it never touches.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Human {
+pub struct Human {
     /// Point on the ground between its feet, metres.
-    pub(crate) position: Vec2,
+    pub position: Vec2,
     /// Humans of the same negative group do not collide, nor do a human's own bones.
-    pub(crate) group: i32,
+    pub group: i32,
 }
 
 /// One bone; heights are above [`Human::position`], metres.
@@ -105,6 +105,17 @@ const BONE: u64 = 2;
 const JOINT_FRICTION: f32 = 0.05;
 
 impl Human {
+    /// Adds one to a scene; the place of its hip there, ten more bones follow.
+    pub fn add_to(&self, scene: &mut crate::Scene) -> usize {
+        let (bones, joints) = self.build();
+        let first = scene.bodies.len();
+        scene.bodies.extend(bones);
+        for (a, b, def) in joints {
+            scene.joint(first + a, first + b, def);
+        }
+        first
+    }
+
     /// The bodies, and joints between them by their place in the list of bodies.
     pub(crate) fn build(&self) -> (Vec<RigidBody>, Vec<(usize, usize, JointDef)>) {
         let bodies = BONES.iter().map(|bone| self.body(bone)).collect();

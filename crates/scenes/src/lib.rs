@@ -38,6 +38,8 @@ pub use error::{Problem, SceneError};
 pub use golden::{Golden, golden, run_hash};
 pub use grip::Grip;
 pub use host::{Host, Player};
+pub use human::Human;
+pub use random::Random;
 pub use scene::{Counts, Scene, SceneJoint, VERSION};
 pub use script::{
     Act, Character, Deed, Key, Leg, Pull, Queries, Rain, Ride, Script, Terrain, Timeline,

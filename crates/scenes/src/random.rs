@@ -8,28 +8,29 @@ use rand_pcg::rand_core::Rng;
 use tiny_physics::Vec2;
 
 /// Numbers for the seeded scenes: PCG-XSH-RR 64/32 (O'Neill 2014).
-#[derive(Clone)]
-pub(crate) struct Random(Pcg32);
+#[derive(Clone, Debug)]
+pub struct Random(Pcg32);
 
 impl Random {
     const STREAM: u64 = 0x7069_6c65;
 
-    pub(crate) fn new(seed: u64) -> Self {
+    /// From a seed.
+    pub fn new(seed: u64) -> Self {
         Self(Pcg32::new(seed, Self::STREAM))
     }
 
     /// From `a` up to `b`, in steps of 2^-24 of the range.
-    pub(crate) fn range(&mut self, a: f32, b: f32) -> f32 {
+    pub fn range(&mut self, a: f32, b: f32) -> f32 {
         a + (b - a) * unit(self.0.next_u32())
     }
 
     /// From 0 up to but not including `count`.
-    pub(crate) fn below(&mut self, count: u32) -> u32 {
+    pub fn below(&mut self, count: u32) -> u32 {
         ((u64::from(self.0.next_u32()) * u64::from(count)) >> 32) as u32
     }
 
     /// Heads or tails.
-    pub(crate) fn coin(&mut self) -> bool {
+    pub fn coin(&mut self) -> bool {
         self.below(2) == 1
     }
 }

@@ -380,6 +380,10 @@ impl<T: Commanded> Host for CommandHost<T> {
         }
     }
 
+    fn apply_force(&mut self, body: usize, newtons: Vec2) {
+        self.tell(body, BodyCommand::ApplyForceToCenter(newtons));
+    }
+
     fn move_character(&mut self, mover: &mut CharacterMover, input: MoverInput, dt: f32) {
         let command = Command::MoveCharacter(mover.clone(), input, dt);
         if let Made::Character(moved) = self.apply(command) {

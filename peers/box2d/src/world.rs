@@ -174,6 +174,20 @@ impl Host for Box2d {
         p.map_or(DVec2::ZERO, |p| DVec2::new(p.x.into(), p.y.into()))
     }
 
+    fn set_angular_velocity(&mut self, body: usize, radians_per_second: f32) {
+        if let Some(id) = self.bodies[body] {
+            // SAFETY: as above.
+            unsafe { b2Body_SetAngularVelocity(id, radians_per_second) }
+        }
+    }
+
+    fn apply_force(&mut self, body: usize, newtons: Vec2) {
+        if let Some(id) = self.bodies[body] {
+            // SAFETY: as above.
+            unsafe { b2Body_ApplyForceToCenter(id, vec2(newtons), true) }
+        }
+    }
+
     fn is_awake(&self, body: usize) -> bool {
         // SAFETY: as above.
         self.bodies[body].is_some_and(|id| unsafe { b2Body_IsAwake(id) })

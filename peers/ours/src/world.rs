@@ -135,6 +135,18 @@ impl Host for Ours {
         }
     }
 
+    fn set_angular_velocity(&mut self, body: usize, radians_per_second: f32) {
+        if let Some(mut body) = self.world.body_mut(self.bodies[body]) {
+            body.set_angular_velocity(radians_per_second);
+        }
+    }
+
+    fn apply_force(&mut self, body: usize, newtons: Vec2) {
+        if let Some(mut body) = self.world.body_mut(self.bodies[body]) {
+            body.apply_force_to_center(newtons);
+        }
+    }
+
     fn is_awake(&self, body: usize) -> bool {
         self.world.body(self.bodies[body]).is_some_and(|body| body.is_awake())
     }

@@ -54,10 +54,10 @@ pub struct Report {
 }
 
 /// A row of the quality suite to be played.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct QualityJob {
-    /// Number of the row.
-    pub row: u32,
+    /// The row.
+    pub row: String,
     /// Play it in its other variant?
     pub other: bool,
     /// Record where bodies are at the start and after each so many steps.

@@ -15,7 +15,7 @@ use tiny_physics_scenes::Scene;
 /// # Errors
 /// No such row, or an engine that must not be measured.
 pub fn play<E: Engine + 'static>(job: &QualityJob) -> Result<Played, String> {
-    let row = find(&job.row.to_string()).ok_or_else(|| format!("there is no row {}", job.row))?;
+    let row = find(&job.row).ok_or_else(|| format!("there is no row {}", job.row))?;
     let cannot = RefCell::new(None);
     let failed = RefCell::new(None);
     let tapes: Rc<RefCell<Vec<Tape>>> = Rc::default();

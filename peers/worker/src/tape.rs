@@ -85,6 +85,14 @@ impl<E: Engine> Host for Recorder<E> {
         self.engine.set_velocity(body, velocity);
     }
 
+    fn set_angular_velocity(&mut self, body: usize, radians_per_second: f32) {
+        self.engine.set_angular_velocity(body, radians_per_second);
+    }
+
+    fn apply_force(&mut self, body: usize, newtons: Vec2) {
+        self.engine.apply_force(body, newtons);
+    }
+
     fn is_awake(&self, body: usize) -> bool {
         self.engine.is_awake(body)
     }

@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::io::{IsTerminal, Write, stderr, stdout};
 use std::time::{Duration, Instant};
 use tiny_physics_quality::{
-    PEERS_COMMAND, PeerMeasure, Peers, Report, Row, Variant, find, our_engine, rows, table,
+    PEERS_COMMAND, PeerMeasure, Peers, Report, Row, Variant, all_rows, our_engine, resolve, table,
 };
 
 /// Plays the rows and prints the table.
@@ -56,7 +56,10 @@ fn print_summary(
     };
     let (box2d, rapier) = (count(|peer| &peer.box2d), count(|peer| &peer.rapier));
     let total = reports.len();
+    let beside = |report: &&Report| table::as_good(report, &peers.beside(variant, report));
+    let good = reports.iter().filter(beside).count();
     writeln!(out, "\n{passed} of {total} rows pass; {box2d} in Box2D, {rapier} in Rapier.")?;
+    writeln!(out, "{good} of {total} rows are as good as the best of the others.")?;
     writeln!(
         out,
         "Columns Box2D and Rapier: measured before on the same scenes, each engine at its own defaults\n\
@@ -71,30 +74,29 @@ fn print_summary(
 struct JsonRow<'a> {
     #[serde(flatten)]
     report: &'a Report,
+    /// Is each number as good as the best of the others'?
+    as_good: bool,
     peers: Vec<&'a PeerMeasure>,
 }
 
 impl<'a> JsonRow<'a> {
     fn new(report: &'a Report, peers: &'a Peers, variant: Variant) -> Self {
-        let peers = peers.beside(variant, report).into_iter().flatten().collect();
-        Self { report, peers }
+        let beside = peers.beside(variant, report);
+        let as_good = table::as_good(report, &beside);
+        Self { report, as_good, peers: beside.into_iter().flatten().collect() }
     }
 }
 
-/// The rows asked for, in their order; all if none is named.
+/// The rows asked for, in their order; the first suite if none is named.
 fn choose(names: &[String]) -> Outcome<Vec<&'static Row>> {
-    if names.is_empty() {
-        return Ok(rows().iter().collect());
-    }
-    let unknown = |name: &String| {
-        let known: Vec<_> = rows().iter().map(|row| row.name).collect();
+    let unknown = |name: &str| {
+        let known: Vec<_> = all_rows().map(|row| row.name).collect();
         Failure::new(format!("there is no row '{name}'")).hint(format!(
-            "rows go by number, 1 to {}, or by name: {}",
-            known.len(),
+            "rows go by number, 1 to 26 and M1 to C11, by family (M, J, E, G, F, C), or by name: {}",
             known.join(", ")
         ))
     };
-    names.iter().map(|name| find(name).ok_or_else(|| unknown(name))).collect()
+    resolve(names).map_err(unknown)
 }
 
 /// Plays a row; a bar shows on a terminal when that takes longer than a moment.
@@ -127,8 +129,8 @@ mod tests {
     #[test]
     fn rows_go_by_number_and_name() {
         let chosen = choose(&["7".into(), "card house".into()]).unwrap();
-        assert_eq!(chosen.iter().map(|row| row.id).collect::<Vec<_>>(), [7, 1]);
-        assert_eq!(choose(&[]).unwrap().len(), rows().len());
+        assert_eq!(chosen.iter().map(|row| row.id).collect::<Vec<_>>(), ["7", "1"]);
+        assert_eq!(choose(&[]).unwrap().len(), 26);
         let failure = choose(&["piramid".into()]).unwrap_err().to_string();
         assert!(failure.contains("'piramid'") && failure.contains("pyramid"), "{failure}");
     }

@@ -150,15 +150,10 @@ pub(crate) fn ragdoll(options: Options) -> Scene {
     scene.body(stairs);
     for i in 0..count {
         let position = Vec2::new(-10.0 + 0.9 * (i % 6) as f32, 5.0 + 2.5 * i as f32);
-        let first = scene.bodies.len();
         let group = -i32::try_from(i).unwrap_or(0) - 1;
-        let (bodies, joints) = Human { position, group }.build();
-        for mut body in bodies {
+        let first = Human { position, group }.add_to(&mut scene);
+        for body in &mut scene.bodies[first..] {
             body.velocity = Vec2::new(2.0, 0.0);
-            scene.body(body);
-        }
-        for (a, b, def) in joints {
-            scene.joint(first + a, first + b, def);
         }
     }
     scene
