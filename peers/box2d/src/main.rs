@@ -1,5 +1,6 @@
 //! The benchmark scenes in Box2D v3, through its C interface.
 
+mod joints;
 mod queries;
 mod shapes;
 mod world;

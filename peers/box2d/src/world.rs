@@ -3,6 +3,7 @@
 //! For timing, everything is set to what the description says; what it does not say (contact recycling, joint
 //! stiffness) and how stiff contacts are stays at Box2D's defaults. For quality, so does the solver: [`Tuning`].
 
+use crate::joints;
 use crate::queries;
 use crate::shapes::{Geometry, geometry, rot, shape_def, vec2};
 use boxdd_sys::ffi::*;
@@ -44,7 +45,10 @@ impl Engine for Box2d {
             return Some("a polygon too small for Box2D".into());
         }
         let known = |kind: &JointKind| {
-            matches!(kind, JointKind::Revolute { .. } | JointKind::Distance { .. })
+            !matches!(
+                kind,
+                JointKind::Mouse { .. } | JointKind::Pulley { .. } | JointKind::Gear { .. }
+            )
         };
         let strange = scene.joints.iter().find(|joint| !known(&joint.def.kind))?;
         Some(format!("joint not translated to Box2D: {:?}", strange.def.kind))
@@ -139,7 +143,7 @@ impl Host for Box2d {
 
     fn add_joint(&mut self, a: usize, b: usize, joint: &JointDef) -> usize {
         let ends = self.bodies[a].zip(self.bodies[b]);
-        let id = ends.and_then(|(a, b)| add_joint(self.world, a, b, joint));
+        let id = ends.and_then(|(a, b)| joints::add_joint(self.world, a, b, joint));
         self.joints.push(id);
         self.joints.len() - 1
     }
@@ -332,66 +336,6 @@ fn scale_mass(body: b2BodyId, mass: f32) {
         data.mass = mass;
         // SAFETY: the body is live.
         unsafe { b2Body_SetMassData(body, data) }
-    }
-}
-
-/// Makes a joint; `None` for a kind that this glue does not know.
-fn add_joint(world: b2WorldId, a: b2BodyId, b: b2BodyId, joint: &JointDef) -> Option<b2JointId> {
-    match &joint.kind {
-        JointKind::Revolute { spring, target_angle, limits, motor } => {
-            // SAFETY: returns a plain value.
-            let mut def = unsafe { b2DefaultRevoluteJointDef() };
-            set_base(&mut def.base, a, b, joint);
-            def.targetAngle = *target_angle;
-            if let Some(spring) = spring {
-                (def.enableSpring, def.hertz) = (true, spring.hertz);
-                def.dampingRatio = spring.damping_ratio;
-            }
-            if let Some(limits) = limits {
-                (def.enableLimit, def.lowerAngle, def.upperAngle) =
-                    (true, limits.lower, limits.upper);
-            }
-            if let Some(motor) = motor {
-                (def.enableMotor, def.motorSpeed, def.maxMotorTorque) =
-                    (true, motor.speed, motor.max);
-            }
-            // SAFETY: `def` began as the default; world and bodies are live.
-            Some(unsafe { b2CreateRevoluteJoint(world, &def) })
-        }
-        JointKind::Distance { length, spring, limits, motor } => {
-            // SAFETY: returns a plain value.
-            let mut def = unsafe { b2DefaultDistanceJointDef() };
-            set_base(&mut def.base, a, b, joint);
-            def.length = *length;
-            if let Some(spring) = spring {
-                (def.enableSpring, def.hertz) = (true, spring.hertz);
-                def.dampingRatio = spring.damping_ratio;
-            }
-            if let Some(limits) = limits {
-                (def.enableLimit, def.minLength, def.maxLength) =
-                    (true, limits.lower, limits.upper);
-                // Without a spring Box2D's joint is rigid: a spring of no stiffness is free between limits.
-                def.enableSpring = true;
-            }
-            if let Some(motor) = motor {
-                (def.enableMotor, def.motorSpeed, def.maxMotorForce) =
-                    (true, motor.speed, motor.max);
-            }
-            // SAFETY: `def` began as the default; world and bodies are live.
-            Some(unsafe { b2CreateDistanceJoint(world, &def) })
-        }
-        _ => None,
-    }
-}
-
-fn set_base(base: &mut b2JointDef, a: b2BodyId, b: b2BodyId, joint: &JointDef) {
-    (base.bodyIdA, base.bodyIdB) = (a, b);
-    base.localFrameA = b2Transform { p: vec2(joint.anchor_a), q: rot(joint.angle_a) };
-    base.localFrameB = b2Transform { p: vec2(joint.anchor_b), q: rot(joint.angle_b) };
-    base.collideConnected = joint.collide_connected;
-    if let Some(softness) = joint.softness {
-        base.constraintHertz = softness.hertz;
-        base.constraintDampingRatio = softness.damping_ratio;
     }
 }
 

@@ -34,6 +34,26 @@ pub fn joint(def: &JointDef) -> Option<GenericJoint> {
             }
             joint
         }
+        JointKind::Prismatic { spring, target, limits, motor } => {
+            let mut joint = GenericJoint::new(JointAxesMask::LOCKED_PRISMATIC_AXES);
+            set_motor(&mut joint, JointAxis::LinX, *target, spring.as_ref(), motor.as_ref());
+            if let Some(limits) = limits {
+                joint.set_limits(JointAxis::LinX, [limits.lower, limits.upper]);
+            }
+            joint
+        }
+        JointKind::Wheel { spring, limits, motor } => {
+            let mut joint = GenericJoint::new(JointAxesMask::LIN_Y);
+            set_motor(&mut joint, JointAxis::LinX, 0.0, spring.as_ref(), None);
+            set_motor(&mut joint, JointAxis::AngX, 0.0, None, motor.as_ref());
+            if let Some(limits) = limits {
+                joint.set_limits(JointAxis::LinX, [limits.lower, limits.upper]);
+            }
+            joint
+        }
+        JointKind::Weld { linear: None, angular: None } => {
+            GenericJoint::new(JointAxesMask::LOCKED_FIXED_AXES)
+        }
         _ => return None,
     };
     joint.set_local_frame1(Pose::new(vector(def.anchor_a), def.angle_a));

@@ -9,6 +9,8 @@ mod stacks;
 
 use crate::row::{Row, Suite, row_list};
 
+pub(crate) use motion::momentum;
+
 /// All rows of the first suite, in order.
 pub fn rows() -> &'static [Row] {
     row_list![Suite::First;

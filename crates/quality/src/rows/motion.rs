@@ -113,7 +113,7 @@ pub(super) fn free_spin(lab: &mut Lab<'_>) -> Vec<Measure> {
 /// A cloud of boxes and disks falls together without gravity: momentum and angular momentum stay.
 ///
 /// Errors are relative to the sum of the bodies' own momenta. Restitution 0.5, friction 0.6.
-pub(super) fn momentum(lab: &mut Lab<'_>) -> Vec<Measure> {
+pub(crate) fn momentum(lab: &mut Lab<'_>) -> Vec<Measure> {
     lab.expect_seconds(10.0, 1.0 / 60.0);
     let side: i32 = lab.pick(16, 12);
     let mut scene = weightless("momentum");
