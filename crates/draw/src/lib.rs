@@ -25,6 +25,7 @@ mod hud;
 mod outline;
 mod palette;
 mod text_view;
+#[cfg(feature = "window")]
 mod window;
 
 pub use animation::Animation;
@@ -32,4 +33,5 @@ pub use camera::Camera;
 pub use canvas::Canvas;
 pub use error::DrawError;
 pub use text_view::TextView;
+#[cfg(feature = "window")]
 pub use window::{Input, Key, Window};

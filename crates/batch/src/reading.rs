@@ -1,0 +1,91 @@
+//! What the numbers of an observation are.
+
+use serde::{Deserialize, Serialize};
+use tiny_physics::{BodyId, Error, JointId, QueryFilter, RayCastHit, Vec2, World};
+
+/// A ray that a body carries along. The body itself does not block it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sight {
+    /// Who carries it.
+    pub body: BodyId,
+    /// Where it starts: body's frame, metres.
+    pub offset: Vec2,
+    /// From the start to the end: body's frame, metres.
+    pub translation: Vec2,
+    /// Categories that it sees, as bits.
+    pub mask: u64,
+}
+
+impl Sight {
+    /// The first thing in sight.
+    fn look(&self, world: &World) -> Result<Option<RayCastHit>, Error> {
+        let body = world.body(self.body).ok_or_else(|| stale(self.body))?;
+        let pose = body.pose();
+        let filter = QueryFilter::new().mask(self.mask).exclude(self.body);
+        Ok(world.ray_cast(pose.apply(self.offset), pose.q.rotate(self.translation), &filter))
+    }
+}
+
+/// What one number tells of a world. Handles are those of the template; one that is stale in a world is an error.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum Reading {
+    /// Place of the body's origin: world x, metres.
+    PositionX(BodyId),
+    /// The same along y.
+    PositionY(BodyId),
+    /// Angle, radians, -pi to pi.
+    Angle(BodyId),
+    /// Velocity of the centre of mass: world x, metres a second.
+    VelocityX(BodyId),
+    /// The same along y.
+    VelocityY(BodyId),
+    /// Radians a second.
+    AngularVelocity(BodyId),
+    /// 1 where the body is awake, else 0.
+    Awake(BodyId),
+    /// Bodies that it touches, contact by contact.
+    Touching(BodyId),
+    /// Angle of a joint's body B against A, radians, -pi to pi.
+    JointAngle(JointId),
+    /// Angular velocity of a joint's body B against A, radians a second.
+    JointSpeed(JointId),
+    /// Part of a ray until it enters a shape, 0 to 1; 1 where it meets nothing.
+    Ray(Sight),
+}
+
+impl Reading {
+    /// Reads it.
+    pub(crate) fn read(&self, world: &World) -> Result<f32, Error> {
+        let body = |id: BodyId| world.body(id).ok_or_else(|| stale(id));
+        Ok(match self {
+            Self::PositionX(id) => body(*id)?.position().x,
+            Self::PositionY(id) => body(*id)?.position().y,
+            Self::Angle(id) => body(*id)?.angle(),
+            Self::VelocityX(id) => body(*id)?.velocity().x,
+            Self::VelocityY(id) => body(*id)?.velocity().y,
+            Self::AngularVelocity(id) => body(*id)?.angular_velocity(),
+            Self::Awake(id) => f32::from(u8::from(body(*id)?.is_awake())),
+            Self::Touching(id) => {
+                body(*id)?;
+                world.contacts().filter(|c| c.body_a == *id || c.body_b == *id).count() as f32
+            }
+            Self::JointAngle(id) => joint_motion(world, *id)?.0,
+            Self::JointSpeed(id) => joint_motion(world, *id)?.1,
+            Self::Ray(sight) => sight.look(world)?.map_or(1.0, |hit| hit.fraction),
+        })
+    }
+}
+
+fn stale(handle: impl core::fmt::Debug) -> Error {
+    Error::StaleHandle { handle: format!("{handle:?}") }
+}
+
+/// Angle (radians) and angular velocity (radians a second) of a joint's body B against A.
+pub(crate) fn joint_motion(world: &World, joint: JointId) -> Result<(f32, f32), Error> {
+    let (a, b) = world.joint(joint).ok_or_else(|| stale(joint))?.bodies();
+    let a = world.body(a).ok_or_else(|| stale(a))?;
+    let b = world.body(b).ok_or_else(|| stale(b))?;
+    let angle = b.rotation().angle_from(a.rotation());
+    Ok((angle, b.angular_velocity() - a.angular_velocity()))
+}
