@@ -4,6 +4,7 @@
 
 use std::fmt::Write;
 use tiny_physics::SimdLevel;
+use tiny_physics_scenes::bits::{Way, hashes, parted};
 use tiny_physics_scenes::{Entry, Golden, Options, all, golden, run_hash, tags};
 
 const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden.txt");
@@ -56,6 +57,17 @@ fn simd_levels_agree() {
         for level in levels() {
             assert_eq!(hash(entry, steps / 2, level, 1), expected, "{} on {level:?}", entry.name);
         }
+    }
+}
+
+/// Whole runs of the small scenes. The example `bits` plays all scenes in every way.
+#[test]
+fn levels_and_threads_may_change_during_whole_runs() {
+    let scalar = Way::Steady(SimdLevel::ALL[0], 1);
+    for entry in all().iter().filter(|entry| entry.has_tag(tags::SHOW)) {
+        let run = |way| hashes(entry, entry.steps, 50, way).expect(entry.name);
+        let parted = parted(&run(scalar), &run(Way::Changing));
+        assert_eq!(parted, None, "{} differs by this step", entry.name);
     }
 }
 

@@ -391,9 +391,14 @@ impl Graph {
     pub(crate) fn remove(&mut self, bodies: &mut Bodies, contacts: &mut Contacts, index: u32) {
         let contact = &contacts.records[index as usize];
         if let Some((place, slot)) = self.dismiss(bodies, contact) {
-            let key = key(place, contact.class);
+            let class = contact.class;
+            let key = key(place, class);
             self.buckets[key].take_out(place, slot, SharedSlice::new(&mut contacts.records));
             self.buckets.close(key);
+            // What moves into the hole may come from a fresh block.
+            if place != IDLE && !self.fresh.is_empty() {
+                self.fresh.push((place as u8, class as u8, slot / BLOCK as u32));
+            }
         }
     }
 

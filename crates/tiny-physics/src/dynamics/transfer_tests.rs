@@ -118,6 +118,36 @@ fn many_at_once_are_as_one_by_one() {
     });
 }
 
+/// What moves into a hole takes along that its constraint is not written yet.
+#[test]
+fn contacts_that_move_within_their_bucket_stay_fresh() {
+    const COUNT: u32 = 900;
+    let mut stores = Stores::new(COUNT as usize);
+    let Stores { bodies, contacts, graph } = &mut stores;
+    for index in 0..COUNT {
+        let is_late = index >= COUNT / 2;
+        if index == COUNT / 2 {
+            graph.clear_fresh();
+        }
+        graph.insert(bodies, contacts, index);
+        if is_late && index % 3 == 0 {
+            graph.remove(bodies, contacts, index - COUNT / 2);
+        }
+    }
+    graph.sort_fresh();
+    let mut moved = 0;
+    for index in COUNT / 2..COUNT {
+        let contact = &contacts.records[index as usize];
+        let Place::Graph { colour, slot } = contact.place else { panic!("{index} is not in") };
+        if usize::from(colour) != IDLE {
+            let address = (colour, contact.class as u8, slot / crate::simd::BLOCK as u32);
+            assert!(graph.fresh().contains(&address), "{index} at {address:?}");
+            moved += 1;
+        }
+    }
+    assert!(moved > 200, "{moved} contacts to look at");
+}
+
 #[test]
 fn a_schedule_has_every_block_once() {
     let mut stores = Stores::new(3000);
