@@ -68,6 +68,7 @@ pub mod record;
 mod simd;
 mod stages;
 mod threads;
+mod work;
 mod world;
 
 pub use debug_draw::{

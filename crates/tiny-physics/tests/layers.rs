@@ -7,7 +7,7 @@ use common::sources::{Source, sources, tokens};
 
 /// The layers, lowest first. Modules of one layer may know each other.
 const LAYERS: [&[&str]; 9] = [
-    &["error", "math", "codec", "footprint"],
+    &["error", "math", "codec", "footprint", "work"],
     &["simd", "threads"],
     &["geometry"],
     &["broad_phase"],

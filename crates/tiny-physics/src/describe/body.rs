@@ -74,7 +74,8 @@ pub struct RigidBody {
     pub can_sleep: bool,
     /// Does it start awake?
     pub awake: bool,
-    /// Speed below which it counts as at rest, metres a second.
+    /// Speed below which it counts as at rest, metres a second; multiplied by
+    /// [`Settings::length_unit`](crate::Settings::length_unit).
     pub sleep_speed: f32,
     /// Is it swept against moving bodies too, not only static ones?
     pub bullet: bool,

@@ -6,6 +6,7 @@
 use super::bodies::{Bodies, NULL};
 use crate::codec::bad;
 use crate::error::Error;
+use crate::work;
 
 /// Going through all bodies takes less time than sorting the list of those that are awake, as long as there are
 /// no more than this many bodies for each of them.
@@ -37,6 +38,7 @@ impl Bodies {
         let Self { awake, awake_places, infos, .. } = self;
         let mut kept = 0;
         awake.retain(|&index| {
+            work::note();
             let stays = infos[index as usize].awake;
             awake_places[index as usize] = if stays { kept } else { NULL };
             kept += u32::from(stays);

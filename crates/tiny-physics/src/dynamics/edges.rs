@@ -5,6 +5,7 @@
 //! the record knows the edges before and behind.
 
 use super::bodies::{Bodies, BodyInfo, NULL};
+use crate::work;
 
 /// A record between two bodies.
 pub(crate) trait Edges {
@@ -29,6 +30,7 @@ pub(crate) fn next_edge<R: Edges>(records: &[R], edge: u32) -> u32 {
 pub(super) fn walk<R: Edges>(records: &[R], first: u32) -> impl Iterator<Item = (u32, u32)> + '_ {
     let edge = |edge: u32| (edge != NULL).then_some(edge);
     core::iter::successors(edge(first), move |&at| edge(next_edge(records, at)))
+        .inspect(|_| work::note())
         .map(|edge| (edge / 2, edge % 2))
 }
 

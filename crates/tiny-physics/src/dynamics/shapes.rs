@@ -9,6 +9,7 @@ use crate::geometry::Shape;
 use crate::geometry::manifold::ShapeClass;
 use crate::math::{Aabb, Transform, Vec2};
 use crate::simd::Row;
+use crate::work;
 
 /// One shape of a body. What a step touches lies in the first cache line.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -201,6 +202,7 @@ impl Shapes {
     /// Indices of a body's shapes, from the head of its list.
     pub(crate) fn of_body(&self, first: u32) -> impl Iterator<Item = u32> + '_ {
         core::iter::successors((first != NULL).then_some(first), |&i| {
+            work::note();
             let next = self.records[i as usize].next;
             (next != NULL).then_some(next)
         })

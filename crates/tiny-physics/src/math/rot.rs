@@ -24,6 +24,9 @@ impl Rot {
     /// No rotation.
     pub const IDENTITY: Self = Self { c: 1.0, s: 0.0 };
 
+    /// Up to this angle in radians the series of the half-angle form is exact to 32 bits.
+    pub(crate) const SMALL_TURN: f32 = 0.25;
+
     /// Rotation by an angle in radians, anticlockwise.
     #[inline]
     pub fn from_angle(radians: f32) -> Self {
@@ -73,20 +76,28 @@ impl Rot {
         self.relative_to(reference).angle()
     }
 
-    /// Turned on by a small angle in radians: exact to seventh order, and kept at unit length.
-    ///
-    /// The half-angle form `((1 - t^2), 2t) / (1 + t^2)` with `t = tan(angle / 2)` by its series; one
-    /// Newton step takes out the rounding that thousands of steps would gather.
+    /// Turned on by an angle in radians, and kept at unit length: one Newton step takes out the rounding that
+    /// thousands of steps would gather.
     #[inline]
     pub fn integrate(self, delta: f32) -> Self {
+        let turned = Self::turn(delta).compose(self);
+        let scale = 1.5 - 0.5 * (turned.c * turned.c + turned.s * turned.s);
+        Self { c: turned.c * scale, s: turned.s * scale }
+    }
+
+    /// The rotation by an angle in radians. Small ones take the half-angle form `((1 - t^2), 2t) / (1 + t^2)` with
+    /// `t = tan(angle / 2)` by its series, which needs no table of quadrants.
+    #[inline]
+    fn turn(delta: f32) -> Self {
+        if delta.abs() > Self::SMALL_TURN {
+            return Self::from_angle(delta);
+        }
         let half = 0.5 * delta;
         let half_sq = half * half;
         let t = half + half * half_sq * (1.0 / 3.0 + half_sq * (2.0 / 15.0));
         let t_sq = t * t;
         let inv = 1.0 / (1.0 + t_sq);
-        let turned = Self { c: (1.0 - t_sq) * inv, s: 2.0 * t * inv }.compose(self);
-        let scale = 1.5 - 0.5 * (turned.c * turned.c + turned.s * turned.s);
-        Self { c: turned.c * scale, s: turned.s * scale }
+        Self { c: (1.0 - t_sq) * inv, s: 2.0 * t * inv }
     }
 
     /// Scaled to unit length; the identity where both parts are zero.
@@ -152,5 +163,16 @@ mod tests {
         let expected = Rot::from_angle((200.0_f64 % core::f64::consts::TAU) as f32);
         assert!(rot.angle_from(expected).abs() < 1e-3, "{}", rot.angle_from(expected));
         assert!((rot.c * rot.c + rot.s * rot.s - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn integration_is_exact_for_any_angle() {
+        for i in -4000..=4000 {
+            let delta = i as f32 * 0.01;
+            let turned = Rot::from_angle(0.4).integrate(delta);
+            let expected = (0.4_f32 as f64 + f64::from(delta)).sin_cos();
+            let error = (f64::from(turned.s) - expected.0).hypot(f64::from(turned.c) - expected.1);
+            assert!(error < 3e-7, "{delta}: {error}");
+        }
     }
 }

@@ -27,6 +27,8 @@ pub(crate) struct FastBody {
 pub(crate) struct Options {
     pub(crate) dt: f32,
     pub(crate) continuous: bool,
+    /// See [`Settings::length_unit`](crate::Settings).
+    pub(crate) length_unit: f32,
 }
 
 /// Bodies whose outline moves less than this fraction of their smallest half width in a step cannot jump.
@@ -107,7 +109,7 @@ fn finalize_body(body: FinalBody<'_>, boxes: Boxes<'_>, options: Options, found:
     row[Slot::DA] = 0.0;
     let start = *pose;
     *pose = Pose::new(start.p + motion, start.q.integrate(turn));
-    time_rest(row, [motion.length(), turn], info, options.dt);
+    time_rest(row, [motion.length(), turn], info, options);
     info.force = Vec2::ZERO;
     info.torque = 0.0;
     let reach = motion.length() + turned_reach(turn, info);
@@ -130,13 +132,14 @@ fn turned_reach(turn: f32, info: &BodyInfo) -> f32 {
 /// Counts the time that a body has been slower than its sleep speed, by its velocity and by how far it went:
 /// what is being pushed out of something has no velocity left at the end of a step.
 #[inline]
-fn time_rest(row: &Row, [way, turn]: [f32; 2], info: &mut BodyInfo, dt: f32) {
+fn time_rest(row: &Row, [way, turn]: [f32; 2], info: &mut BodyInfo, options: Options) {
+    let Options { dt, length_unit, .. } = options;
     let larger = |a: f32, b: f32| if a > b { a } else { b };
     let speed = larger(Vec2::new(row[Slot::VX], row[Slot::VY]).length(), way / dt);
     let spin = larger(row[Slot::W].abs(), turn.abs() / dt);
     let fastest = larger(speed, spin * info.max_extent);
     // A platform that creeps must not stop.
-    let limit = if info.kind == BodyKind::Dynamic { info.sleep_speed } else { 0.0 };
+    let limit = if info.kind == BodyKind::Dynamic { info.sleep_speed * length_unit } else { 0.0 };
     if info.can_sleep && fastest <= limit {
         info.sleep_time += dt;
     } else {

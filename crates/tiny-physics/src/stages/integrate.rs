@@ -9,8 +9,8 @@ use crate::math::Vec2;
 use crate::simd::Row;
 use crate::threads::{SharedRows, SharedSlice, Team};
 
-/// A body turns at most this much in a substep, radians: an eighth of a turn.
-const MAX_TURN: f32 = core::f32::consts::FRAC_PI_4;
+/// A body turns at most this much in a substep, radians: eight turns. It keeps numbers finite, no more.
+const MAX_TURN: f32 = 8.0 * core::f32::consts::TAU;
 
 /// Bodies that one member of the team integrates at a time.
 const CHUNK: usize = 256;

@@ -33,6 +33,8 @@ pub(crate) struct Search {
     pub(crate) pairs: Vec<(u32, u32)>,
     /// By shape: has it left its fat box, see [`motion`]?
     moved: Vec<u8>,
+    /// The bodies of those shapes, ascending.
+    moved_bodies: Vec<u32>,
     /// Did one of those that sleeps?
     sleeper_moved: bool,
     found: Vec<Found>,
@@ -57,7 +59,7 @@ struct Found {
 }
 
 footprint!(Found { near, waiting });
-footprint!(Search { parted, pairs, moved, schedule } each { found, found_parted } none { sleeper_moved });
+footprint!(Search { parted, pairs, moved, moved_bodies, schedule } each { found, found_parted } none { sleeper_moved });
 
 /// What becomes of a pair whose fat boxes overlap.
 enum Fate {
@@ -159,15 +161,21 @@ impl Search {
         let Partners { shapes, bodies, contacts, .. } = partners;
         self.parted.clear();
         let much = broad_phase.moved().len() * 64 > graph.len();
-        for shape in moved_shapes(broad_phase) {
-            let body = &bodies.infos[shapes.records[shape as usize].body as usize];
+        self.moved_bodies.clear();
+        self.moved_bodies
+            .extend(moved_shapes(broad_phase).map(|i| shapes.records[i as usize].body));
+        self.moved_bodies.sort_unstable();
+        self.moved_bodies.dedup();
+        for &body in &self.moved_bodies {
+            let body = &bodies.infos[body as usize];
             if much && body.awake {
                 continue;
             }
             for (index, _) in contacts.of_body(body.first_contact) {
                 let contact = &contacts.records[index as usize];
-                let own = contact.shape_a == shape || contact.shape_b == shape;
-                if own && !shapes.may_touch(contact.shape_a, contact.shape_b) {
+                let (a, b) = (contact.shape_a, contact.shape_b);
+                let motion = self.moved[a as usize] | self.moved[b as usize];
+                if motion != motion::NONE && !shapes.may_touch(a, b) {
                     self.parted.push(index);
                 }
             }

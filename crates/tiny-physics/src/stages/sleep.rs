@@ -9,9 +9,13 @@ use super::islands::{self, Islands, Stores};
 use crate::describe::BodyKind;
 use crate::dynamics::{Bodies, Contacts, Graph, Joints, NULL, Place, next_edge};
 use crate::math::Vec2;
+use std::collections::BTreeSet;
 
 /// Steps between two looks for islands at rest: one look costs about as much as a solver pass.
 pub(crate) const INTERVAL: u64 = 8;
+
+/// Taking a body out of the list of those awake costs about as much as going past this many that stay.
+const MANY_AWAKE: usize = 16;
 
 /// What the look for islands at rest fills anew; kept for its memory.
 #[derive(Debug, Default)]
@@ -86,9 +90,8 @@ pub(crate) fn island_of(
     joints: &Joints,
 ) -> Vec<u32> {
     let is_awake = |i: u32| bodies.infos[i as usize].awake;
-    let mut seen = vec![false; bodies.infos.len()];
+    let mut seen = BTreeSet::from([index]);
     let mut island = vec![index];
-    seen[index as usize] = true;
     let mut next = 0;
     while next < island.len() && bodies.is_dynamic(index) {
         let info = &bodies.infos[island[next] as usize];
@@ -105,7 +108,7 @@ pub(crate) fn island_of(
             if !bodies.is_dynamic(other) && is_awake(other) {
                 return Vec::new();
             }
-            if is_awake(other) && !core::mem::replace(&mut seen[other as usize], true) {
+            if is_awake(other) && seen.insert(other) {
                 island.push(other);
             }
         }
@@ -122,7 +125,12 @@ pub(crate) fn put_to_sleep(islands: &[u32], mut stores: Stores<'_>, hinges: &mut
     for island in islands.split(|&body| body == NULL).filter(|island| !island.is_empty()) {
         put_island_to_sleep(island, &mut stores, hinges);
     }
-    stores.bodies.retain_awake();
+    // One by one where that is less than all: an island that the user puts to sleep.
+    if islands.len() < stores.bodies.awake.len() / MANY_AWAKE {
+        islands.iter().filter(|&&body| body != NULL).for_each(|&i| stores.bodies.remove_awake(i));
+    } else {
+        stores.bodies.retain_awake();
+    }
 }
 
 fn put_island_to_sleep(island: &[u32], stores: &mut Stores<'_>, hinges: &mut Vec<u32>) {

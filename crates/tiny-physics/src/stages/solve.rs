@@ -80,7 +80,7 @@ impl Rules<'_> {
     }
 
     fn contact_parameters(&self) -> Parameters {
-        let Self { settings, gravity, lengths: Lengths { dt, h, .. }, .. } = *self;
+        let Self { settings, lengths: Lengths { dt, h, .. }, .. } = *self;
         let hertz = self.contact_hertz();
         let damping = settings.contact_damping_ratio;
         Parameters {
@@ -90,8 +90,6 @@ impl Rules<'_> {
             push_speed: settings.push_speed * settings.length_unit,
             push_rate: PUSH_RATE,
             fast_approach: FAST_APPROACH * settings.length_unit,
-            gravity,
-            h,
             dt,
             restitution_threshold: settings.restitution_threshold * settings.length_unit,
         }

@@ -172,6 +172,7 @@ impl BodyMut<'_> {
         let (world, index) = (&mut *self.world, self.index);
         world.wake_index(index);
         world.wake_neighbours(index);
+        world.wake_joined(index);
         world.note_ground_of(index);
         world.state.bodies.set_origin_pose(index, pose.p, pose.q.normalized());
         world.mark_shapes_changed(index);

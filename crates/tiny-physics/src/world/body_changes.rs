@@ -53,8 +53,19 @@ impl<'a> Body<'a> {
         let (start, end) = (self.world.state.bodies.previous[i], self.world.state.bodies.poses[i]);
         let alpha = if alpha.is_finite() { alpha.clamp(0.0, 1.0) } else { 1.0 };
         let center = start.p + (end.p - start.p) * f64::from(alpha);
-        let rotation = start.q.integrate(end.q.angle_from(start.q) * alpha);
+        let rotation = start.q.integrate(self.turn_of_last_step(end.q.angle_from(start.q)) * alpha);
         Pose::new(center - rotation.rotate(self.local_center()), rotation)
+    }
+}
+
+impl Body<'_> {
+    /// What it turned in the last step, radians, of which `part` is known but for whole turns: as many of them as
+    /// its angular velocity makes.
+    fn turn_of_last_step(&self, part: f32) -> f32 {
+        let dt = self.world.settings.substeps as f32 / self.world.state.inv_h;
+        let turns = (self.angular_velocity() * dt - part) / core::f32::consts::TAU;
+        let whole = turns.round();
+        if part != 0.0 && whole.is_finite() { part + whole * core::f32::consts::TAU } else { part }
     }
 }
 
@@ -230,7 +241,7 @@ impl World {
 
     /// Handles of the bodies whose pose the last step changed, those that fell asleep in it included. What the
     /// user placed, and what stood still, is not among them. In index order but for bodies that woke in the
-    /// step, which come last.
+    /// step, which come last, and where bodies have been put to sleep by hand since.
     ///
     /// The list is made when it is first asked for after a step, and stays until the next one: a step costs
     /// nothing more where nobody asks. What was removed before is not in it; handles of what is removed

@@ -93,8 +93,12 @@ impl World {
         check_shape(&shape)?;
         self.wake_index(index);
         let id = self.insert_shape(index, &shape);
-        self.update_mass(index);
-        self.create_proxies(index);
+        if self.state.bodies.is_dynamic(index) {
+            self.update_mass(index);
+        } else {
+            self.settle_shape(id);
+        }
+        self.create_proxy(id);
         Ok(self.shape_id(id))
     }
 
@@ -108,7 +112,11 @@ impl World {
     }
 
     /// Adds all shapes to a body, or none.
-    fn insert_shapes(&mut self, body: u32, shapes: &[ShapeDef]) -> Result<Vec<ShapeId>, Error> {
+    pub(super) fn insert_shapes(
+        &mut self,
+        body: u32,
+        shapes: &[ShapeDef],
+    ) -> Result<Vec<ShapeId>, Error> {
         shapes.iter().try_for_each(check_shape)?;
         self.wake_index(body);
         let ids: Vec<u32> = shapes.iter().map(|shape| self.insert_shape(body, shape)).collect();
@@ -285,55 +293,74 @@ impl World {
 
     /// Recomputes what depends on the centre of mass: frames and rows of the shapes, extents.
     fn update_central_frames(&mut self, index: u32) {
-        let first = self.state.bodies.infos[index as usize].first_shape;
-        let center = self.state.bodies.infos[index as usize].local_center;
-        let shapes: Vec<u32> = self.state.shapes.of_body(first).collect();
-        let (mut min_extent, mut max_extent) = (f32::MAX, 0.0_f32);
-        for shape in shapes {
-            let record = &mut self.state.shapes.records[shape as usize];
-            record.central = Transform::new(record.local.p - center, record.local.q);
-            let lane = LaneShape::new(&record.shape, record.central);
-            record.box_frame = lane.box_frame;
-            if !record.sensor {
-                min_extent = min_extent.min(lane.thickness);
-            }
-            let row = lane.row;
-            let reach =
-                Vec2::new(row[0], row[1]).length() + Vec2::new(row[4], row[5]).length() + row[6];
-            max_extent = max_extent.max(reach);
-            self.state.shapes.rows[shape as usize] = row;
-            self.state.shapes.mark_row(shape);
-        }
         let info = &mut self.state.bodies.infos[index as usize];
-        info.min_extent = if min_extent == f32::MAX { 0.0 } else { min_extent };
-        info.max_extent = max_extent;
+        (info.min_extent, info.max_extent) = (0.0, 0.0);
+        let mut is_first = true;
+        for shape in self.shapes_of(index) {
+            is_first &= !self.update_central_frame(shape, is_first);
+        }
+    }
+
+    /// Computes frame and row of a shape from its body's centre of mass, and takes it into the body's extents. Is
+    /// it solid? `is_first` says that no other shape so far is.
+    fn update_central_frame(&mut self, shape: u32, is_first: bool) -> bool {
+        let State { bodies, shapes, .. } = &mut self.state;
+        let record = &mut shapes.records[shape as usize];
+        let info = &mut bodies.infos[record.body as usize];
+        record.central = Transform::new(record.local.p - info.local_center, record.local.q);
+        let lane = LaneShape::new(&record.shape, record.central);
+        record.box_frame = lane.box_frame;
+        let is_solid = !record.sensor;
+        if is_solid && (is_first || lane.thickness < info.min_extent) {
+            info.min_extent = lane.thickness;
+        }
+        let row = lane.row;
+        let reach =
+            Vec2::new(row[0], row[1]).length() + Vec2::new(row[4], row[5]).length() + row[6];
+        info.max_extent = info.max_extent.max(reach);
+        shapes.rows[shape as usize] = row;
+        shapes.mark_row(shape);
+        is_solid
+    }
+
+    /// Takes a new shape, the first of its list, into what is known of a body that is not dynamic. Its centre stays
+    /// where it is, so what other shapes have does too.
+    fn settle_shape(&mut self, shape: u32) {
+        let State { bodies, shapes, .. } = &mut self.state;
+        let record = &shapes.records[shape as usize];
+        bodies.infos[record.body as usize].never_turns |=
+            matches!(record.shape, Shape::Aabb { .. });
+        let is_first =
+            shapes.of_body(record.next).all(|other| shapes.records[other as usize].sensor);
+        self.update_central_frame(shape, is_first);
     }
 
     /// Gives a broad-phase leaf to those shapes of an enabled body that have none.
     pub(super) fn create_proxies(&mut self, index: u32) {
-        let info = &self.state.bodies.infos[index as usize];
-        if !info.enabled {
+        for shape in self.shapes_of(index) {
+            self.create_proxy(shape);
+        }
+    }
+
+    /// Gives a shape a broad-phase leaf, if its body is enabled and it has none.
+    fn create_proxy(&mut self, shape: u32) {
+        let record = &self.state.shapes.records[shape as usize];
+        let info = &self.state.bodies.infos[record.body as usize];
+        if !info.enabled || record.proxy != NULL {
             return;
         }
         let kind = proxy_kind(info.kind);
         let margin = super::FAT_MARGIN * self.settings.length_unit;
-        let pose = self.state.bodies.poses[index as usize];
-        let shapes: Vec<u32> = self.state.shapes.of_body(info.first_shape).collect();
-        for shape in shapes {
-            let record = &self.state.shapes.records[shape as usize];
-            if record.proxy != NULL {
-                continue;
-            }
-            let (category, mask) = record.filter.reach();
-            let def = ProxyDef { kind, category, mask, user: shape, margin };
-            let tight = boxes::shape_box(&self.state.shapes, shape, pose);
-            let proxy = self.state.broad_phase.create_proxy(def, tight);
-            self.state.shapes.tight[shape as usize] = tight;
-            self.state.shapes.records[shape as usize].proxy = proxy.0;
-            self.state.shapes.fat[shape as usize] =
-                self.state.broad_phase.fat_aabb(proxy).unwrap_or(tight);
-            self.note_ground(shape);
-        }
+        let pose = self.state.bodies.poses[record.body as usize];
+        let (category, mask) = record.filter.reach();
+        let def = ProxyDef { kind, category, mask, user: shape, margin };
+        let tight = boxes::shape_box(&self.state.shapes, shape, pose);
+        let proxy = self.state.broad_phase.create_proxy(def, tight);
+        self.state.shapes.tight[shape as usize] = tight;
+        self.state.shapes.records[shape as usize].proxy = proxy.0;
+        self.state.shapes.fat[shape as usize] =
+            self.state.broad_phase.fat_aabb(proxy).unwrap_or(tight);
+        self.note_ground(shape);
     }
 
     /// Notes that ground comes, goes or moves where the box of this shape is.

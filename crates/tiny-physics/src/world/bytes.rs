@@ -11,7 +11,7 @@ use crate::error::Error;
 /// The first bytes of a frame.
 const MAGIC: [u8; 4] = *b"tpw1";
 /// Goes up whenever the bytes of the same world change.
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 /// Magic, version, length, hash.
 const HEADER: usize = 4 + 4 + 8 + 8;
 

@@ -15,6 +15,10 @@ impl World {
         let mut hasher = Hasher::new();
         self.state.step_count.save(&mut hasher);
         self.gravity.save(&mut hasher);
+        // Told apart only where it matters: sleepers wake when it changes.
+        if let Some(felt) = self.state.gravity.filter(|&felt| felt != self.gravity) {
+            felt.save(&mut hasher);
+        }
         self.settings.save(&mut hasher);
         self.hash_bodies(&mut hasher);
         self.hash_shapes(&mut hasher);

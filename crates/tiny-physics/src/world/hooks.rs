@@ -127,7 +127,7 @@ impl World {
 
     /// Sets a function that is asked in every step about every contact that touches, before it is solved: it can
     /// switch the contact off for this step or change how it behaves. The world that it sees is that at the
-    /// start of the step. Numbers that are not finite or negative count as 0.
+    /// start of the step. Numbers that are not finite or negative count as 0. All bodies wake.
     ///
     /// ```
     /// use tiny_physics::{Vec2, World};
@@ -144,11 +144,13 @@ impl World {
         hook: impl Fn(&Self, &ContactView, &mut ContactRules) + Send + Sync + 'static,
     ) {
         self.hooks.pre_solve = Some(Arc::new(hook));
+        self.wake_all();
     }
 
     /// Takes the function of [`World::set_pre_solve`] away again.
     pub fn clear_pre_solve(&mut self) {
         if self.hooks.pre_solve.take().is_some() {
+            self.wake_all();
             let mut places = Vec::new();
             self.list_touching(&mut places);
             for at in places {

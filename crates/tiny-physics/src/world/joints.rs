@@ -116,7 +116,7 @@ impl World {
             self.state.joint_graph.insert(&mut self.state.bodies, &mut self.state.joints, index);
         }
         if def.collide_connected {
-            self.buffer_shapes(a);
+            self.buffer_shapes(self.smaller(a, b));
         } else {
             self.part_bodies(a, b);
         }
@@ -147,7 +147,7 @@ impl World {
         self.wake_index(b);
         self.state.joint_graph.remove(&mut self.state.bodies, &mut self.state.joints, index);
         self.state.joints.remove(&mut self.state.bodies, index);
-        self.buffer_shapes(a);
+        self.buffer_shapes(self.smaller(a, b));
     }
 
     /// Removes all joints of a body.
@@ -170,12 +170,18 @@ impl World {
         self.scratch.solver.broken = broken;
     }
 
+    /// The one of two bodies that has fewer shapes: what concerns a pair is found from either.
+    fn smaller(&self, a: u32, b: u32) -> u32 {
+        let count = |body: u32| self.state.bodies.infos[body as usize].shape_count;
+        if count(b) < count(a) { b } else { a }
+    }
+
     /// Destroys the contacts between two bodies.
     fn part_bodies(&mut self, a: u32, b: u32) {
         let pair = |contact: &crate::dynamics::Contact| {
             (contact.body_a, contact.body_b) == (a, b) || (contact.body_a, contact.body_b) == (b, a)
         };
-        let first = self.state.bodies.infos[a as usize].first_contact;
+        let first = self.state.bodies.infos[self.smaller(a, b) as usize].first_contact;
         let mut indices: Vec<u32> = self
             .state
             .contacts

@@ -29,6 +29,7 @@ mod stats;
 mod tests;
 mod tiles;
 mod validate;
+mod waking;
 
 pub use bodies::{Body, BodyMut};
 pub use contacts::{ContactPoint, ContactView};
@@ -84,7 +85,7 @@ const FAT_MARGIN: f32 = 0.1;
 /// ```
 #[derive(Debug)]
 pub struct World {
-    /// Acceleration of every dynamic body, metres a second squared.
+    /// Acceleration of every dynamic body, metres a second squared. Where it changes, all bodies wake.
     pub gravity: Vec2,
     /// Substeps, iterations, thresholds.
     pub settings: Settings,
@@ -170,6 +171,7 @@ impl World {
         self.state.events.clear();
         self.moved.take();
         self.state.bodies.sort_awake();
+        self.wake_disturbed();
         self.refresh_surfaces();
 
         self.update_pairs(team);
@@ -301,7 +303,8 @@ impl World {
 
     /// Takes the motion over into poses and boxes.
     fn finalize(&mut self, team: &Team, lengths: Lengths) {
-        let options = finalize::Options { dt: lengths.dt, continuous: self.settings.continuous };
+        let Settings { continuous, length_unit, .. } = self.settings;
+        let options = finalize::Options { dt: lengths.dt, continuous, length_unit };
         let State { bodies, shapes, broad_phase, .. } = &mut self.state;
         let scratch = &mut self.scratch;
         let count =

@@ -6,6 +6,7 @@ use crate::broad_phase::BroadPhase;
 use crate::dynamics::{
     Bodies, Contacts, Graph, JointGraph, Joints, Sensors, Shapes, Waiting, cloned_data,
 };
+use crate::math::Vec2;
 use crate::stages::islands::Stores;
 
 /// The stores of a world.
@@ -23,6 +24,8 @@ pub(super) struct State {
     pub(super) sensors: Sensors,
     pub(super) events: Events,
     pub(super) step_count: u64,
+    /// The world's gravity in the last step.
+    pub(super) gravity: Option<Vec2>,
     /// 1 / substep length of the last step, at the plain pace.
     pub(super) inv_h: f32,
 }
@@ -40,6 +43,7 @@ cloned_data!(State {
     sensors,
     events,
     step_count,
+    gravity,
     inv_h
 });
 
@@ -59,6 +63,7 @@ impl State {
             sensors: Sensors::default(),
             events: Events::default(),
             step_count: 0,
+            gravity: None,
             inv_h: 0.0,
         }
     }

@@ -226,9 +226,8 @@ impl World {
                 }
             };
             block.body = Some(body);
-            for (piece, shape) in new.into_iter().zip(shapes) {
-                kept.push((piece, self.add_shape(body, shape)?));
-            }
+            let body = self.body_index(body)?;
+            kept.extend(new.into_iter().zip(self.insert_shapes(body, &shapes)?));
         }
         block.shapes = kept;
         self.placed_mut(id)?.blocks[index] = block;

@@ -35,7 +35,6 @@ mod pair;
 pub(crate) use bounce::{Memory as BounceMemory, run as run_bounces};
 
 use crate::dynamics::{Blocks, ConstraintBlock, Graph, Schedule, SurfaceBlock, flags, is_overflow};
-use crate::math::Vec2;
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
 use crate::threads::{SharedRows, Team};
 use friction::{roll, solve_friction, solve_rolling};
@@ -84,10 +83,7 @@ pub(crate) struct Parameters {
     pub(crate) fast_approach: f32,
     /// What approaches more slowly does not bounce, metres a second.
     pub(crate) restitution_threshold: f32,
-    /// Metres a second squared.
-    pub(crate) gravity: Vec2,
-    /// Lengths of substep and step, seconds.
-    pub(crate) h: f32,
+    /// Length of the step, seconds.
     pub(crate) dt: f32,
 }
 

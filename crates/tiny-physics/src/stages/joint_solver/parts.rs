@@ -1,7 +1,7 @@
 //! What the kernels of all joints share: lanes of a stride, pairs of bodies, small linear systems.
 
 use crate::dynamics::{DirectionLanes, FrameLanes, Slot, SoftLanes};
-use crate::math::Pose;
+use crate::math::{Pose, Rot};
 use crate::simd::{BLOCK, Lanes};
 use crate::threads::SharedRows;
 
@@ -108,7 +108,27 @@ fn turn<L: Lanes>(stride: &Stride<L>, angle: L) -> [L; 2] {
     let t = half + half * half_sq * cubic;
     let t_sq = t * t;
     let inv = stride.one / (stride.one + t_sq);
-    [(stride.one - t_sq) * inv, (t + t) * inv]
+    let series = [(stride.one - t_sq) * inv, (t + t) * inv];
+    let large = angle.abs().gt(stride.splat(Rot::SMALL_TURN));
+    if L::bits(large) == 0 {
+        return series;
+    }
+    let mut angles = [0.0; BLOCK];
+    angle.store(&mut angles);
+    let turns = large_turns(&angles[..L::WIDTH]);
+    let choose = |k: usize| L::select(large, L::load(stride.token, &turns[k]), series[k]);
+    [choose(0), choose(1)]
+}
+
+/// Cosines and sines of angles that are too large for the series.
+#[cold]
+fn large_turns(angles: &[f32]) -> [[f32; BLOCK]; 2] {
+    let mut turns = [[0.0; BLOCK]; 2];
+    for (lane, &angle) in angles.iter().enumerate() {
+        let Rot { c, s } = Rot::from_angle(angle);
+        (turns[0][lane], turns[1][lane]) = (c, s);
+    }
+    turns
 }
 
 /// Turn in a substep, for what goes with its square. It fades out towards [`FASTEST_SWING`]: chains under

@@ -66,3 +66,38 @@ fn being_pushed_out_does_not_rub() {
     assert!((body.velocity().x - 1.0).abs() < 0.1, "{:?}", body.velocity());
     assert!((body.position().y - 0.5).abs() < 0.01, "{:?}", body.position());
 }
+
+/// Energy after a minute of a ball between floor and ceiling that take none, against that at the start.
+fn energy_after_a_minute(gravity_scale: f32, push: Vec2) -> f32 {
+    let mut world = floored(0.0, 1.0);
+    world.gravity = Vec2::new(0.0, -10.0);
+    let ceiling = rect(50.0, 1.0).friction(0.0).restitution(1.0);
+    world.add_body(RigidBody::fixed().shape(ceiling).position(Vec2::new(0.0, 6.0))).unwrap();
+    let ball = drop(&mut world, 0.0, 1.0, Vec2::new(0.0, 7.0), 0.0, 1.0);
+    world.body_mut(ball).unwrap().set_gravity_scale(gravity_scale);
+    let mass = world.body(ball).unwrap().mass();
+    let pull = -10.0 * gravity_scale + push.y;
+    let energy = |world: &World| {
+        let body = world.body(ball).unwrap();
+        let speed = body.velocity().y;
+        // What free fall in substeps keeps: its velocities are half a substep late.
+        0.5 * speed * (speed + pull * DT / 4.0) - pull * body.position().y
+    };
+    let start = energy(&world);
+    for _ in 0..3600 {
+        world.body_mut(ball).unwrap().apply_force_to_center(push * mass);
+        world.step(DT);
+    }
+    energy(&world) / start
+}
+
+/// Bounces go by all that accelerates a body, not by the world's gravity alone.
+#[test]
+fn elastic_bounces_keep_their_energy_under_any_force() {
+    for scale in [0.0, 0.5, 1.0, 2.0, -1.0] {
+        for push in [Vec2::ZERO, Vec2::new(0.0, 10.0), Vec2::new(0.0, -25.0), Vec2::new(0.0, 4.0)] {
+            let energy = energy_after_a_minute(scale, push);
+            assert!((energy - 1.0).abs() < 2.0e-3, "{scale} {push:?}: {energy}");
+        }
+    }
+}

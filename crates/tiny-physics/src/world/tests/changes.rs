@@ -301,3 +301,44 @@ fn a_huge_shape_more_leaves_boxes_where_the_others_are() {
         world.validate().unwrap();
     }
 }
+
+/// However fast a body turns, it turns by its angular velocity times the time, and frames between two steps too.
+#[test]
+fn free_turning_is_exact_at_any_speed() {
+    for spin in [1.0, 14.0, 80.0, -120.0, 180.0, 400.0, -1000.0_f32] {
+        let mut world = World::new(Vec2::ZERO);
+        let body = RigidBody::dynamic().shape(rect(0.5, 0.1)).angular_velocity(spin);
+        let body = world.add_body(body).unwrap();
+        let expected = |time: f64| {
+            let (s, c) = (f64::from(spin) * time).sin_cos();
+            crate::math::Rot { c: c as f32, s: s as f32 }
+        };
+        let off = |rotation: crate::math::Rot, time: f64| rotation.angle_from(expected(time)).abs();
+        for step in 0..60 {
+            world.step(DT);
+            let view = world.body(body).unwrap();
+            assert_eq!(view.angular_velocity(), spin);
+            let time = f64::from(DT) * f64::from(step);
+            let between = off(view.interpolated_pose(0.3).q, time + 0.3 * f64::from(DT));
+            assert!(between < 1.0e-4, "{spin} between frames, step {step}: {between}");
+        }
+        let error = off(world.body(body).unwrap().rotation(), 60.0 * f64::from(DT));
+        // What 32 bits make of an angle as large.
+        assert!(error < 1.0e-5 + 1.0e-7 * spin.abs(), "{spin}: {error}");
+    }
+}
+
+/// A kinematic body arrives where it is sent, by any turn.
+#[test]
+fn targets_are_reached_by_any_turn() {
+    for angle in [0.1, 1.0, 2.0, -3.0, 3.1_f32] {
+        let mut world = world();
+        let arm = world.add_body(RigidBody::kinematic().shape(rect(1.0, 0.1))).unwrap();
+        let target = Transform::from_angle(Vec2::new(0.3, 0.4), angle);
+        world.body_mut(arm).unwrap().set_target(target, DT);
+        world.step(DT);
+        let pose = world.body(arm).unwrap().pose();
+        assert!(pose.q.angle_from(target.q).abs() < 1.0e-6, "{angle}: {:?}", pose.q.angle());
+        assert!((pose.to_transform().p - target.p).length() < 1.0e-6);
+    }
+}

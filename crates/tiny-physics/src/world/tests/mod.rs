@@ -4,6 +4,7 @@ mod anything;
 mod bounces;
 mod changes;
 mod compounds;
+mod costs;
 mod events;
 mod forces;
 mod handles;
@@ -12,6 +13,8 @@ mod one_way;
 mod paces;
 mod threads;
 mod trees;
+mod units;
+mod waking;
 
 use super::*;
 use crate::describe::{BodyKind, RigidBody, ShapeDef};

@@ -86,7 +86,8 @@ pub(crate) fn run(
             0 => (None, threshold, 0.0),
             _ => (Some(&marks[..]), 0.0, HANDED_ON * threshold),
         };
-        let search = Search { graph, rows, parameters, near, approach, leave };
+        let motions = &bodies.motions;
+        let search = Search { graph, rows, parameters, motions, near, approach, leave };
         let hits = search.run(team, level, schedule, hits);
         let count = copy_out(team, graph, hits, batches);
         marked.drain(..).for_each(|body| marks[body as usize] = false);

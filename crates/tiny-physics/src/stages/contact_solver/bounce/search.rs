@@ -1,6 +1,6 @@
 //! Which contacts bounce in a round, and how fast their points are to leave.
 
-use crate::dynamics::{Bucket, ConstraintBlock, Graph, Run, Schedule, Slot, flags};
+use crate::dynamics::{Bucket, ConstraintBlock, Graph, Motion, Run, Schedule, Slot, flags};
 use crate::geometry::manifold::PairClass;
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
 use crate::stages::contact_solver::Parameters;
@@ -26,6 +26,7 @@ pub(super) struct Search<'a> {
     pub(super) graph: &'a Graph,
     pub(super) rows: SharedRows<'a>,
     pub(super) parameters: &'a Parameters,
+    pub(super) motions: &'a [Motion],
     /// The bodies whose contacts are looked at; those of all where not said.
     pub(super) near: Option<&'a [bool]>,
     /// What approaches no faster than this does not bounce, metres a second.
@@ -48,6 +49,26 @@ impl Search<'_> {
             hits.clear();
             dispatch(level, Look { search: self, runs: &runs[range], hits });
         })
+    }
+
+    /// What forces add to the velocities of the bodies of a stride in a substep: nothing to those that cannot move.
+    #[inline(always)]
+    fn gain<L: Lanes>(
+        &self,
+        stride: &Stride<'_, L>,
+        bodies: &[u32; BLOCK],
+        rows: &[L; 8],
+    ) -> [L; 3] {
+        let mut gains = [[0.0; BLOCK]; 3];
+        for lane in 0..L::WIDTH {
+            let motion = &self.motions[bodies[stride.at + lane] as usize];
+            for (k, gains) in gains.iter_mut().enumerate() {
+                gains[lane] = motion.gain[k] * motion.free[k];
+            }
+        }
+        let zero = stride.constants.zero;
+        let moves = zero.lt(rows[Slot::INV_MASS] + rows[Slot::INV_INERTIA]);
+        gains.map(|gains| L::select(moves, L::load(stride.token, &gains), zero))
     }
 
     /// The lanes of a block that may bounce, as bits.
@@ -122,10 +143,10 @@ impl LaneKernel for Look<'_> {
 
 /// How fast the points are to leave that hit in this step; 0 for those that do not.
 ///
-/// With approach v, separation s, closing acceleration c and restitution e, the surfaces meet at speed
-/// `sqrt(v^2 + 2 c s)`. The bounce takes place here, at separation s, so the speed that has to be set is
-/// `sqrt(e^2 (v^2 + 2 c s) - 2 c s)`. Velocities of the semi-implicit scheme are half a substep late:
-/// `c h / 2` is missing from the approach and needed on top of the speed.
+/// With approach v, separation s, closing acceleration c (by all forces on the two bodies; negative where they part)
+/// and restitution e, the surfaces meet at speed `sqrt(v^2 + 2 c s)`. The bounce takes place here, at separation s,
+/// so the speed that has to be set is `sqrt(e^2 (v^2 + 2 c s) - 2 c s)`. Velocities of the semi-implicit scheme are
+/// half a substep late: `c h / 2` is missing from the approach and needed on top of the speed.
 #[inline(always)]
 fn aim<L: Lanes>(
     search: &Search<'_>,
@@ -135,17 +156,14 @@ fn aim<L: Lanes>(
     targets: &mut [[f32; BLOCK]],
 ) {
     let constraint = &bucket.constraints[block];
-    let Parameters { gravity, h, dt, .. } = *search.parameters;
+    let Parameters { inv_h, dt, .. } = *search.parameters;
     let splat = |value| L::splat(stride.token, value);
     let zero = stride.constants.zero;
     let pair = Pair::load(stride, constraint);
     let restitution = stride.load(&bucket.surfaces[block].restitution);
-    // What falls onto something fixed; what falls together does not close in.
-    let pull = pair.normal[0] * splat(gravity.x) + pair.normal[1] * splat(gravity.y);
-    let pull_a = L::select(zero.lt(pair.a[Slot::INV_MASS]), zero, pull);
-    let pull_b = L::select(zero.lt(pair.b[Slot::INV_MASS]), zero, pull);
-    let closing = (pull_b - pull_a).max(zero);
-    let late = closing * splat(0.5 * h);
+    let gain_a = search.gain(stride, &constraint.body_a, &pair.a);
+    let gain_b = search.gain(stride, &constraint.body_b, &pair.b);
+    let along = pair.normal[0] * (gain_a[0] - gain_b[0]) + pair.normal[1] * (gain_a[1] - gain_b[1]);
     for (point, targets) in constraint.points.iter().zip(targets) {
         let arms = [stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b)];
         let velocity = pair.normal_velocity(arms[0], arms[1]);
@@ -154,12 +172,16 @@ fn aim<L: Lanes>(
             velocity.lt(splat(-search.approach)),
             (restitution * velocity).lt(splat(-search.leave)),
         );
-        let arrives = (s + velocity * splat(dt)).lt(zero);
+        // What the forces add to the approach in a substep.
+        let closing = along + (arms[0] * gain_a[2] - arms[1] * gain_b[2]);
+        let fallen = closing.max(zero) * splat(0.5 * inv_h * dt * dt);
+        let arrives = (s + velocity * splat(dt)).lt(fallen);
         let hits = L::and(L::and(fast, arrives), zero.lt(stride.load(&point.normal_mass)));
-        let fall = splat(2.0) * closing * s;
+        let late = splat(0.5) * closing;
+        let fall = splat(2.0 * inv_h) * closing * s;
         let approach = late - velocity;
-        let meet = (approach * approach + fall).max(zero);
+        let meet = approach * approach + fall;
         let speed = (restitution * restitution * meet - fall).max(zero).sqrt() + late;
-        stride.store(L::select(hits, speed, zero), targets);
+        stride.store(L::select(L::and(hits, zero.lt(meet)), speed, zero), targets);
     }
 }

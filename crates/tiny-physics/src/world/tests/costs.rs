@@ -1,0 +1,119 @@
+//! How costs grow, in steps along lists: twice as much in the world is no more than about twice the work.
+
+use super::*;
+use crate::describe::{JointDef, Tile, TileForm, TileGrid};
+use crate::work::counted;
+
+/// Checks that work in proportion to `n` at most stays so from `n` to `8 n`.
+fn grows_in_proportion(what: &str, mut work: impl FnMut(u32) -> u64) {
+    let (few, many) = (work(100), work(800));
+    assert!(many <= 12 * few.max(50), "{what}: {few} steps for 100, {many} for 800");
+}
+
+/// Checks that work does not depend on `n`.
+fn stays_equal(what: &str, mut work: impl FnMut(u32) -> u64) {
+    let (few, many) = (work(100), work(800));
+    assert!(many <= 2 * few.max(20), "{what}: {few} steps among 100, {many} among 800");
+}
+
+/// A fixed body with so many boxes in a row.
+fn level(world: &mut World, count: u32) -> BodyId {
+    let body = world.add_body(RigidBody::fixed()).unwrap();
+    for i in 0..count {
+        world.add_shape(body, rect(0.5, 0.5).offset(Vec2::new(i as f32, -0.5))).unwrap();
+    }
+    body
+}
+
+#[test]
+fn shapes_of_a_level() {
+    grows_in_proportion("one by one", |count| {
+        let mut world = world();
+        counted(|| _ = level(&mut world, count))
+    });
+    grows_in_proportion("tiles in a checkerboard", |count| {
+        let mut world = world();
+        let mut grid = TileGrid::new(1.0, count, 8, vec![Tile::new(TileForm::Full)]);
+        (0..count).flat_map(|x| (0..8).map(move |y| (x, y))).for_each(|(x, y)| {
+            grid.set(x, y, u16::from((x + y) % 2 == 0)).unwrap();
+        });
+        counted(|| _ = world.add_tiles(grid.clone()).unwrap())
+    });
+}
+
+/// What is added one by one is what is added at once.
+#[test]
+fn shapes_added_later_are_as_those_of_the_start() {
+    let shapes = [
+        rect(0.5, 0.25).sensor(),
+        ShapeDef::new(Shape::Aabb { half_extents: Vec2::new(2.0, 0.1) }),
+        circle(0.3).offset(Vec2::new(4.0, 0.0)),
+    ];
+    for kind in [BodyKind::Static, BodyKind::Kinematic, BodyKind::Dynamic] {
+        let def = RigidBody { kind, ..RigidBody::default() };
+        let (mut once, mut later) = (world(), world());
+        let all = shapes.iter().fold(def.clone(), |body, shape| body.shape(shape.clone()));
+        once.add_body(all).unwrap();
+        let body = later.add_body(def).unwrap();
+        // The list begins with what came last.
+        shapes.iter().rev().for_each(|shape| _ = later.add_shape(body, shape.clone()).unwrap());
+        let facts = |world: &World| {
+            let info = &world.state.bodies.infos[1];
+            (info.min_extent, info.max_extent, info.mass, info.inertia, info.never_turns)
+        };
+        assert_eq!(facts(&once), facts(&later), "{kind:?}");
+        assert!(facts(&later).0 > 0.0);
+    }
+}
+
+#[test]
+fn a_joint_to_a_large_level() {
+    stays_equal("joints made and removed", |count| {
+        let mut world = world();
+        let ground = level(&mut world, count);
+        let balls: Vec<_> =
+            (0..count).map(|i| add(&mut world, i as f32, 0.25, circle(0.25))).collect();
+        run(&mut world, 2);
+        counted(|| {
+            for [a, b] in [[balls[0], ground], [ground, balls[1]]] {
+                let joint = world.add_joint(a, b, JointDef::revolute()).unwrap();
+                world.remove_joint(joint).unwrap();
+            }
+        })
+    });
+}
+
+#[test]
+fn one_body_put_to_sleep_among_many() {
+    stays_equal("sleep", |count| {
+        let mut world = world();
+        add_ground(&mut world);
+        let balls: Vec<_> =
+            (0..count).map(|i| add(&mut world, i as f32 * 0.1 - 40.0, 2.0, circle(0.02))).collect();
+        run(&mut world, 2);
+        counted(|| world.body_mut(balls[7]).unwrap().sleep())
+    });
+}
+
+/// Pieces that leave their fat boxes look at the contacts of their body once, not once each.
+#[test]
+fn a_moving_ring_of_many_pieces() {
+    grows_in_proportion("pieces and contacts", |count| {
+        let mut world = World::new(Vec2::ZERO);
+        let mut ring = RigidBody::kinematic();
+        for i in 0..count / 10 {
+            ring = ring.shape(rect(0.5, 0.5).offset(Vec2::new(i as f32, 0.0)));
+        }
+        let ring = world.add_body(ring).unwrap();
+        for i in 0..count {
+            add(&mut world, i as f32 * 0.1, 0.51, circle(0.02));
+        }
+        // Many more that rest, so that the ring is a small part of all.
+        for i in 0..8 * count {
+            add(&mut world, i as f32, -20.0, rect(0.5, 0.5));
+        }
+        world.step(DT);
+        world.body_mut(ring).unwrap().set_position(Vec2::new(0.0, 0.2));
+        counted(|| world.step(DT))
+    });
+}

@@ -1,0 +1,128 @@
+//! What changes from outside wakes those whom it concerns, and no others.
+
+use super::*;
+use crate::describe::{JointDef, Tile, TileForm, TileGrid};
+
+/// A crate that sleeps on the ground at x.
+fn sleeper(world: &mut World, x: f32) -> BodyId {
+    let body = add(world, x, 0.5, rect(0.5, 0.5));
+    run(world, 120);
+    assert!(!is_awake(world, body), "no sleeper to start with");
+    body
+}
+
+fn is_awake(world: &World, body: BodyId) -> bool {
+    world.body(body).unwrap().is_awake()
+}
+
+fn fixed(x: f32, y: f32, shape: ShapeDef) -> RigidBody {
+    RigidBody::fixed().position(Vec2::new(x, y)).shape(shape)
+}
+
+#[test]
+fn another_gravity_wakes_all() {
+    let mut world = world();
+    add_ground(&mut world);
+    let body = sleeper(&mut world, 0.0);
+    world.gravity = Vec2::new(0.0, 10.0);
+    run(&mut world, 30);
+    assert!(y(&world, body) > 1.0, "it fell upwards");
+    // A copy knows which gravity it slept under.
+    world.gravity = Vec2::new(0.0, -10.0);
+    run(&mut world, 300);
+    assert!(!is_awake(&world, body));
+    let mut copy = World::from_bytes(&world.to_bytes()).unwrap();
+    copy.gravity = Vec2::new(1.0, -10.0);
+    let other = copy.state_hash();
+    copy.step(DT);
+    assert!(is_awake(&copy, body));
+    world.gravity = Vec2::new(1.0, -10.0);
+    assert_eq!(world.state_hash(), other);
+}
+
+#[test]
+fn bodies_that_start_asleep_stay_so() {
+    let mut world = world();
+    let body = RigidBody::dynamic().position(Vec2::new(0.0, 5.0)).shape(rect(0.5, 0.5)).asleep();
+    let body = world.add_body(body).unwrap();
+    run(&mut world, 10);
+    assert!(!is_awake(&world, body) && y(&world, body) == 5.0);
+}
+
+#[test]
+fn a_new_hook_wakes_all() {
+    let mut world = world();
+    add_ground(&mut world);
+    let body = sleeper(&mut world, 0.0);
+    world.set_pre_solve(|_, _, rules| rules.enabled = false);
+    run(&mut world, 60);
+    assert!(y(&world, body) < 0.0, "nothing holds it any more");
+    world.clear_pre_solve();
+    let other = sleeper(&mut world, 5.0);
+    world.clear_pair_filter();
+    assert!(is_awake(&world, other));
+}
+
+#[test]
+fn what_is_moved_wakes_what_stands_on_it_and_hangs_from_it() {
+    let mut world = world();
+    add_ground(&mut world);
+    let shelf = world.add_body(fixed(10.0, 2.0, rect(1.0, 0.1))).unwrap();
+    let book = add(&mut world, 10.0, 2.6, rect(0.5, 0.5));
+    let hook = world.add_body(fixed(0.0, 6.0, rect(0.1, 0.1))).unwrap();
+    let lamp = add(&mut world, 0.0, 4.0, circle(0.2));
+    let rope = JointDef::revolute().anchors(Vec2::ZERO, Vec2::new(0.0, 2.0));
+    world.add_joint(hook, lamp, rope).unwrap();
+    let far = sleeper(&mut world, -10.0);
+    assert!(!is_awake(&world, book) && !is_awake(&world, lamp));
+    world.body_mut(shelf).unwrap().set_position(Vec2::new(20.0, 2.0));
+    world.body_mut(hook).unwrap().set_position(Vec2::new(0.0, 7.0));
+    run(&mut world, 60);
+    assert!(y(&world, book) < 1.5, "the book has fallen: {}", y(&world, book));
+    assert!(y(&world, lamp) > 4.5, "the lamp has followed: {}", y(&world, lamp));
+    assert!(!is_awake(&world, far));
+}
+
+/// Boxes, tiles, shapes and moved bodies put into sleepers, in random places, wake them, and they come out.
+#[test]
+fn ground_put_into_a_sleeper_wakes_it() {
+    for (case, offset) in (0..12).map(|case| (case, 0.11 * (case % 5) as f32 - 0.22)) {
+        let mut world = world();
+        add_ground(&mut world);
+        let elsewhere = world.add_body(fixed(20.0, 5.0, rect(0.3, 0.3))).unwrap();
+        let body = sleeper(&mut world, 0.0);
+        let beside = sleeper(&mut world, 3.0);
+        let place = Vec2::new(offset, 0.2);
+        match case % 4 {
+            0 => _ = world.add_body(fixed(place.x, place.y, rect(0.3, 0.3))).unwrap(),
+            1 => world.body_mut(elsewhere).unwrap().set_position(place),
+            2 => {
+                let local = place - Vec2::new(20.0, 5.0);
+                _ = world.add_shape(elsewhere, rect(0.3, 0.3).offset(local)).unwrap();
+            }
+            _ => {
+                let mut grid = TileGrid::new(0.5, 2, 1, vec![Tile::new(TileForm::Full)]);
+                grid.set(0, 0, 1).unwrap();
+                grid.set(1, 0, 1).unwrap();
+                _ = world.add_tiles(grid.position(place - Vec2::new(0.5, 0.2))).unwrap();
+            }
+        }
+        world.step(DT);
+        assert!(is_awake(&world, body), "case {case}: slept on");
+        assert!(!is_awake(&world, beside), "case {case}: woke one that it does not concern");
+        run(&mut world, 300);
+        assert!(world.max_penetration() < 0.02, "case {case}: {}", world.max_penetration());
+    }
+}
+
+/// What is put beside a sleeper, or under it, does not wake it.
+#[test]
+fn ground_beside_a_sleeper_lets_it_sleep() {
+    let mut world = world();
+    add_ground(&mut world);
+    let body = sleeper(&mut world, 0.0);
+    world.add_body(fixed(1.01, 0.5, rect(0.5, 0.5))).unwrap();
+    world.add_body(fixed(0.0, -1.5, rect(3.0, 1.4))).unwrap();
+    run(&mut world, 3);
+    assert!(!is_awake(&world, body));
+}

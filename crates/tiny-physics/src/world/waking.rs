@@ -1,0 +1,78 @@
+//! What wakes sleepers besides contacts: changes from outside that concern them.
+
+use super::World;
+use super::state::State;
+use crate::broad_phase::{ProxyId, ProxyKind};
+use crate::describe::BodyKind;
+use crate::geometry::{LINEAR_SLOP, collide};
+use core::ops::ControlFlow;
+
+impl World {
+    /// Wakes what sleeps under another gravity than it fell asleep under, and what ground has been put into.
+    pub(super) fn wake_disturbed(&mut self) {
+        let felt = self.state.gravity.replace(self.gravity);
+        if felt.is_some_and(|felt| felt != self.gravity) {
+            self.wake_all();
+        }
+        for body in self.buried_sleepers() {
+            self.wake_index(body);
+        }
+    }
+
+    /// Wakes all dynamic bodies.
+    pub(super) fn wake_all(&mut self) {
+        let bodies = &self.state.bodies;
+        let sleeps = |&i: &u32| !bodies.infos[i as usize].awake && bodies.is_dynamic(i);
+        let sleepers: Vec<u32> = bodies.indices().filter(sleeps).collect();
+        sleepers.into_iter().for_each(|body| self.wake_index(body));
+    }
+
+    /// Sleeping bodies inside ground, where ground has changed since the last step; ascending.
+    fn buried_sleepers(&self) -> Vec<u32> {
+        let (bodies, shapes) = (&self.state.bodies, &self.state.shapes);
+        let mut near = Vec::new();
+        for bounds in &shapes.changed_ground {
+            self.state.broad_phase.tree(ProxyKind::Dynamic).query(bounds, u64::MAX, |proxy| {
+                let shape = self.state.broad_phase.user(ProxyId(proxy));
+                let sleeps = |&shape: &u32| {
+                    !bodies.infos[shapes.records[shape as usize].body as usize].awake
+                };
+                near.extend(shape.filter(sleeps));
+                ControlFlow::Continue(())
+            });
+        }
+        near.sort_unstable();
+        near.dedup();
+        near.retain(|&shape| self.is_in_ground(shape));
+        let mut buried: Vec<u32> =
+            near.iter().map(|&shape| shapes.records[shape as usize].body).collect();
+        buried.sort_unstable();
+        buried.dedup();
+        buried
+    }
+
+    /// Is a shape further inside something fixed than what rests on it?
+    fn is_in_ground(&self, shape: u32) -> bool {
+        let State { bodies, shapes, broad_phase, joints, .. } = &self.state;
+        let record = &shapes.records[shape as usize];
+        let slop = LINEAR_SLOP * self.settings.length_unit;
+        let place = bodies.poses[record.body as usize].compose(record.central);
+        let mut found = false;
+        broad_phase.query(&shapes.tight[shape as usize], record.filter.reach().1, |other| {
+            let ground = &shapes.records[other as usize];
+            let fixed = bodies.infos[ground.body as usize].kind != BodyKind::Dynamic;
+            let solid = !record.sensor && !ground.sensor && ground.one_way.is_none();
+            if fixed
+                && solid
+                && record.filter.collides(&ground.filter)
+                && joints.may_collide(bodies, record.body, ground.body)
+            {
+                let from = bodies.poses[ground.body as usize].compose(ground.central);
+                let manifold = collide(&ground.shape, &record.shape, place.relative_to(from), 0.0);
+                found = manifold.points().iter().any(|point| point.separation < -slop);
+            }
+            if found { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        found
+    }
+}
