@@ -63,7 +63,7 @@ impl Search<'_> {
         for lane in 0..L::WIDTH {
             let motion = &self.motions[bodies[stride.at + lane] as usize];
             for (k, gains) in gains.iter_mut().enumerate() {
-                gains[lane] = motion.gain[k] * motion.free[k];
+                gains[lane] = motion.gain[k];
             }
         }
         let zero = stride.constants.zero;
