@@ -54,4 +54,6 @@ fi
 if [ $what != npm ]; then
   module playground web/playground/public/tiny_physics.wasm
   (cd web/playground && { [ -d node_modules ] || npm ci --no-audit --no-fund; } && npm run -s build)
+  # From here the program takes them, for `tiny-physics play`.
+  git clean -fdxq crates/cli/playground && cp -r web/playground/dist/. crates/cli/playground
 fi

@@ -3,8 +3,8 @@
 use crate::session::Session;
 use crate::with;
 use tiny_physics::{
-    BodyKind, Color, DVec2, DebugDraw, DebugDrawOptions, Polygon, Pose, Rot, Shape, ShapeRef,
-    Transform, Vec2, World,
+    BodyKind, Color, DVec2, DebugDraw, DebugDrawOptions, Palette, Polygon, Pose, Rot, Shape,
+    ShapeRef, Transform, Vec2, World,
 };
 
 /// Rows of the last picture.
@@ -34,6 +34,8 @@ mod show {
     pub(super) const DEPTH: u32 = 64;
     pub(super) const ISLANDS: u32 = 128;
     pub(super) const LOAD: u32 = 256;
+    /// On a light ground.
+    pub(super) const LIGHT: u32 = 512;
 }
 
 /// Draws the world as seen from a camera at a point: bodies between the start (`alpha` 0) and the end (1) of the last step,
@@ -104,6 +106,13 @@ impl Picture {
                 }
             }
         }
+        let mut palette = Palette::default();
+        if shown & show::LIGHT != 0 {
+            palette.joint = Color::rgb(104, 116, 139);
+            palette.mass = Color::rgb(30, 36, 48);
+            palette.velocity = Color::rgb(20, 150, 90);
+            palette.bounds = Color::rgb(120, 120, 150).with_alpha(160);
+        }
         let options = DebugDrawOptions {
             shapes: false,
             joints: shown & show::JOINTS != 0 && shown & show::LOAD == 0,
@@ -114,6 +123,7 @@ impl Picture {
             velocities: shown & show::VELOCITIES != 0,
             depth_tint: false,
             origin: camera,
+            palette,
             ..DebugDrawOptions::default()
         };
         world.debug_draw(self, &options);

@@ -113,6 +113,18 @@ Examples:
   tiny-physics view tumbler
   tiny-physics view my_scene.json --paused")]
     View(ViewArgs),
+    /// Play with scenes in the browser: a timeline to go back in, an inspector, an editor
+    #[command(
+        after_help = "It serves the playground to this machine alone and prints its address. FILE is a scene file or a recording,
+NAME a built-in scene.
+
+Examples:
+  tiny-physics play
+  tiny-physics play domino
+  tiny-physics play my_scene.json
+  tiny-physics play bug.tpr"
+    )]
+    Play(PlayArgs),
     /// Record a run into a file: its first frame and everything that was done since
     #[command(after_help = "Examples:
   tiny-physics record rain --steps 300 -o rain.tpr")]
@@ -209,6 +221,17 @@ pub struct ReplayArgs {
     /// Stop after this step; at the end where not said
     #[arg(long, value_name = "N")]
     pub to: Option<usize>,
+}
+
+/// Options of `play`.
+#[derive(Args, Clone, Debug)]
+pub struct PlayArgs {
+    /// The scene or recording to open
+    #[arg(value_name = "NAME|FILE")]
+    pub scene: Option<String>,
+    /// Port to serve on; any free one where it is 0
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub port: u16,
 }
 
 /// Options of `diff`.

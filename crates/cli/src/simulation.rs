@@ -4,24 +4,48 @@ use crate::args::WorldArgs;
 use crate::failure::Outcome;
 use core::fmt;
 use std::time::{Duration, Instant};
-use tiny_physics::{Aabb, BodyId, BodyKind, DVec2, Pose, Rot, Vec2, World};
-use tiny_physics_scenes::{Run, Scene};
+use tiny_physics::record::Command;
+use tiny_physics::{Aabb, BodyKind, DVec2, Pose, Rot, Vec2, World};
+use tiny_physics_scenes::{Grip, PausedScript, Run, Scene, Tape};
 
 /// A scene, its world, and a body that the mouse may hold.
 pub struct Simulation {
     scene: Scene,
     how: WorldArgs,
-    run: Run,
-    held: Option<Held>,
+    run: Course,
+    held: Option<Grip>,
 }
 
-/// A body pulled by the mouse.
-#[derive(Clone, Copy, Debug)]
-struct Held {
-    body: BodyId,
-    /// Where it was taken, in the body's frame.
-    local: Vec2,
-    target: DVec2,
+/// How the scene runs.
+enum Course {
+    /// On and on.
+    Once(Box<Run>),
+    /// So that one can go back.
+    Kept(Box<Tape>),
+}
+
+impl Course {
+    fn world(&self) -> &World {
+        match self {
+            Self::Once(run) => run.world(),
+            Self::Kept(tape) => tape.world(),
+        }
+    }
+
+    fn dt(&self) -> f32 {
+        match self {
+            Self::Once(run) => run.dt(),
+            Self::Kept(tape) => tape.dt(),
+        }
+    }
+
+    /// Nothing happens where the world refuses it.
+    fn apply(&mut self, command: Command) {
+        let _ = match self {
+            Self::Once(run) => command.apply(run.world_mut()),
+            Self::Kept(tape) => tape.apply(command),
+        };
+    }
 }
 
 /// The numbers of a status line.
@@ -63,10 +87,8 @@ impl fmt::Display for Status {
 
 /// Time for steps between two pictures.
 const PICTURE_TIME: Duration = Duration::from_millis(25);
-/// The mouse lets a held body reach the pointer at this rate, 1/s.
-const PULL_RATE: f32 = 12.0;
-/// The mouse changes a body's speed by no more than this in a second, metres a second squared.
-const PULL_LIMIT: f32 = 600.0;
+/// Memory of a run that one can go back in, bytes.
+const MEMORY: usize = 256 << 20;
 
 impl Simulation {
     /// Sets the scene up.
@@ -76,13 +98,29 @@ impl Simulation {
     pub fn new(scene: Scene, how: &WorldArgs) -> Outcome<Self> {
         scene.check()?;
         let mut run = Run::start(&scene)?;
-        let world = run.world_mut();
+        Self::equip(run.world_mut(), how)?;
+        Ok(Self { scene, how: how.clone(), run: Course::Once(Box::new(run)), held: None })
+    }
+
+    /// The same, so that one can go back in the run.
+    ///
+    /// # Errors
+    /// As [`Simulation::new`].
+    pub fn kept(scene: Scene, how: &WorldArgs) -> Outcome<Self> {
+        scene.check()?;
+        let (script, mut world) = PausedScript::start(&scene)?;
+        Self::equip(&mut world, how)?;
+        let script = scene.script.is_some().then_some(script);
+        let tape = Tape::of_world(world, script, scene.dt, MEMORY);
+        Ok(Self { scene, how: how.clone(), run: Course::Kept(Box::new(tape)), held: None })
+    }
+
+    fn equip(world: &mut World, how: &WorldArgs) -> Outcome {
         world.set_threads(usize::from(how.threads));
-        world.time_stages(true);
         if let Some(level) = how.simd {
             world.set_simd(level)?;
         }
-        Ok(Self { scene, how: how.clone(), run, held: None })
+        Ok(())
     }
 
     /// Back to the start.
@@ -90,14 +128,46 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::new`].
     pub fn restart(&mut self) -> Outcome {
-        *self = Self::new(self.scene.clone(), &self.how)?;
+        let begin = match self.run {
+            Course::Once(_) => Self::new,
+            Course::Kept(_) => Self::kept,
+        };
+        *self = begin(self.scene.clone(), &self.how)?;
         Ok(())
     }
 
-    /// One step of the scene.
+    /// One step of the scene; in the past the one that was, unless something is held.
     pub fn step(&mut self) {
         self.pull();
-        self.run.step();
+        match &mut self.run {
+            Course::Once(run) => run.step(),
+            Course::Kept(tape) => {
+                let at = tape.history().at();
+                if at == tape.history().len() || tape.go_to(at + 1).is_err() {
+                    tape.step();
+                }
+            }
+        }
+    }
+
+    /// Steps to here, and steps that can be gone to.
+    pub fn place(&self) -> (usize, usize) {
+        match &self.run {
+            Course::Once(run) => (run.steps_done() as usize, run.steps_done() as usize),
+            Course::Kept(tape) => (tape.history().at(), tape.history().len()),
+        }
+    }
+
+    /// Goes to a step of the run, at most to its end.
+    ///
+    /// # Errors
+    /// The run does not repeat itself.
+    pub fn go_to(&mut self, step: usize) -> Outcome {
+        self.held = None;
+        if let Course::Kept(tape) = &mut self.run {
+            tape.go_to(step)?;
+        }
+        Ok(())
     }
 
     /// So many steps, fewer where they take longer than the time until the next picture: the scene
@@ -120,10 +190,6 @@ impl Simulation {
     /// The world.
     pub fn world(&self) -> &World {
         self.run.world()
-    }
-
-    fn world_mut(&mut self) -> &mut World {
-        self.run.world_mut()
     }
 
     /// Length of a step, seconds.
@@ -193,20 +259,7 @@ impl Simulation {
 
     /// Takes the moving body at a point of the world, if there is one.
     pub fn grab(&mut self, point: DVec2) {
-        let world = self.world();
-        let shapes = world.shape_ids().filter_map(|id| world.shape(id));
-        let hit = shapes.filter_map(|shape| {
-            let body = world.body(shape.body())?;
-            let local = body.pose().unapply(point);
-            let inside = shape.shape().contains(shape.local().unapply(local));
-            (inside && body.kind() == BodyKind::Dynamic).then_some(Held {
-                body: shape.body(),
-                local,
-                target: point,
-            })
-        });
-        let held = hit.last();
-        self.held = held;
+        self.held = Grip::take(self.world(), point);
     }
 
     /// Moves the point that the held body follows.
@@ -224,29 +277,15 @@ impl Simulation {
     /// Where the held body is held and where it is to go.
     pub fn pull_line(&self) -> Option<(DVec2, DVec2)> {
         let held = self.held?;
-        Some((self.world().body(held.body)?.pose().apply(held.local), held.target))
+        Some((held.point(self.world())?, held.target))
     }
 
     /// An impulse that brings the held point towards the pointer.
     fn pull(&mut self) {
-        let Some(held) = self.held else { return };
-        let (dt, gravity) = (self.run.dt(), self.world().gravity);
-        let Some(mut body) = self.world_mut().body_mut(held.body) else {
-            self.held = None;
-            return;
-        };
-        let view = body.as_ref();
-        let point = view.pose().apply(held.local);
-        let arm = point.relative_to(view.center());
-        let velocity = view.velocity_at(point);
-        let wanted = held.target.relative_to(point) * PULL_RATE;
-        let change = wanted - velocity - gravity * dt;
-        let most = PULL_LIMIT * dt;
-        let change = if change.length() > most { change.normalized() * most } else { change };
-        // What the point weighs against an impulse: less than the body where it can turn.
-        let (mass, inertia) = (view.mass(), view.inertia());
-        let turning = if inertia > 0.0 { arm.length_sq() * mass / inertia } else { 0.0 };
-        body.apply_impulse(change * (mass / (1.0 + turning)), point);
+        match self.held.and_then(|held| held.pull(self.world(), self.run.dt())) {
+            Some(command) => self.run.apply(command),
+            None => self.held = None,
+        }
     }
 }
 

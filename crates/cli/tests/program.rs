@@ -377,3 +377,48 @@ fn recordings_are_played_again_compared_and_refused() {
     // The end of the file is the hash of the last step.
     assert!(refusal(bytes.len() - 1).contains("first after step 60"));
 }
+
+/// The playground and the file are served to this machine; without a playground the program says how to get one.
+#[test]
+fn the_playground_is_served() {
+    use std::io::{BufRead, BufReader, Read, Write};
+    use std::process::{Command, Stdio};
+    let file = scratch("played.json");
+    std::fs::write(&file, "{ \"version\": 1 }").unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_tiny-physics"))
+        .args(["play", file.to_str().unwrap()])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut address = String::new();
+    BufReader::new(child.stdout.take().unwrap()).read_line(&mut address).unwrap();
+    if address.is_empty() {
+        let mut words = String::new();
+        child.stderr.take().unwrap().read_to_string(&mut words).unwrap();
+        assert!(
+            words.contains("without the playground") && words.contains("scripts/web.sh"),
+            "{words}"
+        );
+        assert!(!child.wait().unwrap().success());
+        return;
+    }
+    assert!(address.trim_end().ends_with("/#file=played.json"), "{address}");
+    let host = address.trim_start_matches("http://").split('/').next().unwrap().to_owned();
+    let get = |path: &str, name: &str| {
+        let mut stream = std::net::TcpStream::connect(&host).unwrap();
+        write!(stream, "GET {path} HTTP/1.1\r\nHost: {name}\r\nConnection: close\r\n\r\n").unwrap();
+        let mut answer = Vec::new();
+        stream.read_to_end(&mut answer).unwrap();
+        String::from_utf8_lossy(&answer).into_owned()
+    };
+    let page = get("/", &host);
+    assert!(page.starts_with("HTTP/1.1 200") && page.contains("<canvas id=\"stage\""), "{page}");
+    assert!(get("/tiny_physics.wasm", &host).contains("application/wasm"));
+    assert!(get("/file", &host).ends_with("{ \"version\": 1 }"));
+    assert!(get("/nothing", &host).starts_with("HTTP/1.1 404"));
+    assert!(get("/file", "elsewhere.example").starts_with("HTTP/1.1 403"));
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(bad(&["play", "no_such_file.json"]).contains("no_such_file.json"));
+}

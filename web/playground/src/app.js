@@ -188,7 +188,7 @@ export class App extends EventTarget {
   }
 
   get mask() {
-    return [...this.shown].reduce((mask, name) => mask | SHOW[name], 0);
+    return [...this.shown].reduce((mask, name) => mask | SHOW[name], this.dark ? 0 : SHOW.light);
   }
 
   toggle(name) {

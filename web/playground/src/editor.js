@@ -9,9 +9,13 @@ import { EditorState } from "@codemirror/state";
 import { drawSelection, EditorView, highlightActiveLine, keymap, lineNumbers } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
 import { hoverTooltip } from "@codemirror/view";
+import { disableErrorLogging } from "best-effort-json-parser";
 import { jsonCompletion, jsonSchemaHover, stateExtensions } from "codemirror-json-schema";
 import schema from "../../../scenes/scene.schema.json";
 import { h, icon } from "./dom.js";
+
+// Text that is being written is no JSON most of the time.
+disableErrorLogging();
 
 /** Milliseconds without a key until the text is run. */
 const PAUSE = 600;

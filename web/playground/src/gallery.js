@@ -3,7 +3,7 @@
 import { World } from "tiny-physics";
 import { $, h, icon } from "./dom.js";
 import { look } from "./looks.js";
-import { framing, rows } from "./picture.js";
+import { framing, rows, SHOW } from "./picture.js";
 import { Renderer } from "./renderer.js";
 
 const GROUPS = [
@@ -89,7 +89,7 @@ export function gallery(app, scenes) {
 
   function paint(card) {
     const { world, camera, canvas } = card;
-    const found = rows(world, camera, 1, 1);
+    const found = rows(world, camera, 1, SHOW.joints | (app.dark ? 0 : SHOW.light));
     renderer.draw(found, camera, { ...look(app.dark), tint: 0, ratio: 1 });
     canvas.getContext("2d").drawImage(renderer.canvas, 0, 0);
   }

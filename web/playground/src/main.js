@@ -1,6 +1,6 @@
 // The playground: puts the parts together.
 
-import { init } from "tiny-physics";
+import { exports, init, World } from "tiny-physics";
 import "uplot/dist/uPlot.min.css";
 import "./style.css";
 import { App } from "./app.js";
@@ -38,8 +38,11 @@ function theme(name) {
 async function main() {
   await init(new URL("tiny_physics.wasm", document.baseURI));
   const app = new App(new Renderer($("#stage")));
-  window.playground = app;
   const catalogue = scenes();
+  // For the console of the browser, and for tests.
+  window.playground = app;
+  app.sceneWorld = (name) => World.loadScene(catalogue.find((entry) => entry.name === name).file());
+  app.memory = () => exports().memory.buffer.byteLength;
   const shelf = gallery(app, catalogue);
   const disk = files(app);
   const time = transport(app);
@@ -132,6 +135,7 @@ async function main() {
     document.title = `${app.name.replaceAll("_", " ")} · tiny-physics`;
     if (shownLeaf === "scene") code.show();
     if (shownLeaf === "plot") curves.build();
+    if (shownLeaf === "inspect") inspect.rebuild();
   });
   app.addEventListener("select", () => {
     if (shownLeaf === "inspect") inspect.rebuild();

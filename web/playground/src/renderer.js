@@ -42,12 +42,13 @@ uniform float uPixels;
 uniform vec3 uBack, uAccent;
 uniform float uSelected;
 out vec4 outColour;
-void shade(float d, vec4 colour, float body, float mark) {
+void shade(float d, vec4 colour, float body, float mark, float thin) {
   float px = d * uPixels;
   float cover = clamp(0.5 - px, 0.0, 1.0);
   bool chosen = abs(body - uSelected) < 0.5;
   float edge = chosen ? 3.0 : 1.4;
-  float rim = clamp(px + edge + 0.5, 0.0, 1.0) * min(1.0, uPixels / 9.0);
+  // What is only a few pixels wide would be nothing but rim.
+  float rim = clamp(px + edge + 0.5, 0.0, 1.0) * (chosen ? 1.0 : clamp((thin * uPixels - 1.5) / 5.0, 0.0, 1.0));
   vec3 dark = chosen ? uAccent : mix(colour.rgb, vec3(0.02, 0.03, 0.06), 0.42);
   vec3 rgb = mix(colour.rgb, dark, chosen ? rim : rim * 0.9);
   rgb = mix(rgb, dark, mark * 0.75);
@@ -87,7 +88,7 @@ void main() {
     float w = abs(vLocal.y) * uPixels;
     mark = clamp(1.4 - w, 0.0, 1.0) * step(0.0, vLocal.x);
   }
-  shade(d, vColour, vBody, mark);
+  shade(d, vColour, vBody, mark, min(vSize.x, vSize.y) + vSize.z);
 }`;
 
 const POLYGON_VERTEX = `${COMMON}${COLOUR}
@@ -100,13 +101,14 @@ layout(location = 5) in vec4 c1;
 layout(location = 6) in vec4 c2;
 layout(location = 7) in vec4 c3;
 out vec2 vLocal; flat out vec4 vSize; flat out vec4 vColour;
-flat out vec4 v0; flat out vec4 v1; flat out vec4 v2; flat out vec4 v3;
+flat out float vThin; flat out vec4 v0; flat out vec4 v1; flat out vec4 v2; flat out vec4 v3;
 void main() {
   vec2 low = min(min(min(c0.xy, c0.zw), min(c1.xy, c1.zw)), min(min(c2.xy, c2.zw), min(c3.xy, c3.zw)));
   vec2 high = max(max(max(c0.xy, c0.zw), max(c1.xy, c1.zw)), max(max(c2.xy, c2.zw), max(c3.xy, c3.zw)));
   float more = size.x + 1.5 / uPixels;
   vLocal = mix(low - more, high + more, corner * 0.5 + 0.5);
   vSize = size; vColour = colourOf(size.z, size.w, tint);
+  vThin = 0.5 * min(high.x - low.x, high.y - low.y) + size.x;
   v0 = c0; v1 = c1; v2 = c2; v3 = c3;
   vec2 turned = vec2(frame.z * vLocal.x - frame.w * vLocal.y, frame.w * vLocal.x + frame.z * vLocal.y);
   gl_Position = vec4((frame.xy + turned) * uScale, 0.0, 1.0);
@@ -115,7 +117,7 @@ void main() {
 const POLYGON_FRAGMENT = `#version 300 es
 precision highp float;
 ${SHADE}
-in vec2 vLocal; flat in vec4 vSize; flat in vec4 vColour;
+in vec2 vLocal; flat in vec4 vSize; flat in vec4 vColour; flat in float vThin;
 flat in vec4 v0; flat in vec4 v1; flat in vec4 v2; flat in vec4 v3;
 void main() {
   vec2 c[8] = vec2[8](v0.xy, v0.zw, v1.xy, v1.zw, v2.xy, v2.zw, v3.xy, v3.zw);
@@ -130,7 +132,7 @@ void main() {
     d = min(d, dot(r, r));
     inside = inside && e.x * w.y - e.y * w.x >= 0.0;
   }
-  shade((inside ? -1.0 : 1.0) * sqrt(d) - vSize.x, vColour, vSize.w, 0.0);
+  shade((inside ? -1.0 : 1.0) * sqrt(d) - vSize.x, vColour, vSize.w, 0.0, vThin);
 }`;
 
 const LINE_VERTEX = `${COMMON}

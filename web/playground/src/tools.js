@@ -166,7 +166,11 @@ export function tools(app) {
         app.world.release();
         canvas.style.cursor = "grab";
       };
-      if (app.playing) app.world.grab(start.x, start.y);
+      if (app.playing) {
+        // Held in the past, the run goes on from there.
+        app.act((world) => world.forgetLater());
+        app.world.grab(start.x, start.y);
+      }
       return {
         move: (now) => {
           if (!app.playing) {

@@ -4,6 +4,7 @@ mod bench;
 mod demo;
 mod figures;
 mod list;
+mod play;
 mod player;
 mod quality;
 mod record;
@@ -29,6 +30,7 @@ pub fn run(cli: Cli) -> Outcome {
         Some(Command::Quality(args)) => quality::run(&args),
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::View(args)) => view::run(&args),
+        Some(Command::Play(args)) => play::run(&args),
         Some(Command::Record(args)) => record::record(&args),
         Some(Command::Replay(args)) => record::replay(&args),
         Some(Command::Diff(args)) => record::diff(&args),

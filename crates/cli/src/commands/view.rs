@@ -10,10 +10,13 @@ use tiny_physics::{FixedStep, Vec2};
 use tiny_physics_draw::{Camera, Canvas, Input, Key, Window};
 use tiny_physics_scenes::all;
 
-const HELP: [&str; 16] = [
+const HELP: [&str; 19] = [
     "keys and mouse",
     "space      play, pause",
     "right, s   one step",
+    "left       one step back",
+    "u, i       a second back, on",
+    "0 to 9, e  to a part of the run, its end",
     "up, down   faster, slower",
     "r          restart",
     "n, b       next, previous scene",
@@ -86,7 +89,7 @@ struct Viewer {
 impl Viewer {
     fn new(args: &ViewArgs) -> Outcome<Self> {
         let scene = source::open(&args.scene, args.world.seed)?;
-        let simulation = Simulation::new(scene, &args.world)?;
+        let simulation = Simulation::kept(scene, &args.world)?;
         Ok(Self {
             how: args.world.clone(),
             eye: Follower::on(&simulation, args.size.0, args.size.1),
@@ -110,16 +113,35 @@ impl Viewer {
     fn handle(&mut self, input: &Input) -> Outcome<bool> {
         self.mouse(input);
         for key in &input.repeated {
-            if matches!(key, Key::Right | Key::Char('s')) {
-                self.playing = false;
-                self.simulation.step();
-            }
+            self.time_key(*key)?;
         }
         let mut changed = false;
         for key in &input.pressed {
             changed |= self.key(*key)?;
         }
         Ok(changed)
+    }
+
+    /// Goes back and on in the run.
+    fn time_key(&mut self, key: Key) -> Outcome {
+        let ((at, end), second) = (self.simulation.place(), (1.0 / self.simulation.dt()) as usize);
+        let step = match key {
+            Key::Right | Key::Char('s') => {
+                self.playing = false;
+                self.simulation.step();
+                return Ok(());
+            }
+            Key::Left => at.saturating_sub(1),
+            Key::Char('u') => at.saturating_sub(second),
+            Key::Char('i') => at + second,
+            Key::Char('e') => end,
+            Key::Char(digit) if digit.is_ascii_digit() => {
+                end * (digit as usize - '0' as usize) / 10
+            }
+            _ => return Ok(()),
+        };
+        self.playing = false;
+        self.simulation.go_to(step)
     }
 
     fn key(&mut self, key: Key) -> Outcome<bool> {
@@ -184,7 +206,7 @@ impl Viewer {
             None => 0,
         };
         let scene = source::open(scenes[next].name, self.how.seed)?;
-        self.simulation = Simulation::new(scene, &self.how)?;
+        self.simulation = Simulation::kept(scene, &self.how)?;
         self.clock = FixedStep::new(self.simulation.dt());
         self.fit();
         Ok(true)
@@ -200,7 +222,9 @@ impl Viewer {
     }
 
     fn draw(&self, canvas: &mut Canvas) {
+        let (at, end) = self.simulation.place();
         let note = match (self.playing, self.speed == USUAL_SPEED) {
+            _ if at < end => format!("   step {at} of {end}"),
             (true, true) => String::new(),
             (true, false) => format!("   speed {}", SPEEDS[self.speed]),
             (false, _) => "   paused".into(),
@@ -257,6 +281,31 @@ mod tests {
         assert_eq!(viewer.simulation.status().frame, 0);
         press(&mut viewer, Key::Char('q'));
         assert!(viewer.quit);
+    }
+
+    #[test]
+    fn keys_go_back_and_on_and_a_pull_in_the_past_makes_another_run() {
+        let mut viewer = viewer();
+        let hash = |viewer: &Viewer| viewer.simulation.world().state_hash();
+        let mut hashes = vec![hash(&viewer)];
+        for _ in 0..100 {
+            press(&mut viewer, Key::Right);
+            hashes.push(hash(&viewer));
+        }
+        let keys = [(Key::Left, 99), (Key::Char('u'), 39), (Key::Right, 40), (Key::Char('7'), 70)];
+        for (key, step) in keys.into_iter().chain([(Key::Char('0'), 0), (Key::Char('i'), 60)]) {
+            press(&mut viewer, key);
+            assert_eq!((viewer.simulation.place(), hash(&viewer)), ((step, 100), hashes[step]));
+        }
+        let body = viewer.simulation.world().body_ids().last().unwrap();
+        let place = viewer.simulation.world().body(body).unwrap().center();
+        viewer.simulation.grab(place);
+        viewer.simulation.drag(place + Vec2::new(3.0, 3.0));
+        press(&mut viewer, Key::Right);
+        assert_eq!(viewer.simulation.place(), (61, 61));
+        assert_ne!(hash(&viewer), hashes[61]);
+        press(&mut viewer, Key::Char('e'));
+        assert_eq!(viewer.simulation.place(), (61, 61));
     }
 
     #[test]

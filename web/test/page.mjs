@@ -1,0 +1,349 @@
+// The playground in Chromium: `node page.mjs NATIVE_HASHES RECORDING RECORDING_HASH PICTURES`. What it checks is listed as it
+// passes; pictures are left in a folder to be looked at.
+import assert from "node:assert/strict";
+import { mkdirSync, readFileSync } from "node:fs";
+import { launch, pageOf } from "./browser.mjs";
+import { serve } from "./serve.mjs";
+
+const [, , nativeFile, recording, recordingHash, pictures] = process.argv;
+mkdirSync(pictures, { recursive: true });
+const { address, stop } = await serve(new URL("../playground/dist", import.meta.url).pathname);
+const browser = await launch();
+let failed = 0;
+
+async function open(options, hash = "") {
+  const page = await pageOf(browser, options);
+  await page.goto(`${address}/${hash}`);
+  await page.waitForSelector("body.ready");
+  return page;
+}
+
+async function check(name, work, options, hash) {
+  const start = performance.now();
+  let page;
+  try {
+    page = await open(options, hash);
+    await work(page);
+    assert.deepEqual(page.problems, [], "no errors in the console");
+    console.log(`ok      ${name} (${((performance.now() - start) / 1000).toFixed(1)} s)`);
+  } catch (error) {
+    failed++;
+    console.log(`FAILED  ${name}: ${error.message}`);
+  }
+  await page?.context().close();
+}
+
+const picture = (page, name) => page.screenshot({ path: `${pictures}/${name}.png` });
+const pause = (page) => page.evaluate(() => playground.setPlaying(false));
+/** Where a body is on the page. */
+const placeOf = (page, index) =>
+  page.evaluate((index) => {
+    const { x, y } = playground.world.body(playground.world.sceneBodies[index]).center;
+    return playground.toPage(x, y);
+  }, index);
+
+const native = new Map(readFileSync(nativeFile, "utf8").trim().split("\n").map((line) => line.split(" ")));
+if (native.size > 1) await check(`${native.size} scenes run 300 steps in the page and end with the native hash`, async (page) => {
+  await pause(page);
+  page.setDefaultTimeout(900_000);
+  const wrong = [];
+  for (const [name, expected] of native) {
+    const hash = await page.evaluate(async (name) => {
+      const world = playground.sceneWorld(name);
+      for (let i = 0; i < 300; i++) world.step();
+      const hash = world.hash();
+      world.free();
+      return hash;
+    }, name);
+    if (hash !== expected) wrong.push(`${name}: ${hash}, native ${expected}`);
+  }
+  assert.deepEqual(wrong, []);
+});
+
+await check(
+  "scrubbing back and forth ends with the same hash",
+  async (page) => {
+    await pause(page);
+    const hashes = await page.evaluate(() => {
+      playground.goTo(0);
+      const hashes = [playground.world.hash()];
+      while (playground.at < 150) {
+        playground.step(1);
+        hashes[playground.at] = playground.world.hash();
+      }
+      return hashes;
+    });
+    for (const step of [20, 149, 75, 0, 150]) {
+      await page.locator("#time").evaluate((range, step) => {
+        range.value = step;
+        range.dispatchEvent(new Event("input"));
+      }, step);
+      await page.waitForFunction((step) => playground.at === step, step);
+      assert.equal(await page.evaluate(() => playground.world.hash()), hashes[step], `step ${step}`);
+    }
+    await page.keyboard.press("ArrowLeft");
+    assert.equal(await page.evaluate(() => playground.at), 149);
+    await page.keyboard.press("End");
+    await page.keyboard.press(" ");
+    await page.waitForFunction(() => playground.at > 152);
+  },
+  {},
+  "#rain",
+);
+
+await check(
+  "a body is dragged and thrown, and the run goes on from the past",
+  async (page) => {
+    await page.waitForFunction(() => playground.length > 60);
+    await pause(page);
+    await page.evaluate(() => playground.goTo(30));
+    assert((await page.evaluate(() => playground.length)) > 60);
+    const from = await placeOf(page, 100);
+    await page.evaluate(() => playground.setPlaying(true));
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move(from.x - 150, from.y - 120, { steps: 6 });
+    await page.waitForFunction(() => playground.at > 45);
+    const to = await placeOf(page, 100);
+    await page.mouse.up();
+    assert(Math.hypot(to.x - from.x, to.y - from.y) > 20, `it moved from ${JSON.stringify(from)} to ${JSON.stringify(to)}`);
+    assert.equal(await page.evaluate(() => playground.at === playground.length), true);
+    await picture(page, "dragged");
+  },
+  {},
+  "#pyramid",
+);
+
+await check("shapes and joints are drawn, and joints are cut", async (page) => {
+  await page.evaluate(() => {
+    playground.open('{ "version": 1, "gravity": [0, 0], "bodies": [{ "position": [-2, 0], "shapes": [{ "shape": { "circle": { "radius": 0.5 } } }] }, { "position": [2, 0], "shapes": [{ "shape": { "circle": { "radius": 0.5 } } }] }] }');
+  });
+  await pause(page);
+  await page.evaluate(() => (playground.camera.scale = 60));
+  const counts = () => page.evaluate(() => playground.world.counts());
+  const at = (x, y) => page.evaluate(([x, y]) => playground.toPage(x, y), [x, y]);
+  const draw = async (tool, ...points) => {
+    await page.click(`#tool-${tool}`);
+    const [first, ...rest] = await Promise.all(points.map(([x, y]) => at(x, y)));
+    await page.mouse.move(first.x, first.y);
+    await page.mouse.down();
+    for (const point of rest) await page.mouse.move(point.x, point.y, { steps: 4 });
+    await page.mouse.up();
+  };
+  await draw("spring", [-2, 0], [2, 0]);
+  assert.equal((await counts()).joints, 1);
+  await draw("circle", [0, 2], [0.4, 2]);
+  await draw("box", [-1, -2], [1, -1.4]);
+  await draw("outline", [-3, 1], [-2, 1.2], [-2.2, 2], [-2.6, 1.5], [-3, 2]);
+  const { bodies, shapes } = await counts();
+  assert.equal(bodies, 5);
+  assert(shapes > 5, `${shapes} shapes: the outline has several pieces`);
+  await draw("rope", [2, 0], [2, 2.2]);
+  assert.equal((await counts()).joints, 2);
+  await picture(page, "drawn");
+  await draw("cut", [0, 0.3], [0.01, -0.3]);
+  assert.equal((await counts()).joints, 1);
+  await draw("erase", [0, 2], [0, 2.01]);
+  await draw("launch", [-3, -2], [-4, -2]);
+  await draw("blast", [0, 0], [1, 0]);
+  assert.equal((await counts()).bodies, 6);
+});
+
+await check(
+  "the inspector shows and sets the values of a body",
+  async (page) => {
+    await pause(page);
+    const place = await placeOf(page, 60);
+    await page.mouse.click(place.x, place.y);
+    await page.waitForSelector("#panel h2");
+    const mass = page.getByLabel("mass");
+    await mass.fill("12.5");
+    await mass.press("Enter");
+    assert.equal(await page.evaluate(() => playground.world.body(playground.selected.id).mass), 12.5);
+    await page.getByLabel("friction").first().fill("0");
+    await page.getByLabel("friction").first().press("Enter");
+    assert.equal(
+      await page.evaluate(() => playground.world.shape(playground.world.body(playground.selected.id).shapes[0]).material.friction),
+      0,
+    );
+    await picture(page, "inspector");
+  },
+  {},
+  "#pyramid",
+);
+
+await check(
+  "the editor completes fields, says where a scene is wrong, and runs it",
+  async (page) => {
+    await page.click("#open-scene");
+    await page.click(".cm-content");
+    await page.keyboard.press("Control+a");
+    await page.keyboard.insertText('{\n  "version": 1,\n  "name": "mine",\n  "bodies": [\n    { "shapes": [{ "shape": { "circle": { "radius": -1 } } }] }\n  ]\n}\n');
+    await page.waitForSelector(".problem:not([hidden])");
+    const words = await page.textContent(".problem");
+    assert.match(words, /line 5 column \d+: .*radius is -1/);
+    await page.waitForSelector(".cm-lintRange-error, .cm-lint-marker-error");
+    await picture(page, "broken");
+    await page.keyboard.press("Control+a");
+    await page.keyboard.insertText('{\n  "version": 1,\n  "name": "mine",\n  "bodies": [\n    { "shapes": [{ "shape": { "circle": { "radius": 1 } } }] }\n  ]\n}\n');
+    await page.waitForFunction(() => playground.name === "mine");
+    assert.equal(await page.isVisible(".problem"), false);
+    assert.equal(await page.evaluate(() => playground.world.counts().bodies), 1);
+    await page.keyboard.press("Control+Home");
+    await page.keyboard.press("End");
+    await page.keyboard.press("Enter");
+    await page.keyboard.type('"grav', { delay: 30 });
+    await page.waitForSelector(".cm-tooltip-autocomplete");
+    assert.match(await page.textContent(".cm-tooltip-autocomplete"), /gravity/);
+    await picture(page, "editor");
+  },
+  {},
+  "#domino",
+);
+
+await check(
+  "a link holds the whole scene",
+  async (page) => {
+    const source = await page.evaluate(() => playground.source);
+    await page.click("#share");
+    await page.waitForFunction(() => location.hash.startsWith("#s="));
+    const hash = await page.evaluate(() => location.hash);
+    const other = await open({}, hash);
+    await pause(other);
+    const bodies = (page) => page.evaluate(() => JSON.stringify(JSON.parse(playground.source)));
+    assert.equal(await bodies(other), JSON.stringify(JSON.parse(source)));
+    await other.context().close();
+  },
+  {},
+  "#car",
+);
+
+await check("a recording of the program is opened and scrubbed", async (page) => {
+  await page.setInputFiles("#file", recording);
+  await page.waitForFunction(() => playground.scene === undefined);
+  await pause(page);
+  const end = await page.evaluate(() => {
+    playground.goTo(playground.length);
+    return [playground.length, playground.world.hash()];
+  });
+  assert.deepEqual(end[1], recordingHash);
+  await page.evaluate(() => playground.goTo(10));
+  await page.evaluate(() => playground.goTo(playground.length));
+  assert.equal(await page.evaluate(() => playground.world.hash()), recordingHash);
+});
+
+await check(
+  "scenes, recordings and pictures are saved",
+  async (page) => {
+    await page.waitForFunction(() => playground.at > 20);
+    const save = async (label) => {
+      await page.click("#save");
+      const [download] = await Promise.all([page.waitForEvent("download", { timeout: 120_000 }), page.click(`text=${label}`)]);
+      return readFileSync(await download.path());
+    };
+    assert.match((await save("Save the scene file")).toString(), /"version": 1/);
+    assert.equal((await save("Save the recording")).subarray(0, 3).toString(), "tpr");
+    assert.equal((await save("Picture (PNG)")).subarray(1, 4).toString(), "PNG");
+    assert.equal((await save("Animation (GIF)")).subarray(0, 3).toString(), "GIF");
+  },
+  { viewport: { width: 480, height: 360 } },
+  "#stack",
+);
+
+await check("memory stays flat over 20,000 steps", async (page) => {
+  await pause(page);
+  const run = (budget, early) =>
+    page.evaluate(
+      ([budget, early]) => {
+        const world = playground.sceneWorld("seed_demo");
+        if (budget) world.keepHistory(budget);
+        const sizes = [];
+        for (let i = 1; i <= 20_000; i++) {
+          world.step();
+          // Something goes on all the time.
+          if (i % 50 === 0) world.body(world.sceneBodies.at(-1 - (i % 7))).applyImpulseToCenter(0.4, 1);
+          if (i === early || i === 20_000) sizes.push(playground.memory());
+        }
+        if (budget) sizes.push(world.history.bytes);
+        world.free();
+        return sizes;
+      },
+      [budget, early],
+    );
+  const [early, late] = await run(0, 2000);
+  assert.equal(late, early, "a world by itself takes no more");
+  const budget = 4 * 2 ** 20;
+  const [full, end, kept] = await run(budget, 10_000);
+  assert(kept <= budget, `${kept} bytes of history`);
+  // The list of steps doubles now and then.
+  assert(end - full <= 2 * 2 ** 20, `${full} bytes after 10,000 steps, ${end} after 20,000`);
+});
+
+await check(
+  "marks of what happened, and plots",
+  async (page) => {
+    await page.waitForFunction(() => playground.at > 240, undefined, { timeout: 120_000 });
+    await pause(page);
+    assert((await page.evaluate(() => playground.figures.marks.length)) > 0, "something broke, woke or slept");
+    await page.click("#open-plot");
+    await page.waitForSelector(".u-over");
+    await page.evaluate(() => ["contacts", "impulses", "load"].forEach((name) => playground.toggle(name)));
+    await page.click("#events");
+    await page.waitForTimeout(300);
+    await picture(page, "plots");
+    await page.click("#menu .entry >> nth=0");
+    assert.equal(await page.evaluate(() => playground.at === playground.figures.marks.slice(-40)[0].step), true);
+  },
+  {},
+  "#breaking_bridge",
+);
+
+for (const scheme of ["light", "dark"]) {
+  await check(
+    `the gallery, ${scheme}`,
+    async (page) => {
+      await page.keyboard.press("g");
+      await page.waitForFunction(() => document.querySelector("#gallery").open);
+      await page.waitForTimeout(5000);
+      await picture(page, `gallery-${scheme}`);
+      await page.click("[data-scene=newton_cradle]");
+      await page.waitForFunction(() => playground.name === "newton_cradle");
+      await page.waitForTimeout(1500);
+      await picture(page, `stage-${scheme}`);
+    },
+    { colorScheme: scheme },
+  );
+}
+
+await check(
+  "a phone: nothing sticks out, a finger drags",
+  async (page) => {
+    await page.waitForTimeout(800);
+    await picture(page, "phone");
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
+    assert.equal(wide, false);
+    for (const id of ["play", "time", "scene", "tool-grab"]) {
+      const box = await page.locator(`#${id}`).boundingBox();
+      assert(box && box.x >= 0 && box.y >= 0 && box.x < 390 && box.y + box.height <= 844, `${id} is on the screen`);
+    }
+    const from = await placeOf(page, 1);
+    const client = await page.context().newCDPSession(page);
+    const touch = (type, x, y) =>
+      client.send("Input.dispatchTouchEvent", { type, touchPoints: type === "touchEnd" ? [] : [{ x, y }] });
+    await touch("touchStart", from.x, from.y);
+    for (let i = 1; i <= 8; i++) await touch("touchMove", from.x - 8 * i, from.y - 14 * i);
+    await page.waitForTimeout(500);
+    const to = await placeOf(page, 1);
+    await touch("touchEnd");
+    assert(Math.hypot(to.x - from.x, to.y - from.y) > 15, "the finger moved it");
+    await page.click("#open-inspect");
+    await page.waitForTimeout(300);
+    await picture(page, "phone-inspector");
+  },
+  { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true, deviceScaleFactor: 2 },
+  "#newton_cradle",
+);
+
+await browser.close();
+stop();
+process.exit(failed ? 1 : 0);
