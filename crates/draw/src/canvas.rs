@@ -45,6 +45,21 @@ impl Canvas {
         Ok(Self { pixmap, camera, layer: Layer::Awake })
     }
 
+    /// A picture of given pixels: red, green and blue, row by row from the top.
+    ///
+    /// # Errors
+    /// Width and height must be 16 to 16384 pixels, and as many pixels be there.
+    pub fn from_rgb(width: u32, height: u32, pixels: &[[u8; 3]]) -> Result<Self, DrawError> {
+        let mut canvas = Self::new(width, height)?;
+        if pixels.len() != canvas.pixmap.pixels().len() {
+            return Err(DrawError::Size { width, height });
+        }
+        for (pixel, &[r, g, b]) in canvas.pixmap.pixels_mut().iter_mut().zip(pixels) {
+            *pixel = tiny_skia::ColorU8::from_rgba(r, g, b, 255).premultiply();
+        }
+        Ok(canvas)
+    }
+
     /// Width in pixels.
     pub fn width(&self) -> u32 {
         self.pixmap.width()

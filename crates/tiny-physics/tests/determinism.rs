@@ -188,6 +188,17 @@ fn bodies_that_come_and_go_leave_clones_and_levels_alike() {
 }
 
 #[test]
+fn going_back_to_before_the_first_contact_leaves_nothing_behind() {
+    for (name, scene) in SCENES {
+        let start = scene();
+        let mut world = start.clone();
+        let expected = hashes(&mut world, 60);
+        world.clone_from(&start);
+        assert_eq!(divergence(&expected, &hashes(&mut world, 60)), None, "{name}");
+    }
+}
+
+#[test]
 fn what_the_next_step_depends_on_is_in_the_hash() {
     let start = {
         let mut world = pyramid(3);

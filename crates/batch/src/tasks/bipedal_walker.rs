@@ -10,8 +10,8 @@ use crate::task::{Outcome, Spec, Task, View};
 use serde::{Deserialize, Serialize};
 use tiny_physics::math::{cos, sin};
 use tiny_physics::{
-    BodyId, ChainDef, Error, Filter, JointDef, JointId, QueryFilter, RigidBody, Shape, ShapeDef,
-    Vec2, World,
+    BodyId, ChainDef, Error, Filter, JointDef, JointId, QueryFilter, RigidBody, Rot, Shape,
+    ShapeDef, Vec2, World,
 };
 
 const STEPS_PER_SECOND: f32 = 50.0;
@@ -25,6 +25,10 @@ const HULL: [(i16, i16); 5] = [(-30, 9), (6, 9), (34, 1), (34, -8), (-30, -8)];
 const HIP: f32 = 8.0 / SCALE;
 const LEG: Vec2 = Vec2::new(8.0 / SCALE, 34.0 / SCALE);
 const GROUND_FRICTION: f32 = 2.5;
+/// How the walker stands at first, radians. The original's joints begin half a metre apart, and this is where its
+/// engine takes them within two steps.
+const THIGH: f32 = 0.38;
+const SHIN: f32 = -0.5;
 /// Newton metres.
 const TORQUE: f32 = 80.0;
 /// Radians a second of hips and knees.
@@ -68,7 +72,8 @@ impl BipedalWalker {
     /// None that is known; the engine's.
     pub fn new(hardcore: bool) -> Result<Self, BatchError> {
         let mut template = World::new(Vec2::new(0.0, -10.0));
-        let place = Vec2::new(0.5 * STEP * START as f32, LEVEL + 2.0 * LEG.y);
+        let reach = LEG.y * (cos(THIGH) + cos(SHIN)) + 0.4 * LEG.x * sin(SHIN).abs();
+        let place = Vec2::new(0.5 * STEP * START as f32, LEVEL + HIP + reach);
         let hull = pixels(&HULL, SCALE)?.density(5.0).friction(0.1).filter(ROBOT);
         let hull = Part::add(&mut template, RigidBody::dynamic().position(place).shape(hull))?;
         let left = add_leg(&mut template, hull, place, -1.0)?;
@@ -204,18 +209,20 @@ struct Leg {
     knee: JointId,
 }
 
-/// A leg, turned a little to the side of -1 or 1.
+/// A leg with its foot on the ground, turned a little to the side of -1 or 1.
 fn add_leg(world: &mut World, hull: Part, place: Vec2, side: f32) -> Result<Leg, Error> {
-    let part = |width: f32, halves_down: f32| -> Result<RigidBody, Error> {
+    let part = |width: f32, top: Vec2, angle: f32| -> Result<RigidBody, Error> {
         let shape = ShapeDef::new(Shape::rect(0.5 * width * LEG.x, 0.5 * LEG.y)?);
-        let down = Vec2::new(0.0, HIP - 0.5 * halves_down * LEG.y);
+        let middle = top + Rot::from_angle(angle).y_axis() * (-0.5 * LEG.y);
         let shape = shape.friction(0.2).filter(ROBOT);
-        Ok(RigidBody::dynamic().position(place + down).angle(0.05 * side).shape(shape))
+        Ok(RigidBody::dynamic().position(middle).angle(angle).shape(shape))
     };
-    let end = Vec2::new(0.0, 0.5 * LEG.y);
-    let thigh = world.add_body(part(1.0, 1.0)?)?;
+    let (end, angle) = (Vec2::new(0.0, 0.5 * LEG.y), THIGH + 0.002 * side);
+    let top = place - Vec2::new(0.0, HIP);
+    let thigh = world.add_body(part(1.0, top, angle)?)?;
     let hip = hinge(world, (hull.body, Vec2::new(0.0, -HIP)), (thigh, end), (-0.8, 1.1), side)?;
-    let shin = Part::add(world, part(0.8, 3.0)?)?;
+    let knee = top + Rot::from_angle(angle).y_axis() * -LEG.y;
+    let shin = Part::add(world, part(0.8, knee, SHIN)?)?;
     let knee = hinge(world, (thigh, -end), (shin.body, end), (-1.6, -0.1), 1.0)?;
     Ok(Leg { shin, hip, knee })
 }
@@ -260,8 +267,9 @@ mod tests {
             TaskBatch::new(BipedalWalker::new(false).unwrap(), 1, 1, Autoreset::Disabled).unwrap();
         let seen = batch.observations();
         assert!(seen[0].abs() < 0.1, "{seen:?}");
-        let down = (LEVEL + 2.0 * LEG.y - LEVEL) / RAY_LENGTH;
+        let down = (HIP + LEG.y * (cos(THIGH) + cos(SHIN))) / RAY_LENGTH;
         assert!((seen[14] - down).abs() < 0.02, "{seen:?}");
+        assert!(seen[2].abs() < 0.05 && seen[3].abs() < 0.05, "{seen:?}");
         assert!(seen[15..].windows(2).all(|pair| pair[0] < pair[1] + 1e-6), "{seen:?}");
     }
 }

@@ -123,7 +123,10 @@ impl<B: Bucketful> Clone for Coloured<B> {
     fn clone_from(&mut self, source: &Self) {
         let Self { keys, buckets, spare } = self;
         let count = source.buckets.len();
-        spare.extend(buckets.drain(buckets.len().min(count)..));
+        for mut bucket in buckets.drain(buckets.len().min(count)..) {
+            bucket.clone_from(&B::default());
+            spare.push(bucket);
+        }
         buckets.resize_with(count, || spare.pop().unwrap_or_default());
         keys.clone_from(&source.keys);
         buckets.iter_mut().zip(&source.buckets).for_each(|(own, other)| own.clone_from(other));

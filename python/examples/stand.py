@@ -1,0 +1,122 @@
+"""Trains the ragdoll to stand while it is shoved about, and shows what came of it.
+
+    python examples/stand.py [--generations 60] [--pairs 32] [--out stand]
+
+An evolution strategy (T. Salimans and others, 2017) with antithetic pairs and ranks: each generation tries `pairs` directions
+forwards and backwards, all of them in one batch on all cores. The policy is linear in the observation. Writes the
+curve (stand.csv, and stand.png where matplotlib is there) and a film of the policy before and after (stand.gif).
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+import tiny_physics as tp
+
+
+def make_policy(parameters: np.ndarray, width: int, actions: int) -> tuple[np.ndarray, np.ndarray]:
+    """Weights (..., actions, width) and offsets (..., actions) of linear policies from flat parameters."""
+    weights = parameters[..., : actions * width].reshape(*parameters.shape[:-1], actions, width)
+    return weights, parameters[..., actions * width :]
+
+
+def play(task: str, parameters: np.ndarray, seed: int, threads: int = 0) -> np.ndarray:
+    """Scores of policies, one a row of `parameters`, each in a world of its own; all worlds have the same seed."""
+    batch = tp.TaskBatch(task, len(parameters), threads=threads, autoreset="next_step")
+    spec = batch.spec
+    weights, offsets = make_policy(parameters.astype(np.float32), spec["observation"], spec["action"])
+    batch.seed([seed] * len(parameters))
+    batch.reset()
+    scores, alive = np.zeros(len(parameters)), np.ones(len(parameters), dtype=bool)
+    for _ in range(spec["time_limit"]):
+        wish = np.einsum("nao,no->na", weights, batch.observations) + offsets
+        rewards, ended, cut = batch.step(np.tanh(wish).ravel())
+        scores += np.where(alive, rewards, 0.0)
+        alive &= ~(ended | cut)
+        if not alive.any():
+            break
+    return scores
+
+
+def ranks(scores: np.ndarray) -> np.ndarray:
+    """Places of scores, evenly from -0.5 to 0.5: what is far off counts no more than what is off."""
+    places = np.empty(len(scores))
+    places[np.argsort(scores, kind="stable")] = np.linspace(-0.5, 0.5, len(scores))
+    return places
+
+
+def train(task: str, generations: int, pairs: int, spread: float = 0.1, rate: float = 0.3, seed: int = 0):
+    """Yields (generation, mean score, best score, parameters) after each generation."""
+    spec = tp.TaskBatch(task, 1, threads=1).spec
+    random = np.random.default_rng(seed)
+    center = np.zeros(spec["action"] * (spec["observation"] + 1))
+    momentum = np.zeros_like(center)
+    for generation in range(generations):
+        ways = random.standard_normal((pairs, len(center)))
+        tries = np.concatenate([center + spread * ways, center - spread * ways])
+        scores = play(task, tries, seed=1000 + generation)
+        placed = ranks(scores)
+        slope = (placed[:pairs] - placed[pairs:]) @ ways / (pairs * spread)
+        momentum = 0.8 * momentum + 0.2 * slope
+        center = center + rate * momentum * spread
+        yield generation, scores.mean(), scores.max(), center
+
+
+def film(task: str, parameters: np.ndarray, seed: int, out: tp.Film, frames: int = 100) -> None:
+    """Adds one episode to a film, every second step."""
+    batch = tp.TaskBatch(task, 1, threads=1, autoreset="next_step")
+    spec = batch.spec
+    weights, offsets = make_policy(parameters.astype(np.float32), spec["observation"], spec["action"])
+    batch.seed([seed])
+    batch.reset()
+    for _ in range(frames):
+        for _ in range(2):
+            batch.step(np.tanh(weights @ batch.observations[0] + offsets))
+        out.add(batch.draw(0, 300, 200))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--task", default="ragdoll")
+    parser.add_argument("--generations", type=int, default=60)
+    parser.add_argument("--pairs", type=int, default=32)
+    parser.add_argument("--out", type=Path, default=Path("stand"))
+    words = parser.parse_args()
+    curve, parameters = [], None
+    for generation, mean, best, parameters in train(words.task, words.generations, words.pairs):
+        curve.append((generation, mean, best))
+        print(f"generation {generation:3}: mean {mean:8.2f}, best {best:8.2f}", flush=True)
+    fresh = 1 << 20
+    before = play(words.task, np.zeros((32, len(parameters))), fresh).mean()
+    after = np.mean([play(words.task, parameters[None], fresh + i)[0] for i in range(32)])
+    print(f"score on 32 fresh seeds: {after:.1f}; limp: {before:.1f}")
+    np.savetxt(words.out.with_suffix(".csv"), curve, delimiter=",", header="generation,mean,best", comments="")
+    movie = tp.Film(ms=40)
+    film(words.task, np.zeros_like(parameters), fresh, movie)
+    film(words.task, parameters, fresh, movie, frames=250)
+    movie.save(words.out.with_suffix(".gif"))
+    plot(curve, words.out.with_suffix(".png"))
+
+
+def plot(curve: list[tuple[int, float, float]], path: Path) -> None:
+    """Draws the curve where matplotlib is there."""
+    try:
+        from matplotlib import pyplot
+    except ImportError:
+        return
+    generations, means, bests = zip(*curve)
+    pyplot.figure(figsize=(6, 3.5))
+    pyplot.plot(generations, bests, label="best")
+    pyplot.plot(generations, means, label="mean")
+    pyplot.xlabel("generation")
+    pyplot.ylabel("score")
+    pyplot.legend()
+    pyplot.tight_layout()
+    pyplot.savefig(path, dpi=120)
+
+
+if __name__ == "__main__":
+    main()

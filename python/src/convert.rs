@@ -1,0 +1,112 @@
+//! Between Python's values and the engine's.
+
+use numpy::PyUntypedArray;
+use pyo3::create_exception;
+use pyo3::exceptions::{PyLookupError, PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList, PyTuple};
+use pythonize::{depythonize, pythonize};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use tiny_physics::{DVec2, Error, Vec2};
+use tiny_physics_batch::BatchError;
+
+create_exception!(
+    tiny_physics,
+    StaleHandleError,
+    PyLookupError,
+    "The body, shape or joint has been removed, or belongs to another world."
+);
+
+/// The engine's error as Python's.
+pub fn error(error: Error) -> PyErr {
+    match error {
+        Error::StaleHandle { .. } => StaleHandleError::new_err(error.to_string()),
+        _ => PyValueError::new_err(error.to_string()),
+    }
+}
+
+/// The batch's error as Python's.
+pub fn batch_error(error: BatchError) -> PyErr {
+    match error {
+        BatchError::Engine(error) => self::error(error),
+        BatchError::World { .. } => pyo3::exceptions::PyIndexError::new_err(error.to_string()),
+        BatchError::Threads(_) => PyRuntimeError::new_err(error.to_string()),
+        _ => PyValueError::new_err(error.to_string()),
+    }
+}
+
+/// A description from dictionaries, lists and numbers; NumPy's arrays and numbers count as lists and numbers.
+pub fn read<T: DeserializeOwned>(value: &Bound<'_, PyAny>) -> PyResult<T> {
+    depythonize(&plain(value)?).map_err(|error| PyValueError::new_err(error.to_string()))
+}
+
+/// A description as dictionaries, lists and numbers.
+pub fn write<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
+    pythonize(py, value).map_err(|error| PyValueError::new_err(error.to_string()))
+}
+
+/// The same without NumPy's types, and without what is `None`: that stands for the default.
+fn plain<'py>(value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let py = value.py();
+    if let Ok(dict) = value.cast::<PyDict>() {
+        let copy = PyDict::new(py);
+        for (key, value) in dict.iter().filter(|(_, value)| !value.is_none()) {
+            copy.set_item(key, plain(&value)?)?;
+        }
+        return Ok(copy.into_any());
+    }
+    if value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>() {
+        let items: PyResult<Vec<_>> = value.try_iter()?.map(|item| plain(&item?)).collect();
+        return Ok(PyList::new(py, items?)?.into_any());
+    }
+    if value.cast::<PyUntypedArray>().is_ok() || value.hasattr("tolist")? {
+        return value.call_method0("tolist");
+    }
+    Ok(value.clone())
+}
+
+/// A point or vector: any two numbers.
+#[derive(Clone, Copy)]
+pub struct Pair(pub f64, pub f64);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Pair {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        let mut numbers = value.try_iter()?;
+        let mut next = || -> PyResult<f64> {
+            match numbers.next() {
+                Some(number) => number?.extract(),
+                None => Err(PyValueError::new_err("two numbers are needed")),
+            }
+        };
+        let pair = Self(next()?, next()?);
+        if numbers.next().is_some() {
+            return Err(PyValueError::new_err("two numbers are needed, there are more"));
+        }
+        Ok(pair)
+    }
+}
+
+impl From<Pair> for Vec2 {
+    fn from(Pair(x, y): Pair) -> Self {
+        Self::new(x as f32, y as f32)
+    }
+}
+
+impl From<Pair> for DVec2 {
+    fn from(Pair(x, y): Pair) -> Self {
+        Self::new(x, y)
+    }
+}
+
+/// A vector for Python.
+pub fn tuple(v: Vec2) -> (f32, f32) {
+    (v.x, v.y)
+}
+
+/// A place for Python.
+pub fn place(p: DVec2) -> (f64, f64) {
+    (p.x, p.y)
+}

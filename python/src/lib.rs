@@ -1,0 +1,29 @@
+//! The extension module `tiny_physics._native`: worlds, batches and tasks for Python.
+//!
+//! Descriptions (bodies, shapes, joints, settings) come as dictionaries in the form of scene files; the Python side
+//! of the package has functions that make them.
+
+use pyo3::prelude::*;
+
+mod batch;
+mod body;
+mod convert;
+mod draw;
+mod joint;
+mod query;
+mod shape;
+mod tasks;
+mod world;
+
+#[pymodule]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("StaleHandleError", module.py().get_type::<convert::StaleHandleError>())?;
+    module.add_class::<world::World>()?;
+    module.add_class::<body::Body>()?;
+    module.add_class::<shape::Shape>()?;
+    module.add_class::<joint::Joint>()?;
+    module.add_class::<batch::WorldBatch>()?;
+    module.add_class::<tasks::TaskBatch>()?;
+    module.add_function(wrap_pyfunction!(draw::gif, module)?)?;
+    Ok(())
+}

@@ -1,0 +1,192 @@
+//! Queries of a world.
+
+use crate::body::Body;
+use crate::convert::{Pair, place, read, tuple};
+use crate::shape::Shape;
+use crate::world::World;
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use tiny_physics::{self as engine, Aabb, DVec2, Pose, QueryFilter, RayCast, Rot, Vec2};
+
+/// What a query sees.
+fn filter(mask: u64, exclude: Option<&Body>, sensors: bool) -> QueryFilter<'static> {
+    let mut filter = QueryFilter::new().mask(mask);
+    if let Some(body) = exclude {
+        filter = filter.exclude(body.id);
+    }
+    if sensors { filter.sensors() } else { filter }
+}
+
+fn shapes(slf: &Bound<'_, World>, ids: Vec<engine::ShapeId>) -> Vec<Shape> {
+    ids.into_iter().map(|id| Shape { world: slf.clone().unbind(), id }).collect()
+}
+
+fn hit<'py>(
+    slf: &Bound<'py, World>,
+    (shape, body): (engine::ShapeId, engine::BodyId),
+    (point, normal, fraction): (DVec2, Vec2, f32),
+) -> PyResult<Bound<'py, PyDict>> {
+    let found = PyDict::new(slf.py());
+    found.set_item("shape", Shape { world: slf.clone().unbind(), id: shape })?;
+    found.set_item("body", Body { world: slf.clone().unbind(), id: body })?;
+    found.set_item("point", place(point))?;
+    found.set_item("normal", tuple(normal))?;
+    found.set_item("fraction", fraction)?;
+    Ok(found)
+}
+
+#[pymethods]
+impl World {
+    /// The first shape that a ray enters on its way from `origin` along `translation` (metres): a dictionary with
+    /// "shape", "body", "point", "normal", "fraction"; None where it meets nothing.
+    ///
+    /// mask: categories that it sees, as bits. exclude: a body that it does not see.
+    #[pyo3(signature = (origin, translation, mask=u64::MAX, exclude=None, sensors=false))]
+    fn ray_cast<'py>(
+        slf: &Bound<'py, Self>,
+        origin: Pair,
+        translation: Pair,
+        mask: u64,
+        exclude: Option<&Body>,
+        sensors: bool,
+    ) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let filter = filter(mask, exclude, sensors);
+        let world = slf.borrow();
+        let found = world.inner.ray_cast(DVec2::from(origin), translation.into(), &filter);
+        found.map(|h| hit(slf, (h.shape, h.body), (h.point, h.normal, h.fraction))).transpose()
+    }
+
+    /// All shapes that a ray enters, nearest first.
+    #[pyo3(signature = (origin, translation, mask=u64::MAX, exclude=None, sensors=false))]
+    fn ray_cast_all<'py>(
+        slf: &Bound<'py, Self>,
+        origin: Pair,
+        translation: Pair,
+        mask: u64,
+        exclude: Option<&Body>,
+        sensors: bool,
+    ) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let filter = filter(mask, exclude, sensors);
+        let world = slf.borrow();
+        let found = world.inner.ray_cast_all(DVec2::from(origin), translation.into(), &filter);
+        found
+            .into_iter()
+            .map(|h| hit(slf, (h.shape, h.body), (h.point, h.normal, h.fraction)))
+            .collect()
+    }
+
+    /// Many ray casts at once. rays: float64, shape (n, 4): origin x, y, translation x, y, metres. Gives the fraction of
+    /// each until it enters a shape, float32, shape (n,); 1 where it meets nothing.
+    #[pyo3(signature = (rays, mask=u64::MAX))]
+    fn ray_casts<'py>(
+        &self,
+        py: Python<'py>,
+        rays: PyReadonlyArray2<'py, f64>,
+        mask: u64,
+    ) -> PyResult<Bound<'py, PyArray1<f32>>> {
+        if rays.as_array().shape()[1] != 4 {
+            return Err(PyValueError::new_err("rays must have the shape (n, 4)"));
+        }
+        let rays: Vec<RayCast> = rays
+            .as_array()
+            .outer_iter()
+            .map(|r| RayCast::new(DVec2::new(r[0], r[1]), Vec2::new(r[2] as f32, r[3] as f32)))
+            .collect();
+        let (world, mut hits) = (&self.inner, Vec::new());
+        py.detach(|| world.ray_casts(&rays, &QueryFilter::new().mask(mask), &mut hits));
+        let fractions = hits.into_iter().map(|hit| hit.map_or(1.0, |hit| hit.fraction));
+        Ok(fractions.collect::<Vec<f32>>().into_pyarray(py))
+    }
+
+    /// Where a moved shape first touches another: as `ray_cast`. geometry: as {"circle": {"radius": 0.5}}.
+    #[pyo3(signature = (geometry, position, angle, translation, mask=u64::MAX, exclude=None))]
+    fn cast_shape<'py>(
+        slf: &Bound<'py, Self>,
+        geometry: &Bound<'py, PyAny>,
+        position: Pair,
+        angle: f32,
+        translation: Pair,
+        mask: u64,
+        exclude: Option<&Body>,
+    ) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let geometry: engine::Shape = read(geometry)?;
+        let pose = Pose::new(position.into(), Rot::from_angle(angle));
+        let filter = filter(mask, exclude, false);
+        let world = slf.borrow();
+        let found = world.inner.cast_shape(&geometry, pose, translation.into(), &filter);
+        found.map(|h| hit(slf, (h.shape, h.body), (h.point, h.normal, h.fraction))).transpose()
+    }
+
+    /// The shapes that overlap a shape.
+    #[pyo3(signature = (geometry, position, angle=0.0, mask=u64::MAX, exclude=None, sensors=false))]
+    fn overlap_shape(
+        slf: &Bound<'_, Self>,
+        geometry: &Bound<'_, PyAny>,
+        position: Pair,
+        angle: f32,
+        mask: u64,
+        exclude: Option<&Body>,
+        sensors: bool,
+    ) -> PyResult<Vec<Shape>> {
+        let geometry: engine::Shape = read(geometry)?;
+        let pose = Pose::new(position.into(), Rot::from_angle(angle));
+        let filter = filter(mask, exclude, sensors);
+        let found = slf.borrow().inner.overlap_shape(&geometry, pose, &filter);
+        Ok(shapes(slf, found))
+    }
+
+    /// The shapes that overlap a box: lower left and upper right, world, metres.
+    #[pyo3(signature = (lower, upper, mask=u64::MAX, exclude=None, sensors=false))]
+    fn overlap_box(
+        slf: &Bound<'_, Self>,
+        lower: Pair,
+        upper: Pair,
+        mask: u64,
+        exclude: Option<&Body>,
+        sensors: bool,
+    ) -> Vec<Shape> {
+        let filter = filter(mask, exclude, sensors);
+        let area = Aabb::new(lower.into(), upper.into());
+        let found = slf.borrow().inner.overlap_aabb(area, &filter);
+        shapes(slf, found)
+    }
+
+    /// The shapes that hold a point: world, metres.
+    #[pyo3(signature = (point, mask=u64::MAX, exclude=None, sensors=false))]
+    fn overlap_point(
+        slf: &Bound<'_, Self>,
+        point: Pair,
+        mask: u64,
+        exclude: Option<&Body>,
+        sensors: bool,
+    ) -> Vec<Shape> {
+        let filter = filter(mask, exclude, sensors);
+        let found = slf.borrow().inner.overlap_point(DVec2::from(point), &filter);
+        shapes(slf, found)
+    }
+
+    /// The point of any shape that is closest to `point`, within `distance` metres: a dictionary with "shape", "body",
+    /// "point" and "distance"; None where there is none.
+    #[pyo3(signature = (point, distance=f32::INFINITY, mask=u64::MAX, exclude=None))]
+    fn closest_point<'py>(
+        slf: &Bound<'py, Self>,
+        point: Pair,
+        distance: f32,
+        mask: u64,
+        exclude: Option<&Body>,
+    ) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let filter = filter(mask, exclude, false);
+        let world = slf.borrow();
+        let Some(found) = world.inner.closest_point(DVec2::from(point), distance, &filter) else {
+            return Ok(None);
+        };
+        let closest = PyDict::new(slf.py());
+        closest.set_item("shape", Shape { world: slf.clone().unbind(), id: found.shape })?;
+        closest.set_item("body", Body { world: slf.clone().unbind(), id: found.body })?;
+        closest.set_item("point", place(found.point))?;
+        closest.set_item("distance", found.distance)?;
+        Ok(Some(closest))
+    }
+}

@@ -1,0 +1,121 @@
+"""Batches of worlds."""
+
+import numpy as np
+import pytest
+
+import tiny_physics as tp
+
+
+def template(mass: float = 1.0):
+    world = tp.World()
+    base = world.add_body(tp.box(10, 0.5), kind="static", position=(0, -0.5))
+    cart = world.add_body(tp.box(0.5, 0.2, friction=0.0), position=(0, 0.2), mass=mass)
+    pole = world.add_body(tp.box(0.05, 0.5, category=2, mask=0), position=(0, 0.9))
+    hinge = world.add_joint(cart, pole, tp.revolute((0, 0.2), (0, -0.5)))
+    actuators = [("force_x", cart)]
+    readings = [
+        ("position_x", cart),
+        ("joint_angle", hinge),
+        ("joint_speed", hinge),
+        ("ray", cart, (0, 0), (0, -2)),
+    ]
+    return world, base, cart, actuators, readings
+
+
+def batch(count: int, threads: int = 1) -> tp.WorldBatch:
+    world, *_, actuators, readings = template()
+    return tp.WorldBatch(world, count, threads, actuators, readings)
+
+
+def push(count: int, seed: int) -> np.ndarray:
+    return np.random.default_rng(seed).uniform(-20, 20, (count, 1)).astype(np.float32)
+
+
+def test_actions_go_in_and_observations_come_out():
+    many = batch(5)
+    seen = many.step(np.arange(5, dtype=np.float32).reshape(5, 1) * 10, steps=10)
+    assert seen.shape == (5, 4) and seen.dtype == np.float32
+    assert (np.diff(seen[:, 0]) > 0.005).all()
+    assert seen is many.observations
+    assert np.isclose(seen[:, 3], 0.1, atol=0.01).all()
+
+
+def test_one_world_of_a_batch_is_that_world():
+    world, _, cart, actuators, readings = template()
+    many = tp.WorldBatch([world], 3, 1, actuators, readings)
+    force = push(3, 1)
+    for _ in range(30):
+        many.step(force)
+        cart.apply_force((float(force[1, 0]), 0.0))
+        world.step()
+    assert many.state_hashes()[1] == world.state_hash()
+    assert many.world(1).state_hash() == world.state_hash()
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3])
+def test_save_restore_and_threads_give_equal_bits(threads):
+    one, many = batch(50), batch(50, threads)
+    for step in range(10):
+        one.step(push(50, step))
+        many.step(push(50, step))
+    assert (one.state_hashes() == many.state_hashes()).all()
+    saved, mark = many.to_bytes(), many.observations.copy()
+    many.step(push(50, 99), steps=5)
+    later = many.state_hashes()
+    many.restore_bytes(saved)
+    assert (many.observations == mark).all() and many.threads == threads
+    many.step(push(50, 99), steps=5)
+    assert (many.state_hashes() == later).all()
+    with pytest.raises(ValueError):
+        many.restore_bytes(saved[:-9])
+    with pytest.raises(ValueError, match="worlds"):
+        batch(3).restore_bytes(saved)
+
+
+def test_resets_and_scatter():
+    many = batch(6)
+    fresh = many.state_hashes()
+    many.step(push(6, 1), steps=5)
+    moved = many.state_hashes()
+    many.reset([1, 3])
+    now = many.state_hashes()
+    assert [now[i] == fresh[i] for i in range(6)] == [False, True, False, True, False, False]
+    assert now[0] == moved[0]
+    many.reset()
+    assert (many.state_hashes() == fresh).all()
+    cart = template()[2]
+    many.seed([7] * 6)
+    many.scatter([("position_x", cart)], [-1.0], [1.0])
+    places = many.observations[:, 0]
+    assert len(set(places.tolist())) == 1 and abs(places[0]) <= 1
+    many.seed(range(6))
+    many.scatter([("position_x", cart)], [-1.0], [1.0])
+    assert len(set(many.observations[:, 0].tolist())) == 6
+    with pytest.raises(IndexError):
+        many.reset([6])
+
+
+def test_rays_of_all_worlds():
+    many = batch(4)
+    rays = np.array([[0, 3, 0, -4], [8, 3, 0, -6], [0, 3, 0, 2]], dtype=float)
+    found = many.ray_casts(rays)
+    assert found.shape == (4, 3)
+    world = template()[0]
+    assert (found == world.ray_casts(rays)).all()
+
+
+def test_bad_input_is_named():
+    many = batch(4)
+    before = many.state_hashes()
+    with pytest.raises(ValueError, match="actions has 3"):
+        many.step(np.zeros((3, 1), dtype=np.float32))
+    bad = np.zeros((4, 1), dtype=np.float32)
+    bad[2] = np.nan
+    with pytest.raises(ValueError, match=r"actions\[2\]"):
+        many.step(bad)
+    assert (many.state_hashes() == before).all()
+    world, _, cart, *_ = template()
+    with pytest.raises(ValueError, match="warp"):
+        tp.WorldBatch(world, 1, 1, [("warp", cart)])
+    with pytest.raises(ValueError, match="templates"):
+        tp.WorldBatch([], 1)

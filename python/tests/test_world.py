@@ -1,0 +1,219 @@
+"""Worlds, bodies, shapes, joints, events, queries, saving, drawing."""
+
+import copy
+import pickle
+import threading
+
+import numpy as np
+import pytest
+
+import tiny_physics as tp
+
+
+def falling() -> tuple[tp.World, tp.Body, tp.Body]:
+    world = tp.World()
+    ground = world.add_body(tp.box(20, 1, contact_events=True), kind="static", position=(0, -1))
+    ball = world.add_body(tp.circle(0.5, density=2.0), position=(0, 4))
+    return world, ground, ball
+
+
+def test_a_ball_falls_and_comes_to_rest():
+    world, ground, ball = falling()
+    world.step(1 / 60, steps=300)
+    assert abs(ball.position[1] - 0.5) < 0.01
+    assert ball.mass == pytest.approx(2.0 * np.pi * 0.25, rel=1e-5)
+    assert (ground.kind, ball.kind) == ("static", "dynamic")
+    assert not ball.awake and world.awake_body_count == 0
+    assert world.bodies == [ground, ball] and world.step_count == 300
+
+
+def test_free_fall_follows_its_formula():
+    world = tp.World(gravity=(0, -10))
+    body = world.add_body(tp.circle(0.1), position=(0, 100), velocity=(3, 0))
+    world.step(1 / 100, steps=100)
+    assert body.position == pytest.approx((3.0, 95.0), abs=0.06)
+    assert body.velocity == pytest.approx((3.0, -10.0), rel=1e-4)
+
+
+def test_numpy_numbers_are_numbers():
+    world = tp.World(gravity=np.array([0.0, -9.8]))
+    body = world.add_body([tp.circle(np.float32(0.5))], position=np.array([1.0, 2.0]))
+    body.velocity = np.array([1.0, 0.0], dtype=np.float32)
+    assert body.position == (1.0, 2.0) and body.velocity == (1.0, 0.0)
+
+
+def test_bad_input_is_named():
+    world, ground, ball = falling()
+    with pytest.raises(ValueError, match="radius"):
+        world.add_body(tp.circle(-1.0))
+    with pytest.raises(ValueError, match="colour"):
+        world.add_body(tp.circle(1.0), colour="red")
+    with pytest.raises(ValueError, match="frition"):
+        world.add_body(tp.circle(1.0, frition=0.5))
+    with pytest.raises(ValueError, match="dt"):
+        world.step(float("nan"))
+    with pytest.raises(ValueError, match="another world"):
+        tp.World().add_joint(ground, ball, tp.revolute())
+    with pytest.raises(ValueError, match="two"):
+        ball.position = (1, 2, 3)
+    ball.remove()
+    assert not ball.is_valid
+    with pytest.raises(tp.StaleHandleError):
+        ball.position
+    with pytest.raises(LookupError):
+        world.add_joint(ground, ball, tp.revolute())
+
+
+def test_joints_hold_limit_and_drive():
+    world = tp.World(gravity=(0, 0))
+    base = world.add_body(kind="static")
+    arm = world.add_body(tp.box(1, 0.1), position=(1, 0))
+    joint = world.add_joint(base, arm, tp.revolute((0, 0), (-1, 0), motor=(2.0, 500.0), limits=(-1, 1)))
+    world.step(1 / 60, steps=20)
+    assert joint.speed == pytest.approx(2.0, rel=0.02)
+    world.step(1 / 60, steps=200)
+    assert joint.angle == pytest.approx(1.0, abs=0.02)
+    joint.set_motor(-2.0, 500.0)
+    world.step(1 / 60, steps=200)
+    assert joint.angle == pytest.approx(-1.0, abs=0.02)
+    assert joint.bodies == (base, arm) and arm.joints == [joint]
+    assert joint.description["kind"]["revolute"]["motor"]["speed"] == -2.0
+    rod = world.add_joint(base, arm, tp.distance(2.0, break_at=(1e9, 1e9)))
+    assert len(world.joints) == 2
+    rod.remove()
+    with pytest.raises(tp.StaleHandleError):
+        rod.force
+
+
+def test_events_tell_what_happened():
+    world, ground, ball = falling()
+    zone = ground.add_shape(tp.box(5, 1, offset=(0, 3), sensor=True))
+    touched, entered = [], []
+    for _ in range(120):
+        world.step()
+        events = world.events()
+        touched += events["contact_begin"]
+        entered += events["sensor_begin"]
+    assert [{shape.body for shape in pair} for pair in touched] == [{ground, ball}]
+    assert entered == [(zone, ball.shapes[0])]
+    ball.awake = True
+    world.step()
+    (contact,) = world.contacts()
+    assert set(contact["bodies"]) == {ground, ball} and len(contact["points"]) == 1
+
+
+def test_queries_find_shapes():
+    world, ground, ball = falling()
+    hit = world.ray_cast((0, 10), (0, -20))
+    assert hit["body"] == ball and hit["point"] == pytest.approx((0, 4.5))
+    assert hit["normal"] == pytest.approx((0, 1)) and hit["fraction"] == pytest.approx(5.5 / 20)
+    assert [h["body"] for h in world.ray_cast_all((0, 10), (0, -20))] == [ball, ground]
+    assert world.ray_cast((0, 10), (0, -20), exclude=ball)["body"] == ground
+    assert world.ray_cast((0, 10), (0, 5)) is None
+    rays = np.array([[0, 10, 0, -20], [5, 10, 0, -20], [0, 10, 0, 5]], dtype=float)
+    assert world.ray_casts(rays) == pytest.approx([5.5 / 20, 0.5, 1.0])
+    assert world.overlap_point((0, 4)) == ball.shapes
+    assert world.overlap_box((-1, -1), (1, 5)) == ground.shapes + ball.shapes
+    assert world.overlap_shape({"circle": {"radius": 1.0}}, (0, 5.4)) == ball.shapes
+    assert world.closest_point((0, 6))["distance"] == pytest.approx(1.5)
+    cast = world.cast_shape({"circle": {"radius": 0.5}}, (5, 3), 0.0, (0, -5))
+    assert cast["body"] == ground and cast["fraction"] == pytest.approx(0.5, abs=1e-3)
+
+
+def test_a_copy_has_the_same_future():
+    world = tp.World.scene("card_house")
+    world.step(1 / 60, steps=20)
+    copies = [
+        world.copy(),
+        copy.deepcopy(world),
+        pickle.loads(pickle.dumps(world)),
+        tp.World.from_bytes(world.to_bytes()),
+    ]
+    other = tp.World()
+    other.restore(world)
+    for one in [world, *copies, other]:
+        one.step(1 / 60, steps=30)
+    assert len({one.state_hash() for one in [world, *copies, other]}) == 1
+    world.step()
+    assert world.state_hash() != copies[0].state_hash()
+    with pytest.raises(ValueError):
+        tp.World.from_bytes(world.to_bytes()[:100])
+
+
+def test_threads_change_nothing():
+    hashes = set()
+    for threads in (1, 2):
+        world = tp.World.scene("card_house")
+        world.threads = threads
+        world.step(1 / 60, steps=30)
+        hashes.add(world.state_hash())
+    assert len(hashes) == 1
+
+
+def test_handles_of_a_copy_are_those_of_the_original():
+    world, _, ball = falling()
+    twin = world.copy()
+    same = twin.same(ball)
+    assert same != ball and same.position == ball.position
+    with pytest.raises(ValueError):
+        twin.add_joint(ball, same, tp.weld())
+
+
+def test_scene_files(tmp_path):
+    path = tmp_path / "scene.json"
+    path.write_text('{"version": 1, "name": "x", "bodies": [{"shapes": [{"shape": {"circle": {"radius": 1}}}]}]}')
+    assert tp.World.from_scene(path).body_count == 1
+    path.write_text('{"version": 1, "name": "x", "bodies": [{"shapes": [{"shape": {"circle": {"radius": -1}}}]}]}')
+    with pytest.raises(ValueError, match="radius"):
+        tp.World.from_scene(path)
+    with pytest.raises(ValueError, match="no_such"):
+        tp.World.scene("no_such")
+
+
+def test_states_write_into_the_array_that_is_given():
+    world, _, ball = falling()
+    out = np.empty((2, 6))
+    assert world.states(out) is out
+    assert out[1].tolist() == [0, 4, 0, 0, 0, 0]
+    with pytest.raises(ValueError, match="shape"):
+        world.states(np.empty((3, 6)))
+
+
+def test_pictures():
+    world, _, _ = falling()
+    picture = world.draw(200, 100)
+    assert picture.shape == (100, 200, 3) and picture.dtype == np.uint8
+    assert len(np.unique(picture.reshape(-1, 3), axis=0)) > 3
+    assert world._repr_png_().startswith(b"\x89PNG")
+    film = tp.Film()
+    for _ in range(3):
+        world.step(steps=10)
+        film.add(world.draw(64, 48))
+    assert film.to_gif().startswith(b"GIF89a") and "image/gif" in film._repr_html_()
+    film.add(np.zeros((10, 20, 3)))
+    with pytest.raises(ValueError):
+        film.to_gif()
+    with pytest.raises(ValueError):
+        world.draw(1, 1)
+
+
+def test_other_threads_run_while_a_world_steps():
+    world = tp.World.scene("pyramid")
+    ticks, stop = [], threading.Event()
+
+    def tick():
+        while not stop.is_set():
+            ticks.append(1)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    during = 0
+    for _ in range(50):
+        before = len(ticks)
+        world.step(1 / 60, steps=300)
+        during = max(during, len(ticks) - before)
+        if during > 1000:
+            break
+    stop.set()
+    thread.join()
+    assert during > 1000

@@ -1,0 +1,598 @@
+"""The part of pybox2d's interface that Gymnasium's own environments use, on this engine.
+
+>>> import tiny_physics.box2d
+>>> tiny_physics.box2d.install()  # before Gymnasium's environments are imported
+>>> import gymnasium
+>>> env = gymnasium.make("LunarLander-v3")
+
+After `install()`, ``import Box2D`` and ``from Box2D.b2 import ...`` give this module. It is opt-in, and no more than
+that part: static and dynamic bodies, polygons, circles and edges, revolute joints, contact listeners (called after
+the step, not within it), ray casts. Velocity iterations become solver iterations of each substep.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+import types
+from typing import Any, Iterable, Iterator
+
+from . import _native
+from . import describe as _describe
+
+#: Velocity iterations of Box2D that one solver iteration stands for.
+_ITERATIONS_PER_ITERATION = 16
+_MOST_ITERATIONS = 12
+#: Metres that the anchors of a new joint may be apart; steps to bring them together, and seconds of each.
+_LOOSE = 0.02
+_SETTLING_STEPS = 60
+_SETTLING_STEP = 1.0 / 240.0
+
+
+class b2Vec2(tuple):
+    """Two numbers: x and y, with the arithmetic of vectors."""
+
+    __slots__ = ()
+
+    def __new__(cls, x: Any = 0.0, y: float | None = None) -> "b2Vec2":
+        if y is None:
+            x, y = (x, 0.0) if isinstance(x, (int, float)) else x
+        return super().__new__(cls, (float(x), float(y)))
+
+    @property
+    def x(self) -> float:
+        return self[0]
+
+    @property
+    def y(self) -> float:
+        return self[1]
+
+    @property
+    def length(self) -> float:
+        return math.hypot(*self)
+
+    def __add__(self, other: Iterable[float]) -> "b2Vec2":  # type: ignore[override]
+        x, y = other
+        return b2Vec2(self[0] + x, self[1] + y)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Iterable[float]) -> "b2Vec2":
+        x, y = other
+        return b2Vec2(self[0] - x, self[1] - y)
+
+    def __mul__(self, factor: float) -> "b2Vec2":  # type: ignore[override]
+        return b2Vec2(self[0] * factor, self[1] * factor)
+
+    __rmul__ = __mul__  # type: ignore[assignment]
+
+    def __truediv__(self, factor: float) -> "b2Vec2":
+        return b2Vec2(self[0] / factor, self[1] / factor)
+
+    def __neg__(self) -> "b2Vec2":
+        return b2Vec2(-self[0], -self[1])
+
+
+class b2Transform:
+    """A place and an angle: ``transform * point`` is the point in the world."""
+
+    def __init__(self, position: Iterable[float], rotation: tuple[float, float]) -> None:
+        self.position = b2Vec2(position)
+        self.c, self.s = rotation
+
+    @property
+    def angle(self) -> float:
+        return math.atan2(self.s, self.c)
+
+    def __mul__(self, point: Iterable[float]) -> b2Vec2:
+        x, y = point
+        return self.position + (self.c * x - self.s * y, self.s * x + self.c * y)
+
+
+class b2PolygonShape:
+    """A convex polygon of up to eight vertices, or ``box=(half width, half height)``."""
+
+    def __init__(self, vertices: Any = None, box: Any = None) -> None:
+        if box is not None:
+            w, h = box[0], box[1]
+            vertices = [(-w, -h), (w, -h), (w, h), (-w, h)]
+        self.vertices = [] if vertices is None else vertices
+
+    @property
+    def vertices(self) -> list[tuple[float, float]]:
+        return self._vertices
+
+    @vertices.setter
+    def vertices(self, value: Any) -> None:
+        self._vertices = [(float(x), float(y)) for x, y in value]
+
+    def _copy(self) -> "b2PolygonShape":
+        return type(self)(vertices=self.vertices)
+
+    def _describe(self) -> dict[str, Any]:
+        return _describe.polygon(self.vertices)
+
+
+class b2EdgeShape(b2PolygonShape):
+    """A line between two vertices."""
+
+    def _describe(self) -> dict[str, Any]:
+        return _describe.segment(*self.vertices)
+
+
+class b2CircleShape:
+    """A disk."""
+
+    def __init__(self, radius: float = 0.0, pos: Any = (0.0, 0.0)) -> None:
+        self.radius, self.pos = float(radius), b2Vec2(pos)
+
+    def _copy(self) -> "b2CircleShape":
+        return b2CircleShape(self.radius, self.pos)
+
+    def _describe(self) -> dict[str, Any]:
+        return {**_describe.circle(self.radius), "offset": list(self.pos)}
+
+
+class b2Filter:
+    """Category and mask bits, and a group."""
+
+    def __init__(self, categoryBits: int = 1, maskBits: int = 0xFFFF, groupIndex: int = 0) -> None:
+        self.categoryBits, self.maskBits, self.groupIndex = categoryBits, maskBits, groupIndex
+
+
+class b2FixtureDef:
+    """A shape with density, friction, restitution and filter."""
+
+    def __init__(
+        self,
+        shape: Any = None,
+        density: float = 0.0,
+        friction: float = 0.2,
+        restitution: float = 0.0,
+        isSensor: bool = False,
+        categoryBits: int = 1,
+        maskBits: int = 0xFFFF,
+        groupIndex: int = 0,
+        userData: Any = None,
+        **more: Any,
+    ) -> None:
+        if more:
+            raise TypeError(f"there is no field {next(iter(more))!r} of a fixture here")
+        self.shape, self.density, self.friction = shape, density, friction
+        self.restitution, self.isSensor, self.userData = restitution, isSensor, userData
+        self.filter = b2Filter(categoryBits, maskBits, groupIndex)
+
+    def _describe(self) -> dict[str, Any]:
+        bits = self.filter
+        return {
+            **self.shape._describe(),
+            "material": {
+                "density": float(self.density),
+                "friction": float(self.friction),
+                "restitution": float(self.restitution),
+            },
+            "filter": {
+                "category": bits.categoryBits,
+                "mask": bits.maskBits,
+                "group": bits.groupIndex,
+            },
+            "sensor": bool(self.isSensor),
+            "contact_events": True,
+        }
+
+
+class b2Fixture:
+    """A shape of a body."""
+
+    def __init__(self, body: "b2Body", inner: _native.Shape, definition: b2FixtureDef) -> None:
+        self.body, self._inner = body, inner
+        self.shape = definition.shape._copy()
+        self.density, self.friction = definition.density, definition.friction
+        self.restitution, self.userData = definition.restitution, definition.userData
+        bits = definition.filter
+        self.filterData = b2Filter(bits.categoryBits, bits.maskBits, bits.groupIndex)
+
+    @property
+    def sensor(self) -> bool:
+        return self._inner.sensor
+
+    @sensor.setter
+    def sensor(self, value: bool) -> None:
+        self._inner.sensor = bool(value)
+
+    isSensor = sensor
+
+
+class b2Body:
+    """A body. Attributes of your own may be set on it."""
+
+    def __init__(self, world: "b2World", inner: _native.Body) -> None:
+        self.world, self._inner = world, inner
+        self.fixtures: list[b2Fixture] = []
+        self.userData: Any = None
+        self._turns = inner.angle
+
+    @property
+    def position(self) -> b2Vec2:
+        return b2Vec2(self._inner.position)
+
+    @position.setter
+    def position(self, value: Any) -> None:
+        self._inner.position = value
+
+    @property
+    def angle(self) -> float:
+        """Radians; it goes on counting turns as long as it is read or stepped at least once a half turn."""
+        off = (self._inner.angle - self._turns + math.pi) % math.tau - math.pi
+        self._turns += off
+        return self._turns
+
+    @angle.setter
+    def angle(self, value: float) -> None:
+        self._inner.angle = self._turns = float(value)
+
+    @property
+    def worldCenter(self) -> b2Vec2:
+        return b2Vec2(self._inner.center)
+
+    @property
+    def linearVelocity(self) -> b2Vec2:
+        return b2Vec2(self._inner.velocity)
+
+    @linearVelocity.setter
+    def linearVelocity(self, value: Any) -> None:
+        self._inner.velocity = value
+
+    @property
+    def angularVelocity(self) -> float:
+        return self._inner.angular_velocity
+
+    @angularVelocity.setter
+    def angularVelocity(self, value: float) -> None:
+        self._inner.angular_velocity = value
+
+    @property
+    def mass(self) -> float:
+        return self._inner.mass
+
+    @property
+    def inertia(self) -> float:
+        return self._inner.inertia
+
+    @property
+    def awake(self) -> bool:
+        return self._inner.awake
+
+    @awake.setter
+    def awake(self, value: bool) -> None:
+        self._inner.awake = value
+
+    @property
+    def transform(self) -> b2Transform:
+        return b2Transform(self._inner.position, self._inner.rotation)
+
+    def ApplyForceToCenter(self, force: Any, wake: bool = True) -> None:
+        self.world._forces.append((self._inner.apply_force, (force,)))
+
+    def ApplyForce(self, force: Any, point: Any, wake: bool = True) -> None:
+        self.world._forces.append((self._inner.apply_force, (force, point)))
+
+    def ApplyTorque(self, torque: float, wake: bool = True) -> None:
+        self.world._forces.append((self._inner.apply_torque, (torque,)))
+
+    def ApplyLinearImpulse(self, impulse: Any, point: Any, wake: bool = True) -> None:
+        self._inner.apply_impulse(impulse, point)
+
+    def ApplyAngularImpulse(self, impulse: float, wake: bool = True) -> None:
+        self._inner.apply_angular_impulse(impulse)
+
+    def GetWorldVector(self, vector: Any) -> b2Vec2:
+        return b2Transform((0.0, 0.0), self._inner.rotation) * vector
+
+    def GetWorldPoint(self, point: Any) -> b2Vec2:
+        return self.transform * point
+
+    def GetLocalPoint(self, point: Any) -> b2Vec2:
+        return b2Vec2(self._inner.to_local(point))
+
+    def CreateFixture(self, defn: b2FixtureDef | None = None, **fields: Any) -> b2Fixture:
+        definition = b2FixtureDef(**fields) if defn is None else defn
+        fixture = b2Fixture(self, self._inner.add_shape(definition._describe()), definition)
+        self.fixtures.append(fixture)
+        self.world._fixtures[fixture._inner] = fixture
+        return fixture
+
+    def CreateEdgeFixture(self, vertices: Any, **fields: Any) -> b2Fixture:
+        return self.CreateFixture(shape=b2EdgeShape(vertices=vertices), **fields)
+
+    def CreatePolygonFixture(self, vertices: Any = None, box: Any = None, **fields: Any) -> b2Fixture:
+        return self.CreateFixture(shape=b2PolygonShape(vertices=vertices, box=box), **fields)
+
+    def CreateCircleFixture(self, radius: float, pos: Any = (0.0, 0.0), **fields: Any) -> b2Fixture:
+        return self.CreateFixture(shape=b2CircleShape(radius=radius, pos=pos), **fields)
+
+
+class b2RevoluteJointDef:
+    """A hinge: anchors in the bodies' frames, limits and motor."""
+
+    def __init__(
+        self,
+        bodyA: b2Body,
+        bodyB: b2Body,
+        localAnchorA: Any = (0.0, 0.0),
+        localAnchorB: Any = (0.0, 0.0),
+        referenceAngle: float = 0.0,
+        enableMotor: bool = False,
+        enableLimit: bool = False,
+        maxMotorTorque: float = 0.0,
+        motorSpeed: float = 0.0,
+        lowerAngle: float = 0.0,
+        upperAngle: float = 0.0,
+        collideConnected: bool = False,
+    ) -> None:
+        self.bodyA, self.bodyB = bodyA, bodyB
+        self.localAnchorA, self.localAnchorB = localAnchorA, localAnchorB
+        self.referenceAngle, self.collideConnected = referenceAngle, collideConnected
+        self.enableMotor, self.enableLimit = enableMotor, enableLimit
+        self.maxMotorTorque, self.motorSpeed = maxMotorTorque, motorSpeed
+        self.lowerAngle, self.upperAngle = lowerAngle, upperAngle
+
+    def _describe(self) -> dict[str, Any]:
+        return _describe.revolute(
+            list(self.localAnchorA),
+            list(self.localAnchorB),
+            limits=(self.lowerAngle, self.upperAngle) if self.enableLimit else None,
+            motor=(self.motorSpeed, self.maxMotorTorque) if self.enableMotor else None,
+            angle_a=float(self.referenceAngle),
+            collide_connected=bool(self.collideConnected),
+        )
+
+
+class b2RevoluteJoint:
+    """A hinge of a world."""
+
+    def __init__(self, inner: _native.Joint, definition: b2RevoluteJointDef) -> None:
+        self._inner = inner
+        self.bodyA, self.bodyB = definition.bodyA, definition.bodyB
+        self._reference = definition.referenceAngle
+        self._motor = (float(definition.motorSpeed), float(definition.maxMotorTorque))
+
+    def _gap(self) -> float:
+        """Metres between its anchors."""
+        return math.dist(*self._inner.anchors)
+
+    @property
+    def angle(self) -> float:
+        return self._inner.angle - self._reference
+
+    @property
+    def speed(self) -> float:
+        return self._inner.speed
+
+    @property
+    def motorSpeed(self) -> float:
+        return self._motor[0]
+
+    @motorSpeed.setter
+    def motorSpeed(self, value: float) -> None:
+        self._drive(float(value), self._motor[1])
+
+    @property
+    def maxMotorTorque(self) -> float:
+        return self._motor[1]
+
+    @maxMotorTorque.setter
+    def maxMotorTorque(self, value: float) -> None:
+        self._drive(self._motor[0], float(value))
+
+    def _drive(self, speed: float, torque: float) -> None:
+        if (speed, torque) != self._motor:
+            self._motor = (speed, torque)
+            self._inner.set_motor(speed, torque)
+
+
+class b2Contact:
+    """Two fixtures that begin or end to touch."""
+
+    def __init__(self, fixtureA: b2Fixture, fixtureB: b2Fixture) -> None:
+        self.fixtureA, self.fixtureB = fixtureA, fixtureB
+
+
+class b2ContactListener:
+    """Derive from it, and give an instance to a world."""
+
+    def BeginContact(self, contact: b2Contact) -> None:
+        """Two fixtures began to touch."""
+
+    def EndContact(self, contact: b2Contact) -> None:
+        """Two fixtures no longer touch."""
+
+
+class b2RayCastCallback:
+    """Derive from it and define ReportFixture(fixture, point, normal, fraction)."""
+
+    def ReportFixture(
+        self, fixture: b2Fixture, point: b2Vec2, normal: b2Vec2, fraction: float
+    ) -> float:
+        """-1 goes on as if it were not there, 0 ends, a fraction cuts the ray there, 1 goes on."""
+        raise NotImplementedError
+
+
+class b2World:
+    """A world of bodies."""
+
+    def __init__(
+        self, gravity: Any = (0.0, -10.0), doSleep: bool = True, contactListener: Any = None
+    ) -> None:
+        self._inner = _native.World(gravity, {"sleep": bool(doSleep)})
+        self._fixtures: dict[_native.Shape, b2Fixture] = {}
+        self._iterations = 1
+        self._forces: list[tuple[Any, tuple[Any, ...]]] = []
+        self._fresh: list[b2RevoluteJoint] = []
+        self.contactListener = contactListener
+        self.bodies: list[b2Body] = []
+        self.joints: list[b2RevoluteJoint] = []
+
+    @property
+    def gravity(self) -> b2Vec2:
+        return b2Vec2(self._inner.gravity)
+
+    @gravity.setter
+    def gravity(self, value: Any) -> None:
+        self._inner.gravity = value
+
+    def _create(self, kind: str, fixtures: Any, shapes: Any, fields: dict[str, Any]) -> b2Body:
+        place = {
+            "position": list(fields.pop("position", (0.0, 0.0))),
+            "angle": float(fields.pop("angle", 0.0)),
+            "velocity": list(fields.pop("linearVelocity", (0.0, 0.0))),
+            "angular_velocity": float(fields.pop("angularVelocity", 0.0)),
+            "linear_damping": float(fields.pop("linearDamping", 0.0)),
+            "angular_damping": float(fields.pop("angularDamping", 0.0)),
+            "bullet": bool(fields.pop("bullet", False)),
+        }
+        data = fields.pop("userData", None)
+        if fields:
+            raise TypeError(f"there is no field {next(iter(fields))!r} of a body here")
+        body = b2Body(self, self._inner.add_body(kind=kind, **place))
+        body.userData = data
+        self.bodies.append(body)
+        for definition in _list(fixtures):
+            body.CreateFixture(definition)
+        for shape in _list(shapes):
+            body.CreateFixture(shape=shape)
+        return body
+
+    def CreateStaticBody(self, fixtures: Any = None, shapes: Any = None, **fields: Any) -> b2Body:
+        return self._create("static", fixtures, shapes, fields)
+
+    def CreateDynamicBody(self, fixtures: Any = None, shapes: Any = None, **fields: Any) -> b2Body:
+        return self._create("dynamic", fixtures, shapes, fields)
+
+    def CreateKinematicBody(self, fixtures: Any = None, shapes: Any = None, **fields: Any) -> b2Body:
+        return self._create("kinematic", fixtures, shapes, fields)
+
+    def DestroyBody(self, body: b2Body) -> None:
+        for fixture in body.fixtures:
+            self._fixtures.pop(fixture._inner, None)
+        gone = [joint for joint in self.joints if body in (joint.bodyA, joint.bodyB)]
+        self.joints = [joint for joint in self.joints if joint not in gone]
+        self._fresh = [joint for joint in self._fresh if joint not in gone]
+        self._forces = [(call, args) for call, args in self._forces if call.__self__ != body._inner]
+        self.bodies.remove(body)
+        body._inner.remove()
+
+    def CreateJoint(self, definition: b2RevoluteJointDef) -> b2RevoluteJoint:
+        a, b = definition.bodyA._inner, definition.bodyB._inner
+        inner = self._inner.add_joint(a, b, definition._describe())
+        joint = b2RevoluteJoint(inner, definition)
+        self.joints.append(joint)
+        self._fresh.append(joint)
+        return joint
+
+    def CreateRevoluteJoint(self, **fields: Any) -> b2RevoluteJoint:
+        return self.CreateJoint(b2RevoluteJointDef(**fields))
+
+    def DestroyJoint(self, joint: b2RevoluteJoint) -> None:
+        self.joints.remove(joint)
+        joint._inner.remove()
+
+    def Step(self, timeStep: float, velocityIterations: int, positionIterations: int) -> None:
+        wanted = -(-int(velocityIterations) // _ITERATIONS_PER_ITERATION)
+        wanted = max(1, min(wanted, _MOST_ITERATIONS))
+        if wanted != self._iterations:
+            self._inner.settings = {**self._inner.settings, "iterations": wanted}
+            self._iterations = wanted
+        self._settle()
+        for call, args in self._forces:
+            call(*args)
+        self._forces.clear()
+        self._move(float(timeStep))
+
+    def _move(self, dt: float) -> None:
+        self._inner.step(dt)
+        if self.contactListener is not None:
+            self._tell(self.contactListener)
+
+    def _settle(self) -> None:
+        """Brings the anchors of new joints together without giving anything a velocity, as Box2D does: Gymnasium's robots
+        are put together from parts half a metre apart."""
+        if not any(joint._gap() > _LOOSE for joint in self._fresh):
+            self._fresh.clear()
+            return
+        bodies = [body for body in self.bodies if body._inner.kind == "dynamic"]
+        kept = [(b._inner.velocity, b._inner.angular_velocity) for b in bodies]
+        gravity, self._inner.gravity = self._inner.gravity, (0.0, 0.0)
+        for _ in range(_SETTLING_STEPS):
+            self._move(_SETTLING_STEP)
+            for body in bodies:
+                body._inner.velocity, body._inner.angular_velocity = (0.0, 0.0), 0.0
+        self._inner.gravity = gravity
+        for body, (velocity, spin) in zip(bodies, kept):
+            body._inner.velocity, body._inner.angular_velocity = velocity, spin
+        self._fresh.clear()
+
+    def ClearForces(self) -> None:
+        """Forces last one step; this drops those of the next."""
+        self._forces.clear()
+
+    def _tell(self, listener: Any) -> None:
+        events = self._inner.events()
+        for end, call in (("end", listener.EndContact), ("begin", listener.BeginContact)):
+            for pair in (*events[f"contact_{end}"], *events[f"sensor_{end}"]):
+                fixtures = [self._fixtures.get(shape) for shape in pair]
+                if None not in fixtures:
+                    call(b2Contact(*fixtures))  # type: ignore[arg-type]
+
+    def RayCast(self, callback: b2RayCastCallback, point1: Any, point2: Any) -> None:
+        way = (point2[0] - point1[0], point2[1] - point1[1])
+        reach = 1.0
+        for hit in self._inner.ray_cast_all(point1, way):
+            if hit["fraction"] > reach:
+                return
+            fixture = self._fixtures[hit["shape"]]
+            point, normal = b2Vec2(hit["point"]), b2Vec2(hit["normal"])
+            answer = callback.ReportFixture(fixture, point, normal, hit["fraction"])
+            if answer == 0.0:
+                return
+            if answer > 0.0:
+                reach = min(reach, answer)
+
+
+def _list(value: Any) -> Iterator[Any]:
+    if value is None:
+        return iter(())
+    return iter(value) if isinstance(value, (list, tuple)) else iter((value,))
+
+
+_SHORT = {
+    "vec2": b2Vec2,
+    "transform": b2Transform,
+    "polygonShape": b2PolygonShape,
+    "edgeShape": b2EdgeShape,
+    "circleShape": b2CircleShape,
+    "filter": b2Filter,
+    "fixtureDef": b2FixtureDef,
+    "fixture": b2Fixture,
+    "body": b2Body,
+    "revoluteJointDef": b2RevoluteJointDef,
+    "revoluteJoint": b2RevoluteJoint,
+    "contact": b2Contact,
+    "contactListener": b2ContactListener,
+    "rayCastCallback": b2RayCastCallback,
+    "world": b2World,
+}
+
+
+def install() -> None:
+    """Makes ``import Box2D`` give this module. Raises RuntimeError where the real one is loaded already."""
+    loaded = sys.modules.get("Box2D")
+    if loaded is not None and getattr(loaded, "b2World", None) is not b2World:
+        raise RuntimeError("Box2D is imported already: call tiny_physics.box2d.install() before")
+    module, short = types.ModuleType("Box2D"), types.ModuleType("Box2D.b2")
+    for name, value in _SHORT.items():
+        setattr(short, name, value)
+        setattr(module, value.__name__, value)
+    module.b2 = short  # type: ignore[attr-defined]
+    module.__path__ = []  # type: ignore[attr-defined]
+    sys.modules["Box2D"], sys.modules["Box2D.b2"] = module, short
