@@ -4,7 +4,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use tiny_physics::SimdLevel;
 
-/// A 2D rigid-body physics engine at work: nothing tunnels, nothing jitters, it stays light.
+/// A 2D rigid-body physics engine at work: walls hold, stacks stand, it stays light.
 #[derive(Parser, Debug)]
 #[command(name = "tiny-physics", version, args_conflicts_with_subcommands = true)]
 #[command(after_help = "Without a command it plays the demo in the terminal.

@@ -158,3 +158,41 @@ fn the_scene_shows_the_character_where_it_is() {
         assert!(walk.step < 2 || apart < 1e-3, "step {}: {apart} m apart", walk.step);
     }
 }
+
+/// A character comes down a shaft that is 2 % wider than it, wherever over it it starts, and through a platform that it
+/// was told to drop from for one update.
+#[test]
+fn characters_pass_where_they_fit() {
+    use tiny_physics::{CharacterMover, MoverInput, RigidBody, Shape, ShapeDef, Vec2, World};
+    const DT: f32 = 1.0 / 60.0;
+    for (radius, off) in [(0.4, 0.0), (0.4, 0.004), (0.3, 0.0), (0.3, -0.003), (1.0, 0.01)] {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        for side in [-1.0, 1.0] {
+            let wall = Shape::rect(2.0, 20.0).unwrap();
+            let place = Vec2::new(side * (1.02 * radius + 2.0), -20.0);
+            world.add_body(RigidBody::fixed().position(place).shape(wall)).unwrap();
+        }
+        let mut hero = CharacterMover::new(Vec2::new(off, 3.0), 2.5 * radius, radius);
+        for _ in 0..120 {
+            world.step(DT);
+            hero.update(&mut world, MoverInput::default(), DT);
+        }
+        assert!(hero.position.y < -5.0, "radius {radius}, off {off}: {:?}", hero.position);
+    }
+    for thickness in [0.02, 0.1, 0.5] {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let floor = Shape::rect(20.0, 1.0).unwrap();
+        world.add_body(RigidBody::fixed().position(Vec2::new(0.0, -1.0)).shape(floor)).unwrap();
+        let plank = ShapeDef::new(Shape::rect(3.0, thickness).unwrap()).one_way(Vec2::Y);
+        world.add_body(RigidBody::fixed().position(Vec2::new(0.0, 4.0)).shape(plank)).unwrap();
+        let mut hero = CharacterMover::new(Vec2::new(0.0, 5.5), 1.8, 0.3);
+        for step in 0..200 {
+            world.step(DT);
+            let drop = step == 80;
+            hero.update(&mut world, MoverInput { drop, ..MoverInput::default() }, DT);
+            let stands = hero.position.y > 4.0;
+            assert!(stands || step > 80, "fell through by itself: {:?}", hero.position);
+        }
+        assert!(hero.position.y < 1.0, "thickness {thickness}: {:?}", hero.position);
+    }
+}

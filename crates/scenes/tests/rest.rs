@@ -71,3 +71,21 @@ fn the_demo_starts_without_overlap() {
         }
     }
 }
+
+/// Houses of cards, two millimetres thick and up to eight storeys high, stand until they sleep: then they stand for ever.
+#[test]
+fn houses_of_cards_stand() {
+    for storeys in [2, 4, 5, 7, 8] {
+        let scene = find("card_house").unwrap().build(Options::default().size(storeys));
+        let mut run = Run::start(&scene).unwrap();
+        let ids: Vec<_> = run.world().body_ids().collect();
+        let place = |run: &Run, id| run.world().body(id).unwrap().position();
+        let start: Vec<_> = ids.iter().map(|&id| place(&run, id)).collect();
+        (0..1200).for_each(|_| run.step());
+        for (&id, &start) in ids.iter().zip(&start) {
+            let moved = (place(&run, id) - start).length();
+            assert!(moved < 0.01, "{storeys} storeys: a card moved by {moved} m");
+        }
+        assert_eq!(run.world().awake_body_count(), 0, "{storeys} storeys still move");
+    }
+}

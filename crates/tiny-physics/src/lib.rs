@@ -1,4 +1,4 @@
-//! A small, fast 2D rigid-body physics engine: nothing tunnels, nothing jitters, same bits everywhere.
+//! A small, fast 2D rigid-body physics engine: walls hold, stacks stand, same bits everywhere.
 //!
 //! ```
 //! use tiny_physics::{RigidBody, Shape, Vec2, World};

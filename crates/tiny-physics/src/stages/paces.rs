@@ -23,6 +23,11 @@ const INTERVAL: u64 = 8;
 const MANY_NEWS: usize = 16;
 /// Sink at the plain pace from which an island gets each pace, metres a length unit.
 const VISIBLE: [f32; PACES] = [0.0, 0.0008, 0.02];
+/// Bodies thinner than this tip and pass where others only sink a little: for them the same part of their thickness
+/// counts as visible. Length units.
+const THIN: f32 = 0.05;
+/// No body counts as thinner than this part of that.
+const THINNEST: f32 = 0.02;
 /// Speed between two bodies below which their contact carries what it will go on carrying, length units a
 /// second.
 const SETTLED: f32 = 0.05;
@@ -46,6 +51,16 @@ pub(crate) struct Rules {
     /// Bodies that a refined island may have.
     pub(crate) most_bodies: usize,
     pub(crate) step: u64,
+}
+
+impl Rules {
+    /// Factor on a sink of two bodies into each other: more for thin ones, see [`THIN`].
+    fn severity(&self, bodies: &Bodies, pair: [u32; 2]) -> f32 {
+        let half = pair.map(|body| bodies.infos[body as usize].min_extent);
+        let thickness = 2.0 * if half[0] < half[1] { half[0] } else { half[1] };
+        let thin = THIN * self.length_unit;
+        if thickness < thin { thin / thickness.max(THINNEST * thin) } else { 1.0 }
+    }
 }
 
 /// Lists that [`assign`] fills anew; kept for their memory.
@@ -197,7 +212,8 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
             let speed = (bodies.velocity(b) - bodies.velocity(a)).length();
             island.lively |= speed > LIVELY * rules.length_unit;
             if speed < SETTLED * rules.length_unit {
-                island.strain = island.strain.max(scale * greatest_load(bucket, slot));
+                let sink = scale * greatest_load(bucket, slot) * rules.severity(bodies, [a, b]);
+                island.strain = island.strain.max(sink);
             }
         }
     }
@@ -255,7 +271,8 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
             loads[other as usize] += share;
             let compliance = (inverse_mass + bodies.inverse_masses(other).0) / rules.omega_squared;
             let island = &mut found[islands.root(body) as usize];
-            island.strain = island.strain.max(share * compliance);
+            let sink = share * compliance * rules.severity(bodies, [body, other]);
+            island.strain = island.strain.max(sink);
         }
     }
 }

@@ -140,6 +140,8 @@ impl BodyMut<'_> {
         let acceptable = numbers.iter().all(|n| n.abs() <= MAX_NUMBER);
         if acceptable {
             self.world.wake_index(self.index);
+        } else {
+            self.world.stats.refused_numbers += 1;
         }
         acceptable
     }
@@ -160,6 +162,8 @@ impl BodyMut<'_> {
         if radians.is_finite() {
             let position = self.as_ref().position_f64();
             self.set_pose(Pose::new(position, Rot::from_angle(radians)));
+        } else {
+            self.world.stats.refused_numbers += 1;
         }
     }
 
@@ -167,6 +171,7 @@ impl BodyMut<'_> {
     pub fn set_pose(&mut self, pose: Pose) {
         let (x, y) = (pose.p.x.abs(), pose.p.y.abs());
         if !pose.is_finite() || x > MAX_COORDINATE || y > MAX_COORDINATE {
+            self.world.stats.refused_numbers += 1;
             return;
         }
         let (world, index) = (&mut *self.world, self.index);

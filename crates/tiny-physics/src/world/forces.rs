@@ -120,6 +120,7 @@ impl World {
         let falloff = if falloff > 0.0 { falloff } else { 0.0 };
         let reach = radius + falloff;
         if !(center.is_finite() && reach.is_finite() && radius >= 0.0) {
+            self.stats.refused_numbers += 1;
             return;
         }
         let side = DVec2::new(f64::from(reach), f64::from(reach));
@@ -178,6 +179,7 @@ impl World {
             [water.density, water.linear_drag, water.angular_drag, dt, normal.x, normal.y];
         let finite = numbers.iter().all(|n| n.is_finite()) && water.surface.is_finite();
         if !finite || !water.flow.is_finite() || normal == Vec2::ZERO {
+            self.stats.refused_numbers += 1;
             return;
         }
         let shapes: Vec<u32> = match water.area {
@@ -257,7 +259,11 @@ impl BodyMut<'_> {
     pub fn apply_wind(&mut self, wind: &Wind, dt: f32) {
         let mass = self.as_ref().mass();
         let finite = wind.velocity.is_finite() && wind.density.is_finite() && wind.drag.is_finite();
-        if !finite || !dt.is_finite() || mass <= 0.0 {
+        if !finite || !dt.is_finite() {
+            self.world.stats.refused_numbers += 1;
+            return;
+        }
+        if mass <= 0.0 {
             return;
         }
         let mut forces: Vec<(Vec2, DVec2)> = Vec::new();

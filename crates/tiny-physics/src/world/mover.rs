@@ -22,6 +22,8 @@ use core::ops::ControlFlow;
 const MAX_CASTS: u32 = 6;
 /// Motion along a surface counts as parting from it down to this sine of an angle.
 const PARALLEL: f32 = 1.0e-4;
+/// What it would touch only with the outer part of its skin does not stop it; this part is left.
+const THIN_SKIN: f32 = 0.125;
 /// An edge whose normal is at least this much upward may have floor behind it.
 const LEAST_EDGE: f32 = 0.05;
 
@@ -34,7 +36,7 @@ pub struct MoverInput {
     pub walk: f32,
     /// Speed of a jump off the ground, metres a second; 0 is none. Nothing happens in the air.
     pub jump: f32,
-    /// Falls through one-way platforms.
+    /// Falls through the one-way platforms that it stands on; one update is enough.
     pub drop: bool,
 }
 
@@ -105,7 +107,7 @@ pub struct CharacterMover {
     ground: Option<MoverGround>,
     /// Horizontal speed taken along from a platform, until it lands.
     drift: f32,
-    /// Ignores one-way platforms in this update.
+    /// Ignores one-way platforms, until it has come through.
     dropping: bool,
     /// What it pushed in the last update.
     pushed: Option<Push>,
@@ -209,7 +211,7 @@ impl CharacterMover {
         let gravity = world.gravity * self.gravity_scale;
         let right = Vec2::new(up.y, 0.0 - up.x);
         let frame = Frame { up, right, gravity, dt, pushed: self.pushed.take() };
-        self.dropping = input.drop;
+        self.dropping = input.drop || self.dropping && self.is_at_one_way(world, frame);
 
         self.ride(world, frame);
         self.push_out(world, frame);
@@ -511,6 +513,7 @@ impl CharacterMover {
     /// Gets out of what overlaps it or comes closer than its skin.
     fn push_out(&mut self, world: &World, frame: Frame) {
         let capsule = self.capsule(frame.up, 0.0);
+        let mut last = Vec2::ZERO;
         for _ in 0..MAX_CASTS {
             let pose = Pose::new(self.position, Rot::IDENTITY);
             let bounds = capsule.world_aabb(pose).grown(self.skin);
@@ -526,11 +529,30 @@ impl CharacterMover {
                 }
             }
             let Some((separation, normal)) = deepest else { return };
-            self.position += normal * (self.skin - separation);
+            // Where there is no room for its skin on both sides it goes to the middle.
+            let is_tight = separation > 0.0 && normal.dot(last) < -0.9;
+            self.position += normal * ((self.skin - separation) * if is_tight { 0.5 } else { 1.0 });
+            if is_tight {
+                return;
+            }
+            last = normal;
         }
     }
 
-    /// The first obstacle on a way; what it is leaving or goes along with is none.
+    /// Is it in a one-way platform, or as near to one as its skin?
+    fn is_at_one_way(&self, world: &World, frame: Frame) -> bool {
+        let capsule = self.capsule(frame.up, 0.0);
+        let pose = Pose::new(self.position, Rot::IDENTITY);
+        let bounds = capsule.world_aabb(pose).grown(self.skin);
+        self.obstacles(world, &bounds).into_iter().any(|index| {
+            let (record, place) = placed(world, index);
+            let gap = || distance(&record.shape, &capsule, pose.relative_to(place)).separation;
+            record.one_way.is_some() && gap() <= self.skin + 1.0e-3
+        })
+    }
+
+    /// The first obstacle on a way; what it is leaving or goes along with is none, nor what it would only graze with
+    /// its skin.
     fn cast(
         &self,
         world: &World,
@@ -538,11 +560,40 @@ impl CharacterMover {
         motion: Vec2,
         without: Option<BodyId>,
     ) -> Option<Obstacle> {
+        let hit = self.cast_with(world, frame, motion, without, self.skin)?;
+        if self.is_walkable(hit.normal, frame.up) {
+            return Some(hit);
+        }
+        // With a thin skin it comes closer by what the skin is less, or past it.
+        let length = motion.length();
+        let thin = THIN_SKIN * self.skin;
+        let nearer = (self.skin - thin) / -hit.normal.dot(motion) * length;
+        let way = motion * ((length + nearer + self.radius) / length);
+        let scale = way.length() / length;
+        let past = match self.cast_with(world, frame, way, without, thin) {
+            Some(later) => (later.fraction * scale - hit.fraction) * length > 2.0 * nearer,
+            None => true,
+        };
+        if !past {
+            return Some(hit);
+        }
+        self.cast_with(world, frame, motion, without, thin)
+    }
+
+    /// The first obstacle on a way for the capsule with a skin.
+    fn cast_with(
+        &self,
+        world: &World,
+        frame: Frame,
+        motion: Vec2,
+        without: Option<BodyId>,
+        skin: f32,
+    ) -> Option<Obstacle> {
         let length = motion.length();
         if length == 0.0 {
             return None;
         }
-        let capsule = self.capsule(frame.up, self.skin);
+        let capsule = self.capsule(frame.up, skin);
         let pose = Pose::new(self.position, Rot::IDENTITY);
         let end = Pose::new(self.position + motion, Rot::IDENTITY);
         let bounds = capsule.world_aabb(pose).union(&capsule.world_aabb(end));

@@ -63,8 +63,11 @@ pub struct Stats {
     pub fast_bodies: usize,
     /// Bodies whose numbers stopped being finite: they were stopped where they had last been.
     pub frozen_bodies: usize,
-    /// Steps refused because the time step was not a positive finite number.
+    /// Steps refused because the time step was not a positive finite number, since the world was made.
     pub refused_steps: u64,
+    /// Calls that changed nothing because a number was not finite or beyond all measure, since the world was made:
+    /// those that give no [`Error`](crate::Error).
+    pub refused_numbers: u64,
 }
 
 impl Stats {
