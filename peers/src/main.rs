@@ -4,6 +4,7 @@
 //! here with its own flags into its own folder. Runs are interleaved, A B C A B C, so that what
 //! disturbs the machine disturbs all. See `README.md` for what is equal and what is not.
 
+mod arena;
 mod chart;
 mod engines;
 mod frames;
@@ -54,6 +55,8 @@ struct Args {
 enum Command {
     /// Play the quality suite in tiny-physics, Box2D and Rapier, each at its own defaults, and print the table.
     Quality(quality::QualityArgs),
+    /// Play random worlds in all engines and keep those in which tiny-physics is worse than the best other.
+    Arena(arena::ArenaArgs),
     /// Draw the pictures of docs/quality.md: rows of the quality suite, ours beside the others.
     Plots(plots::PlotsArgs),
     /// Measure what it costs to keep a world of 10,000 touching bodies and to go back to it.
@@ -65,6 +68,7 @@ fn main() -> std::process::ExitCode {
     let done = match &args.command {
         None => compare(&args),
         Some(Command::Quality(args)) => quality::run(args),
+        Some(Command::Arena(args)) => arena::run(args),
         Some(Command::Plots(args)) => plots::run(args),
         Some(Command::Frames(args)) => frames::run(args),
     };

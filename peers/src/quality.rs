@@ -89,8 +89,12 @@ impl Engines {
 
     /// One job in all engines at once, in the order ours, Box2D, Rapier.
     pub fn play(&self, job: QualityJob) -> Vec<Result<Answer, String>> {
-        let task = Task::Quality(job);
-        let one = |config: &Config| launch::ask(&config.program(1), &task, LIMIT);
+        self.each(&Task::Quality(job), LIMIT)
+    }
+
+    /// One task in all engines at once, in the order ours, Box2D, Rapier, each for no longer than `limit`.
+    pub fn each(&self, task: &Task, limit: Duration) -> Vec<Result<Answer, String>> {
+        let one = |config: &Config| launch::ask(&config.program(1), task, limit);
         std::thread::scope(|scope| {
             let runs: Vec<_> =
                 self.configs.iter().map(|config| scope.spawn(|| one(config))).collect();

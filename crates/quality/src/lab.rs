@@ -1,11 +1,12 @@
 //! Where rows are played: it makes worlds of scenes, steps them and counts the steps.
 
 use crate::subject::Subject;
+use core::f64::consts::{PI, TAU};
 use tiny_physics::geometry::MassProperties;
 use tiny_physics::{
-    BodyKind, DVec2, JointDef, Pose, RigidBody, Rot, ShapeDef, Transform, Vec2, collide,
+    BodyKind, DVec2, JointDef, JointKind, Pose, RigidBody, Rot, ShapeDef, Transform, Vec2, collide,
 };
-use tiny_physics_scenes::Scene;
+use tiny_physics_scenes::{Scene, SceneJoint};
 
 /// Makes the empty world of an engine for a scene.
 pub type MakeSubject<'a> = &'a dyn Fn(&Scene) -> Box<dyn Subject>;
@@ -65,7 +66,8 @@ impl<'a> Lab<'a> {
             host.add_joint(bodies[joint.a], bodies[joint.b], &joint.def);
         }
         let masses = scene.bodies.iter().map(mass_of).collect();
-        Trial { host, bodies, masses, scene, steps: 0 }
+        let gone = vec![false; bodies.len()];
+        Trial { host, bodies, masses, gone, scene, steps: 0 }
     }
 
     /// Steps a trial once.
@@ -97,6 +99,7 @@ pub struct Trial {
     host: Box<dyn Subject>,
     bodies: Vec<usize>,
     masses: Vec<MassProperties>,
+    gone: Vec<bool>,
     scene: Scene,
     steps: u64,
 }
@@ -160,7 +163,21 @@ impl Trial {
     pub fn add_body(&mut self, body: RigidBody) -> usize {
         self.bodies.push(self.host.add_body(&body));
         self.masses.push(mass_of(&body));
+        self.gone.push(false);
         self.scene.body(body)
+    }
+
+    /// Removes a body on the way, and its joints; the places of others stay.
+    pub fn remove_body(&mut self, body: usize) {
+        if self.is_there(body) {
+            self.host.remove_body(self.bodies[body]);
+            self.gone[body] = true;
+        }
+    }
+
+    /// Is the body still there?
+    pub fn is_there(&self, body: usize) -> bool {
+        !self.gone[body]
     }
 
     /// Adds a joint on the way; its place in the scene.
@@ -174,9 +191,11 @@ impl Trial {
         self.bodies.len()
     }
 
-    /// Dynamic bodies by their places in the scene.
+    /// Dynamic bodies that are there, by their places in the scene.
     pub fn dynamic(&self) -> Vec<usize> {
-        let is_dynamic = |&body: &usize| self.scene.bodies[body].kind == BodyKind::Dynamic;
+        let is_dynamic = |&body: &usize| {
+            self.is_there(body) && self.scene.bodies[body].kind == BodyKind::Dynamic
+        };
         (0..self.len()).filter(is_dynamic).collect()
     }
 
@@ -291,27 +310,87 @@ impl Trial {
         greatest(pairs.map(|(a, b)| depth(a, b)))
     }
 
-    /// How deep any two bodies overlap that no joint joins, metres.
+    /// Do their kinds, filters and joints let two bodies collide?
+    pub fn collides(&self, a: usize, b: usize) -> bool {
+        let joined = |joint: &SceneJoint| {
+            [(a, b), (b, a)].contains(&(joint.a, joint.b)) && !joint.def.collide_connected
+        };
+        let (body_a, body_b) = (&self.scene.bodies[a], &self.scene.bodies[b]);
+        let solid = |def_a: &ShapeDef, def_b: &ShapeDef| {
+            !def_a.sensor && !def_b.sensor && def_a.filter.collides(&def_b.filter)
+        };
+        let moves = [body_a, body_b].iter().any(|body| body.kind == BodyKind::Dynamic);
+        moves
+            && body_a
+                .shapes
+                .iter()
+                .any(|def_a| body_b.shapes.iter().any(|def_b| solid(def_a, def_b)))
+            && !self.scene.joints.iter().any(joined)
+    }
+
+    /// How deep any two bodies overlap that collide, metres.
     pub fn deepest_overlap(&self) -> f64 {
-        let near = |a: usize, b: usize| {
+        let near = |&(a, b): &(usize, usize)| {
             let (p, q) = (self.position(a), self.position(b));
-            (p.x - q.x).hypot(p.y - q.y) < self.reach(a) + self.reach(b)
+            let there = self.is_there(a) && self.is_there(b);
+            there && (p.x - q.x).hypot(p.y - q.y) < self.reach(a) + self.reach(b)
         };
-        let joined = |a: usize, b: usize| {
-            let is = |joint: &tiny_physics_scenes::SceneJoint| {
-                [(a, b), (b, a)].contains(&(joint.a, joint.b)) && !joint.def.collide_connected
-            };
-            self.scene.joints.iter().any(is)
-        };
-        let moves = |body: usize| self.scene.bodies[body].kind == BodyKind::Dynamic;
         let pairs = (0..self.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
-        let touching =
-            pairs.filter(|&(a, b)| (moves(a) || moves(b)) && near(a, b) && !joined(a, b));
+        let touching = pairs.filter(near).filter(|&(a, b)| self.collides(a, b));
         greatest(touching.map(|(a, b)| self.overlap(a, b)))
     }
 
+    /// How far what a joint holds rigid is off, metres: its anchors, or B's from A's line, or the length of a rod or rope.
+    pub fn joint_error(&self, joint: usize) -> f64 {
+        let SceneJoint { a, b, def } = &self.scene.joints[joint];
+        if !self.is_there(*a) || !self.is_there(*b) {
+            return 0.0;
+        }
+        let gap = self.gap(joint);
+        match def.kind {
+            JointKind::Revolute { .. } | JointKind::Weld { linear: None, .. } => gap,
+            JointKind::Prismatic { .. } | JointKind::Wheel { .. } => self.off_axis(joint).1.abs(),
+            JointKind::Distance { length, spring: None, limits: None, motor: None } => {
+                (gap - f64::from(length)).abs()
+            }
+            JointKind::Distance { limits: Some(limits), .. } => {
+                (gap - f64::from(limits.upper)).max(0.0)
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// How far a hinge or slider is beyond its limits, radians or metres.
+    pub fn beyond_limits(&self, joint: usize) -> f64 {
+        let SceneJoint { a, b, def } = &self.scene.joints[joint];
+        let (value, limits) = match def.kind {
+            JointKind::Revolute { limits: Some(limits), .. } => {
+                let angle = self.angle(*b) + f64::from(def.angle_b)
+                    - self.angle(*a)
+                    - f64::from(def.angle_a);
+                ((angle + PI).rem_euclid(TAU) - PI, limits)
+            }
+            JointKind::Prismatic { limits: Some(limits), .. }
+            | JointKind::Wheel { limits: Some(limits), .. } => (self.off_axis(joint).0, limits),
+            _ => return 0.0,
+        };
+        if !self.is_there(*a) || !self.is_there(*b) {
+            return 0.0;
+        }
+        (f64::from(limits.lower) - value).max(value - f64::from(limits.upper)).max(0.0)
+    }
+
+    /// Where B's anchor is along A's axis and across it, metres.
+    fn off_axis(&self, joint: usize) -> (f64, f64) {
+        let SceneJoint { a, b, def } = &self.scene.joints[joint];
+        let (from, to) = (self.point(*a, def.anchor_a), self.point(*b, def.anchor_b));
+        let (s, c) = (self.angle(*a) + f64::from(def.angle_a)).sin_cos();
+        let (x, y) = (to.x - from.x, to.y - from.y);
+        (c * x + s * y, c * y - s * x)
+    }
+
     /// How far from its position a body's shapes reach at most, metres.
-    fn reach(&self, body: usize) -> f64 {
+    pub fn reach(&self, body: usize) -> f64 {
         let of = |def: &ShapeDef| {
             let bounds = def.shape.aabb(Transform::from_angle(def.offset, def.angle));
             f64::from(bounds.min.abs().max(bounds.max.abs()).length())

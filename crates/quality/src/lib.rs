@@ -10,6 +10,7 @@
 //! assert_eq!(report.id, "18");
 //! ```
 
+pub mod arena;
 mod golden;
 mod hard;
 mod lab;

@@ -23,7 +23,7 @@ impl Stopwatch {
 }
 
 /// CPU time of this process, all threads, seconds.
-fn process_cpu_s() -> f64 {
+pub(crate) fn process_cpu_s() -> f64 {
     let time = clock_gettime(ClockId::ProcessCPUTime);
     time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
 }

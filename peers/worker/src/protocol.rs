@@ -2,6 +2,8 @@
 
 use crate::{Frames, Summary};
 use serde::{Deserialize, Serialize};
+use tiny_physics_quality::arena::Findings;
+use tiny_physics_scenes::Scene;
 
 /// What a worker is asked to do.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -13,6 +15,8 @@ pub enum Task {
     Quality(QualityJob),
     /// Measure what frames cost.
     Frames,
+    /// Play a world of the arena.
+    Arena(Box<Scene>),
 }
 
 /// One run to be made.
@@ -111,6 +115,8 @@ pub enum Answer {
     Played(Played),
     /// Frames were measured.
     Frames(Frames),
+    /// The world was played; nothing where the engine cannot express it.
+    Arena(Option<Findings>),
     /// The engine cannot do this; the reason.
     Failed(String),
 }

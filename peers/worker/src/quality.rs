@@ -1,10 +1,12 @@
 //! Rows of the quality suite on an engine at its own defaults.
 
+use crate::clock::process_cpu_s;
 use crate::protocol::{Measured, Played, Tape};
 use crate::tape::Recorder;
 use crate::{Engine, QualityJob, Setup, Tuning};
 use std::cell::RefCell;
 use std::rc::Rc;
+use tiny_physics_quality::arena::{self, Findings};
 use tiny_physics_quality::{Subject, Variant, find, still};
 use tiny_physics_scenes::Scene;
 
@@ -24,14 +26,7 @@ pub fn play<E: Engine + 'static>(job: &QualityJob) -> Result<Played, String> {
             *cannot.borrow_mut() = Some(reason);
             return still(scene);
         }
-        let setup = Setup {
-            gravity: scene.gravity,
-            settings: &scene.settings,
-            tuning: Tuning::Own,
-            threads: 1,
-            setting: "",
-        };
-        match E::create(&setup) {
+        match E::create(&own_setup(scene)) {
             Ok(engine) => match job.tape {
                 Some(every) => Box::new(Recorder::new(engine, scene, every, tapes.clone())),
                 None => Box::new(engine),
@@ -57,4 +52,32 @@ pub fn play<E: Engine + 'static>(job: &QualityJob) -> Result<Played, String> {
         cannot: cannot.take(),
         tapes: tapes.take(),
     })
+}
+
+/// Plays a world of the arena in the engine `E`; `None` where it cannot express the world.
+///
+/// # Errors
+/// An engine that must not be measured.
+pub fn fight<E: Engine + 'static>(scene: &Scene) -> Result<Option<Findings>, String> {
+    if E::lacks(scene).is_some() {
+        return Ok(None);
+    }
+    let failed = RefCell::new(None);
+    let make = |scene: &Scene| -> Box<dyn Subject> {
+        match E::create(&own_setup(scene)) {
+            Ok(engine) => Box::new(engine),
+            Err(message) => {
+                *failed.borrow_mut() = Some(message);
+                still(scene)
+            }
+        }
+    };
+    let found = arena::play(scene, &make, &process_cpu_s);
+    failed.take().map_or(Ok(Some(found)), Err)
+}
+
+/// A world at the engine's own defaults.
+fn own_setup(scene: &Scene) -> Setup<'_> {
+    let (gravity, settings) = (scene.gravity, &scene.settings);
+    Setup { gravity, settings, tuning: Tuning::Own, threads: 1, setting: "" }
 }

@@ -15,6 +15,7 @@ pub fn serve<E: Engine + 'static>() {
         Task::Time(job) => run::<E>(&job).map(Answer::Done),
         Task::Quality(job) => quality::play::<E>(&job).map(Answer::Played),
         Task::Frames => frames::measure::<E>().map(Answer::Frames),
+        Task::Arena(scene) => quality::fight::<E>(&scene).map(Answer::Arena),
     });
     match serde_json::to_string(&answer.unwrap_or_else(Answer::Failed)) {
         Ok(line) => println!("{line}"),

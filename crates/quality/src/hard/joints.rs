@@ -154,7 +154,7 @@ pub(super) fn crates_on_a_bridge(lab: &mut Lab<'_>) -> Vec<Measure> {
 
 /// By how much the energy of a world has risen above what it had been before, and what it has been turned over.
 #[derive(Default)]
-pub(super) struct Gain {
+pub(crate) struct Gain {
     /// Lowest and highest so far, joules, and the greatest rise above the lowest before.
     seen: Option<(f64, f64)>,
     rise: f64,
@@ -163,7 +163,7 @@ pub(super) struct Gain {
 }
 
 impl Gain {
-    pub(super) fn look(&mut self, trial: &Trial) {
+    pub(crate) fn look(&mut self, trial: &Trial) {
         if self.seen.is_none() {
             let mass: f64 = trial.dynamic().into_iter().map(|body| trial.mass(body)).sum();
             self.lift = 0.1 * mass * f64::from(trial.scene().gravity.length());
@@ -176,7 +176,7 @@ impl Gain {
 
     /// The rise over all that was turned over, or over what lifts everything by a tenth of a metre where that is more;
     /// infinite where there was no number.
-    pub(super) fn share(&self) -> f64 {
+    pub(crate) fn share(&self) -> f64 {
         let (low, high) = self.seen.unwrap_or_default();
         let share = if self.rise > 0.0 { self.rise / (high - low).max(self.lift) } else { 0.0 };
         if share.is_nan() { f64::INFINITY } else { share }

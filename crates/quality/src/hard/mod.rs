@@ -15,6 +15,8 @@ mod machines;
 mod moving;
 mod ropes;
 
+pub(crate) use joints::Gain;
+
 use crate::row::{Row, Suite, row_list};
 use crate::rows::momentum;
 

@@ -1,10 +1,11 @@
 //! What a timeline can do to a world: plain data, done by a [`Host`](crate::Host).
 
 use crate::check::{
-    Check, check_material, check_shape, finite, finite_vec, index, not_negative, positive,
+    Check, check_body, check_material, check_shape, finite, finite_vec, index, not_negative,
+    positive,
 };
 use serde::{Deserialize, Serialize};
-use tiny_physics::{BodyKind, Material, Shape, Vec2};
+use tiny_physics::{BodyKind, Material, RigidBody, Shape, Vec2};
 
 /// Something done to a world from outside. Bodies go by index in a scene's file, and by the host's number in
 /// [`Host::act`](crate::Host::act).
@@ -21,6 +22,16 @@ pub enum Deed {
         /// Radians a second.
         #[serde(default)]
         angular_velocity: f32,
+    },
+    /// Adds a body, which has no index: nothing more can be done to it.
+    Add {
+        /// The body.
+        new: Box<RigidBody>,
+    },
+    /// Removes a body with its shapes and joints.
+    Remove {
+        /// The body.
+        body: usize,
     },
     /// Makes a body static, kinematic or dynamic.
     SetKind {
@@ -132,7 +143,8 @@ impl Deed {
                 finite_vec("velocity", *velocity)?;
                 finite("angular_velocity", *angular_velocity)
             }
-            Self::SetKind { .. } => Ok(()),
+            Self::Add { new } => check_body(new).map_err(|e| e.under("new")),
+            Self::Remove { .. } | Self::SetKind { .. } => Ok(()),
             Self::SetShape { shape, .. } => check_shape(shape).map_err(|e| e.under("shape")),
             Self::SetMaterial { material, .. } => {
                 check_material(material).map_err(|e| e.under("material"))
@@ -174,6 +186,8 @@ impl Deed {
     fn name(&self) -> &'static str {
         match self {
             Self::SetVelocity { .. } => "set_velocity",
+            Self::Add { .. } => "add",
+            Self::Remove { .. } => "remove",
             Self::SetKind { .. } => "set_kind",
             Self::SetShape { .. } => "set_shape",
             Self::SetMaterial { .. } => "set_material",
@@ -193,12 +207,15 @@ impl Deed {
     fn body_mut(&mut self) -> Option<&mut usize> {
         match self {
             Self::SetVelocity { body, .. }
+            | Self::Remove { body }
             | Self::SetKind { body, .. }
             | Self::SetShape { body, .. }
             | Self::SetMaterial { body, .. }
             | Self::Lead { body, .. }
             | Self::Wind { body, .. } => Some(body),
-            Self::Explode { .. } | Self::Water { .. } | Self::Zone { .. } => None,
+            Self::Add { .. } | Self::Explode { .. } | Self::Water { .. } | Self::Zone { .. } => {
+                None
+            }
         }
     }
 

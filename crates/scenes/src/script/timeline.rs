@@ -80,7 +80,11 @@ impl Happening {
             };
             if now {
                 *done = true;
-                host.act(&act.deed, step as f32 * self.dt, self.dt);
+                match &act.deed {
+                    Deed::Add { new } => drop(host.add_body(new)),
+                    Deed::Remove { body } => host.remove_body(*body),
+                    deed => host.act(deed, step as f32 * self.dt, self.dt),
+                }
             }
         }
     }

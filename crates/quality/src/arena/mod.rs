@@ -1,0 +1,87 @@
+//! The arena: random worlds, each drawn from its seed, and measures that any engine can be held against.
+//!
+//! [`draw`] makes a world of a seed; [`play`] plays it in an engine and gives its [`Findings`]; [`shrink`] makes a world
+//! smaller as long as it shows the same. A world is a scene, so it can be saved, looked at and played by anything.
+
+mod judge;
+mod parts;
+mod shrink;
+mod topology;
+mod worlds;
+
+pub use judge::{Claim, Findings, play};
+pub use shrink::shrink;
+pub use worlds::{STEPS, draw};
+
+use tiny_physics::SimdLevel;
+use tiny_physics_scenes::{Run, Scene};
+
+/// Plays a world at the plainest and the best SIMD level, and on three threads: the hashes after its last step, and whether the world
+/// then is sound.
+///
+/// # Errors
+/// What the world refuses, or finds unsound.
+pub fn bits(scene: &Scene) -> Result<[u64; 3], String> {
+    let play = |level: SimdLevel, threads: usize| {
+        let mut run = Run::start(scene).map_err(|error| error.to_string())?;
+        run.world_mut().set_simd(level).map_err(|error| error.to_string())?;
+        run.world_mut().set_threads(threads);
+        while !run.is_done() {
+            run.step();
+        }
+        run.world().validate()?;
+        Ok::<u64, String>(run.world().state_hash())
+    };
+    let best = SimdLevel::detect();
+    Ok([play(SimdLevel::Scalar, 1)?, play(best, 1)?, play(best, 3)?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{our_engine, still};
+
+    #[test]
+    fn a_seed_is_a_world_that_can_be_read_again() {
+        for seed in 0..200 {
+            let scene = draw(seed);
+            assert_eq!(scene, draw(seed));
+            let text = scene.to_json().unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+            assert_eq!(Scene::from_json(&text).expect("it was written just now"), scene);
+        }
+    }
+
+    #[test]
+    fn nothing_is_found_in_a_world_that_stands_still() {
+        for seed in 0..20 {
+            let found = play(&draw(seed), &still, &|| 0.0);
+            assert_eq!((found.not_finite, found.passed), (0, 0), "seed {seed}");
+        }
+    }
+
+    #[test]
+    fn a_ball_that_flies_through_a_wall_is_seen() {
+        use tiny_physics::{RigidBody, Shape, Vec2};
+        let mut scene = draw(1);
+        (scene.bodies, scene.joints, scene.script) = (Vec::new(), Vec::new(), None);
+        scene.gravity = Vec2::ZERO;
+        scene.steps = 30;
+        // A sensor-less wall that is a bullet's neighbour only: swept bodies stop, so the wall is put in their way by hand.
+        scene.settings.continuous = false;
+        scene.body(RigidBody::fixed().shape(worlds::rect(0.05, 2.0)));
+        let ball = RigidBody::dynamic()
+            .position(Vec2::new(-4.0, 0.0))
+            .shape(Shape::Circle { radius: 0.1 });
+        scene.body(ball.velocity(Vec2::new(390.0, 0.0)));
+        assert_eq!(play(&scene, &our_engine, &|| 0.0).passed, 1);
+    }
+
+    #[test]
+    fn shrinking_keeps_what_is_asked_for() {
+        let scene = draw(3);
+        let balls =
+            |scene: &Scene| scene.bodies.iter().filter(|body| body.shapes.len() == 1).count();
+        let least = shrink(&scene, 200, &mut |smaller| balls(smaller) >= 3);
+        assert_eq!((balls(&least), least.bodies.len()), (3, 3));
+    }
+}
