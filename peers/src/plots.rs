@@ -5,7 +5,7 @@ use crate::quality::Engines;
 use clap::Args;
 use peers_worker::{Answer, QualityJob, Tape};
 use std::path::{Path, PathBuf};
-use tiny_physics_quality::{Figure, PeerMeasure, Peers, Variant, our_engine, rows};
+use tiny_physics_quality::{Figure, PeerMeasure, Peers, Row, Variant, hard_rows, our_engine, rows};
 
 /// Options of `plots`.
 #[derive(Args)]
@@ -34,14 +34,47 @@ pub fn run(args: &PlotsArgs) -> Result<(), String> {
     chain(&engines, &out("quality-chain.svg"))?;
     pyramid(&engines, &out("quality-pyramid.svg"))?;
     tiles(&engines, &out("quality-tiles.svg"))?;
-    overview(&out("quality-overview.svg"))
+    bridge(&engines, &out("quality-hard-bridge.svg"))?;
+    drum(&engines, &out("quality-hard-drum.svg"))?;
+    ragdolls(&engines, &out("quality-hard-ragdolls.svg"))?;
+    overview(&out("quality-overview.svg"), rows())?;
+    overview(&out("quality-hard-overview.svg"), hard_rows())
 }
 
-/// All rows: ours as measured now, the others' as recorded.
-fn overview(path: &Path) -> Result<(), String> {
+/// A bridge of planks under a load of 30 planks' mass, after 15 seconds.
+fn bridge(engines: &Engines, path: &Path) -> Result<(), String> {
+    let runs = record(engines, ("J1", false), 60)?;
+    let views: Vec<_> = runs.iter().map(|run| run.tapes.get(3).map(|tape| (tape, 15))).collect();
+    let window = Window { x: (-11.0, 11.0), y: (-12.0, 4.0), circle: None };
+    let title =
+        "A crate of 30 planks' mass on a straight bridge, 15 s after it was dropped from 10 cm";
+    chart::worlds(path, title, &window, &views)
+}
+
+/// Balls in a drum with paddles, after five seconds.
+fn drum(engines: &Engines, path: &Path) -> Result<(), String> {
+    let runs = record(engines, ("M5", false), 30)?;
+    let views: Vec<_> = runs.iter().map(|run| run.tapes.first().map(|tape| (tape, 10))).collect();
+    let window = Window { x: (-6.0, 6.0), y: (-6.0, 6.0), circle: None };
+    let title = "Thirty balls in a drum that turns at 6 rad/s, after 5 s";
+    chart::worlds(path, title, &window, &views)
+}
+
+/// Forty ragdolls in a pit, after ten seconds.
+fn ragdolls(engines: &Engines, path: &Path) -> Result<(), String> {
+    let runs = record(engines, ("J6", false), 60)?;
+    let last = |tape: &Tape| 10.min(tape.frames.len().saturating_sub(1));
+    let views: Vec<_> =
+        runs.iter().map(|run| run.tapes.get(3).map(|tape| (tape, last(tape)))).collect();
+    let window = Window { x: (-4.0, 4.0), y: (-0.6, 6.4), circle: None };
+    chart::worlds(path, "Forty ragdolls in a pit, after 10 s or when asleep", &window, &views)
+}
+
+/// Rows that all engines can play: ours as measured now, the others' as recorded.
+fn overview(path: &Path, rows: &[Row]) -> Result<(), String> {
     let peers = Peers::recorded().map_err(|error| error.to_string())?;
     let mut dots = Vec::new();
-    for row in rows() {
+    for row in rows.iter().filter(|row| row.alone.is_none()) {
         eprintln!("playing row {}", row.id);
         let report = row.run(&our_engine, Variant::Usual, false, &mut |_, _| {});
         let beside = peers.beside(Variant::Usual, &report);

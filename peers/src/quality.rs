@@ -43,11 +43,14 @@ pub struct QualityArgs {
 /// No such row, an engine that does not build or must not be measured, a file that cannot be written.
 pub fn run(args: &QualityArgs) -> Result<(), String> {
     let chosen = match resolve(&args.rows) {
-        Ok(_) if args.write && args.rows.is_empty() => all_rows().collect(),
+        Ok(_) if args.write && args.rows.is_empty() => all_rows().collect::<Vec<_>>(),
         Ok(rows) => rows,
         Err(word) => return Err(format!("no row {word}; `tiny-physics quality` lists them")),
     };
     let engines = Engines::build()?;
+    // What others cannot play has no figures to be recorded.
+    let chosen: Vec<_> =
+        chosen.into_iter().filter(|row| !args.write || row.alone.is_none()).collect();
     let mut record = Peers::recorded().map_err(|error| error.to_string())?;
     let variants = match (args.write, args.variant) {
         (true, _) => vec![Variant::Usual, Variant::Other],

@@ -13,8 +13,10 @@ use tiny_physics_scenes::{Options, Random, find};
 
 const COUNT: usize = 100;
 
-/// Crates on ground of their own, static boxes put over them after a second: crates in the ground, and in a box.
-fn cover(lab: &mut Lab<'_>, asleep: bool) -> (usize, usize) {
+/// Crates on ground of their own, static boxes put over them: crates in the ground, and in a box.
+///
+/// Boxes beside a crate's middle can push it out sideways; those over it can only pin it, or push it into the ground.
+fn cover(lab: &mut Lab<'_>, asleep: bool, beside: bool) -> (usize, usize) {
     let (seed, half) = lab.pick((1, 0.5), (2, 0.4));
     lab.expect_seconds(5.0, 1.0 / 60.0);
     let mut scene = scene("tile over a crate");
@@ -28,7 +30,11 @@ fn cover(lab: &mut Lab<'_>, asleep: bool) -> (usize, usize) {
     lab.run(&mut trial, if asleep { 2.0 } else { 1.0 }, |_| {});
     let mut random = Random::new(seed);
     for i in 0..COUNT {
-        let over = Vec2::new(random.range(-0.8, 0.8), half + random.range(-0.1, 0.5));
+        let side = if random.coin() { 1.0 } else { -1.0 };
+        let off = side
+            * if beside { random.range(0.5, 0.9) } else { random.range(0.0, 0.8) }
+            * (half + 0.5);
+        let over = Vec2::new(off, half + if beside { 0.0 } else { random.range(-0.1, 0.5) });
         trial.add_body(fixed(rect(half, half), Vec2::new(12.0 * i as f32, 0.0) + over));
     }
     lab.run(&mut trial, 3.0, |_| {});
@@ -38,18 +44,20 @@ fn cover(lab: &mut Lab<'_>, asleep: bool) -> (usize, usize) {
     (sunk, inside)
 }
 
-/// A static box is put over a crate that rests on thick ground, awake: does the crate end in the ground or under it?
+/// A static box is put over a crate that rests on thick ground, awake: does the crate end in the ground, or in the box?
 pub(super) fn tile_over_a_crate(lab: &mut Lab<'_>) -> Vec<Measure> {
-    let (sunk, inside) = cover(lab, false);
+    let (sunk, _) = cover(lab, false, false);
+    let (sunk_beside, inside) = cover(lab, false, true);
     vec![
-        none(format!("crates in the ground, of {COUNT}"), sunk),
-        none(format!("crates still in the box, of {COUNT}"), inside),
+        none(format!("box above, in the ground, of {COUNT}"), sunk),
+        none(format!("box beside, in the ground, of {COUNT}"), sunk_beside),
+        none(format!("box beside, still in it, of {COUNT}"), inside),
     ]
 }
 
 /// The same over a crate that sleeps: does it wake and come out?
 pub(super) fn tile_over_a_sleeper(lab: &mut Lab<'_>) -> Vec<Measure> {
-    let (sunk, inside) = cover(lab, true);
+    let (sunk, inside) = cover(lab, true, true);
     vec![
         none(format!("sleepers in the ground, of {COUNT}"), sunk),
         none(format!("sleepers still in the box, of {COUNT}"), inside),

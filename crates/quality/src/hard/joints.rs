@@ -152,33 +152,33 @@ pub(super) fn crates_on_a_bridge(lab: &mut Lab<'_>) -> Vec<Measure> {
     measures
 }
 
-/// By how much the energy of a world has risen above what it had been before, and what it has been turned over.
+/// By how much the energy of a world has risen above that at the start. (Above the lowest since would be stricter, but
+/// what is soft in a solver stores energy and gives it back.)
 #[derive(Default)]
 pub(crate) struct Gain {
-    /// Lowest and highest so far, joules, and the greatest rise above the lowest before.
-    seen: Option<(f64, f64)>,
-    rise: f64,
+    /// At the start, lowest and highest so far, joules.
+    seen: Option<[f64; 3]>,
     /// What lifts everything by a tenth of a metre, joules.
     lift: f64,
 }
 
 impl Gain {
     pub(crate) fn look(&mut self, trial: &Trial) {
+        let energy = trial.energy();
+        let energy = if energy.is_nan() { f64::INFINITY } else { energy };
         if self.seen.is_none() {
             let mass: f64 = trial.dynamic().into_iter().map(|body| trial.mass(body)).sum();
             self.lift = 0.1 * mass * f64::from(trial.scene().gravity.length());
         }
-        let energy = trial.energy();
-        let (low, high) = self.seen.unwrap_or((energy, energy));
-        self.rise = greatest([self.rise, energy - low].into_iter());
-        self.seen = Some((low.min(energy), high.max(energy)));
+        let [start, low, high] = self.seen.unwrap_or([energy; 3]);
+        self.seen = Some([start, low.min(energy), high.max(energy)]);
     }
 
     /// The rise over all that was turned over, or over what lifts everything by a tenth of a metre where that is more;
     /// infinite where there was no number.
     pub(crate) fn share(&self) -> f64 {
-        let (low, high) = self.seen.unwrap_or_default();
-        let share = if self.rise > 0.0 { self.rise / (high - low).max(self.lift) } else { 0.0 };
+        let [start, low, high] = self.seen.unwrap_or_default();
+        let share = if high > start { (high - start) / (high - low).max(self.lift) } else { 0.0 };
         if share.is_nan() { f64::INFINITY } else { share }
     }
 }

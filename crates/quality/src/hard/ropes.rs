@@ -200,12 +200,12 @@ pub(super) fn out_of_place(lab: &mut Lab<'_>) -> Vec<Measure> {
             let mut part = |x: f32| {
                 let shape = rect(random.range(0.1, 1.0), random.range(0.1, 1.0));
                 let place = at + Vec2::new(x + random.range(-1.0, 1.0), random.range(-1.0, 1.0));
-                moving(shape, place).mass(10.0_f32.powf(random.range(-1.0, 2.0)))
+                moving(shape, place).mass(10.0_f32.powf(random.range(-0.5, 1.0)))
             };
             let (a, b) = (scene.body(part(-1.5)), scene.body(part(1.5).angle(0.4)));
             let angle = random.range(0.0, 6.0);
             let direction = Vec2::new(angle.cos(), angle.sin());
-            let mut anchor = || Vec2::new(random.range(-1.5, 1.5), random.range(-1.5, 1.5));
+            let mut anchor = || Vec2::new(random.range(-0.7, 0.7), random.range(-0.7, 0.7));
             let (anchor_a, anchor_b) = (anchor(), anchor());
             let joint = if name == "sliders" {
                 JointDef::prismatic(direction).limits(-0.5, 0.5)
