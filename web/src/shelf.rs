@@ -83,7 +83,8 @@ impl Shelf {
 
     /// What the input describes; an error names the field.
     pub(crate) fn read<T: DeserializeOwned>(&self) -> Outcome<T> {
-        let mut json = serde_json::Deserializer::from_slice(&self.input);
+        // Of text, as scene files are read, so that both share what reads them.
+        let mut json = serde_json::Deserializer::from_str(self.input_text()?);
         let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
             let path = error.path().to_string();
             let message = error.inner().to_string();

@@ -17,7 +17,11 @@ const lines = readFileSync(0, "utf8").trim().split("\n");
 let wrong = 0;
 for (const line of lines) {
   const [name, expected] = line.split(" ");
-  other.tp_scene_file(files.get(name));
+  if (!files.has(name) || !other.tp_scene_file(files.get(name))) {
+    wrong++;
+    console.log(`${name}: the module has no such scene`);
+    continue;
+  }
   const world = World.loadScene(text());
   for (let i = 0; i < Number(steps); i++) world.step();
   const hash = world.hash();

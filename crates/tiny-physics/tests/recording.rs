@@ -15,13 +15,14 @@ use tiny_physics::record::{
 use tiny_physics::*;
 
 /// Functions that change a world and need no command, with the reason.
-const WITHOUT_COMMAND: [(&str, &str); 10] = [
+const WITHOUT_COMMAND: [(&str, &str); 11] = [
     ("World::step", "every step is recorded"),
     ("World::try_step", "the same"),
     ("World::body_mut", "what it gives has commands"),
     ("World::shape_mut", "what it gives has commands"),
     ("World::set_threads", "changes no results"),
     ("World::set_simd", "changes no results"),
+    ("World::time_stages", "changes no results"),
     ("World::set_pair_filter", "code"),
     ("World::clear_pair_filter", "code"),
     ("World::set_pre_solve", "code"),

@@ -156,7 +156,7 @@ export class App extends EventTarget {
     const room = this.room ?? { left: 0, right: 0, top: 0, bottom: 0 };
     const [width, height] = [clientWidth - room.left - room.right, clientHeight - room.top - room.bottom];
     const scale = 0.92 * Math.min(width / Math.max(right - left, 1), height / Math.max(top - bottom, 1));
-    this.camera.scale = Math.max(2, Math.min(scale, 140));
+    this.camera.scale = Math.max(2, Math.min(scale, 420));
     this.camera.x = (left + right) / 2 + (room.right - room.left) / 2 / this.camera.scale;
     this.camera.y = (bottom + top) / 2 + (room.top - room.bottom) / 2 / this.camera.scale;
   }

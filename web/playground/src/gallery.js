@@ -31,7 +31,7 @@ export function gallery(app, scenes) {
     const card = h(
       "button.card",
       { onclick: () => choose(entry), "data-scene": entry.name },
-      canvas,
+      h("div.picture", {}, canvas, icon("shapes")),
       h("b", {}, entry.name.replaceAll("_", " ")),
       h("span", {}, entry.description),
     );
@@ -69,7 +69,7 @@ export function gallery(app, scenes) {
     card.world?.free();
     card.world = undefined;
     card.steps = 0;
-    if (card.heavy || /^circles_1/.test(card.entry.name)) return;
+    if (card.heavy || card.entry.tags.includes("scale")) return;
     card.text ??= card.entry.file();
     if (card.text.length > HEAVY) {
       card.heavy = true;
@@ -110,6 +110,7 @@ export function gallery(app, scenes) {
         fresh.failed = true;
       }
       fresh.painted = true;
+      fresh.card.classList.toggle("plain", !fresh.world);
       return;
     }
     const moving = waiting.filter((card) => card.world && (card.small || card.card.matches(":hover")));

@@ -184,7 +184,7 @@ float lines(vec2 p, float cell) {
 void main() {
   vec2 p = vClip / uScale + uCamera;
   float strength = max(lines(p, uCell) * 0.45, lines(p, uCell * 5.0));
-  float shadow = 1.0 - 0.05 * dot(vClip, vClip);
+  float shadow = 1.0 - 0.022 * dot(vClip, vClip);
   outColour = vec4(mix(uBack, uGrid, strength) * shadow, 1.0);
 }`;
 

@@ -6,6 +6,17 @@ use crate::codec::{Data, Reader, Sink, bad, data};
 use crate::error::Error;
 use crate::world::{Explosion, ForceZone, MoverInput, Water, Wind, ZoneForce};
 
+/// Commands are rare: what a part is made of is compiled once, not into every command.
+#[inline(never)]
+fn keep(part: &impl Data, sink: &mut impl Sink) {
+    part.save(sink);
+}
+
+#[inline(never)]
+fn part<T: Data>(reader: &mut Reader<'_>) -> Result<T, Error> {
+    T::load(reader)
+}
+
 /// Implements [`Data`] for an enum: a number for each variant, then its parts, without padding.
 macro_rules! variants {
     ($type:ident: $unknown:literal {
@@ -16,16 +27,16 @@ macro_rules! variants {
                 match self {
                     $(Self::$name $(($($part),*))? $({$($field),*})? => {
                         sink.u8($tag);
-                        $($(Data::save($part, sink);)*)?
-                        $($(Data::save($field, sink);)*)?
+                        $($(keep($part, sink);)*)?
+                        $($(keep($field, sink);)*)?
                     })*
                 }
             }
             fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
                 Ok(match u8::load(reader)? {
                     $($tag => {
-                        $($(let $part = Data::load(reader)?;)*)?
-                        $($(let $field = Data::load(reader)?;)*)?
+                        $($(let $part = part(reader)?;)*)?
+                        $($(let $field = part(reader)?;)*)?
                         Self::$name $(($($part),*))? $({$($field),*})?
                     })*
                     _ => return Err(bad($unknown)),

@@ -24,6 +24,8 @@
 //! # }
 //! ```
 //!
+//! A [`History`] is a recording that one can go back in, and on from there.
+//!
 //! # What has a command
 //!
 //! Every function that changes the state of a world, and its two public fields: a test reads the sources and fails
