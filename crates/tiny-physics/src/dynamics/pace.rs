@@ -5,10 +5,10 @@
 //! the contacts and joints between them; [`assign`](crate::stages::paces) sees to that.
 
 /// Number of paces.
-pub(crate) const PACES: usize = 3;
+pub(crate) const PACES: usize = 4;
 
 /// The world's substeps are multiplied by this.
-pub(crate) const REFINEMENT: [u32; PACES] = [1, 4, 8];
+pub(crate) const REFINEMENT: [u32; PACES] = [1, 2, 4, 8];
 
 /// The pace of most islands.
 pub(crate) const PLAIN: usize = 0;

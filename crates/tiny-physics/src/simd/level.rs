@@ -80,6 +80,7 @@ impl SimdLevel {
     #[inline]
     pub(crate) fn for_count(self, count: usize) -> Self {
         match self {
+            _ if count == 1 => Self::Scalar,
             Self::Avx2 | Self::Avx512 if count <= 4 => Self::Sse2,
             Self::Avx512 if count <= 8 => Self::Avx2,
             _ => self,

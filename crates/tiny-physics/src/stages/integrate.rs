@@ -89,24 +89,31 @@ fn gain(row: &mut Row, start: &mut [f32; 4], motion: &Motion, first: bool) {
 pub(crate) fn positions(team: &Team, listed: &[u32], bodies: &mut Bodies, h: f32, max_speed: f32) {
     let Bodies { rows, motions, .. } = bodies;
     let rows = SharedRows::new(rows);
-    team.for_each_chunk(listed.len(), CHUNK, |range| {
+    let limits = Limits { speed: max_speed, turn_rate: MAX_TURN / h };
+    team.for_each_chunk(listed.len(), CHUNK, move |range| {
         for &index in &listed[range] {
             let factor = &motions[index as usize].factor;
-            rows.update(index, |row| advance(row, factor, h, max_speed));
+            rows.update(index, |row| advance(row, factor, h, limits));
         }
     });
 }
 
+/// Greatest speeds, metres and radians a second.
+#[derive(Clone, Copy)]
+struct Limits {
+    speed: f32,
+    turn_rate: f32,
+}
+
 #[inline]
-fn advance(row: &mut Row, factor: &[f32; 4], h: f32, max_speed: f32) {
+fn advance(row: &mut Row, factor: &[f32; 4], h: f32, limits: Limits) {
     let mut v = [row[0], row[1], row[2], row[3]];
     for k in 0..4 {
         v[k] = if factor[k] == 0.0 { 0.0 } else { v[k] };
     }
     let speed_sq = v[0] * v[0] + v[1] * v[1];
-    let max_turn_rate = MAX_TURN / h;
-    if (speed_sq > max_speed * max_speed) | (v[2].abs() > max_turn_rate) {
-        limit(&mut v, speed_sq, max_speed, max_turn_rate);
+    if (speed_sq > limits.speed * limits.speed) | (v[2].abs() > limits.turn_rate) {
+        limit(&mut v, speed_sq, limits);
     }
     let way = [h * v[0], h * v[1], h * v[2], 0.0];
     for k in 0..4 {
@@ -116,13 +123,13 @@ fn advance(row: &mut Row, factor: &[f32; 4], h: f32, max_speed: f32) {
 }
 
 #[cold]
-fn limit(v: &mut [f32; 4], speed_sq: f32, max_speed: f32, max_turn_rate: f32) {
-    if speed_sq > max_speed * max_speed {
-        let scale = max_speed / speed_sq.sqrt();
+fn limit(v: &mut [f32; 4], speed_sq: f32, limits: Limits) {
+    if speed_sq > limits.speed * limits.speed {
+        let scale = limits.speed / speed_sq.sqrt();
         v[0] *= scale;
         v[1] *= scale;
     }
-    if v[2].abs() > max_turn_rate {
-        v[2] = if v[2] > 0.0 { max_turn_rate } else { -max_turn_rate };
+    if v[2].abs() > limits.turn_rate {
+        v[2] = if v[2] > 0.0 { limits.turn_rate } else { -limits.turn_rate };
     }
 }

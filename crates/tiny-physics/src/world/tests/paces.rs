@@ -4,6 +4,9 @@ use super::*;
 use crate::dynamics::{PACES, PLAIN};
 
 const DT: f32 = 1.0 / 60.0;
+/// Paces of twice and of four times the substeps.
+const TWOFOLD: usize = 1;
+const FOURFOLD: usize = 2;
 
 fn crate_at(x: f64, y: f64, density: f32) -> RigidBody {
     let square = Shape::rect(0.5, 0.5).unwrap();
@@ -44,7 +47,7 @@ fn heavy_on_light(refine_up_to: u32) -> (usize, f32) {
 fn a_heavy_load_is_refined_and_sinks_less() {
     let (plain, deep) = heavy_on_light(0);
     let (refined, shallow) = heavy_on_light(1000);
-    assert_eq!((plain, refined), (PLAIN, 1));
+    assert_eq!((plain, refined), (PLAIN, FOURFOLD));
     assert!(deep > 0.008 && shallow < 0.0015, "{deep} and {shallow}");
 }
 
@@ -58,7 +61,7 @@ fn what_lies_alone_stays_plain_and_so_do_large_islands() {
         world.add_body(crate_at(0.0, f64::from(level) + 0.5, 1.0)).unwrap();
     }
     steps(&mut world, 20);
-    assert_eq!((pace(&world, alone), pace(&world, low)), (PLAIN, 1));
+    assert_eq!((pace(&world, alone), pace(&world, low)), (PLAIN, TWOFOLD));
     // With two more the tower is too large.
     for level in [14, 15] {
         world.add_body(crate_at(0.0, f64::from(level) + 0.5, 1.0)).unwrap();
@@ -75,9 +78,9 @@ fn islands_that_meet_agree_and_relieved_ones_return() {
     let heavy = world.add_body(crate_at(0.0, 1.5, 100.0)).unwrap();
     let falling = world.add_body(crate_at(0.2, 4.0, 1.0)).unwrap();
     steps(&mut world, 10);
-    assert_eq!((pace(&world, light), pace(&world, falling)), (1, PLAIN));
+    assert_eq!((pace(&world, light), pace(&world, falling)), (FOURFOLD, PLAIN));
     steps(&mut world, 90);
-    assert_eq!(pace(&world, falling), 1, "it lies on the refined ones");
+    assert_eq!(pace(&world, falling), FOURFOLD, "it lies on the refined ones");
     assert_eq!(world.state.bodies.refined, 3);
     world.remove_body(heavy).unwrap();
     assert_eq!(world.state.bodies.refined, 2);
@@ -101,7 +104,7 @@ fn becoming_finer_does_not_pop() {
             let speeds = tower.iter().map(|&body| world.body(body).unwrap().velocity().length());
             fastest = speeds.fold(fastest, f32::max);
         }
-        assert!(level < 15 || pace(&world, tower[0]) == 1);
+        assert!(level < 15 || pace(&world, tower[0]) == TWOFOLD);
     }
     assert!(fastest < 0.1, "{fastest} m/s");
 }
@@ -120,7 +123,7 @@ fn a_kinematic_body_serves_all_paces() {
         world.body_mut(body).unwrap().set_velocity(Vec2::new(1.0, 0.5));
     }
     steps(&mut world, 120);
-    assert_eq!((pace(&world, light), pace(&world, alone)), (1, PLAIN));
+    assert_eq!((pace(&world, light), pace(&world, alone)), (FOURFOLD, PLAIN));
     let at = |body| world.body(body).unwrap().position();
     assert!((at(lift) - Vec2::new(2.0, 0.0)).length() < 1.0e-4);
     for (body, start) in [(light, 0.0), (heavy, 0.0), (alone, 5.0)] {
