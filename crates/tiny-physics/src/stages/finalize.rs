@@ -100,7 +100,8 @@ fn finalize_body(body: FinalBody<'_>, boxes: Boxes<'_>, options: Options, found:
     let FinalBody { index, row, pose, info } = body;
     let motion = Vec2::new(row[Slot::DX], row[Slot::DY]);
     let turn = row[Slot::DA];
-    if !row.iter().all(|value| value.is_finite()) {
+    // All eight at once, without a branch for each.
+    if !row.iter().fold(true, |finite, value| finite & value.is_finite()) {
         found.broken.push(index);
         return;
     }
@@ -109,10 +110,11 @@ fn finalize_body(body: FinalBody<'_>, boxes: Boxes<'_>, options: Options, found:
     row[Slot::DA] = 0.0;
     let start = *pose;
     *pose = Pose::new(start.p + motion, start.q.integrate(turn));
-    time_rest(row, [motion.length(), turn], info, options);
+    let way = motion.length();
+    time_rest(row, [way, turn], info, options);
     info.force = Vec2::ZERO;
     info.torque = 0.0;
-    let reach = motion.length() + turned_reach(turn, info);
+    let reach = way + turned_reach(turn, info);
     let moving = info.kind == BodyKind::Dynamic;
     if options.continuous && moving && reach > SAFE_FRACTION * info.min_extent {
         found.fast.push(FastBody { body: index, start, motion, turn, fraction: 1.0 });

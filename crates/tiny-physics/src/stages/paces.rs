@@ -23,7 +23,7 @@ const INTERVAL: u64 = 8;
 const MANY_NEWS: usize = 16;
 /// Sink at the plain pace from which an island gets each pace, metres a length unit; from [`LARGE`] bodies on the second.
 /// Twice the substeps hold towers of 20 and arches; what leans on many others, as in pyramids, spreads where it sinks.
-const VISIBLE: [[f32; PACES]; 2] = [[0.0, 0.0008, 0.01, 0.02], [0.0, 0.0008, 0.0024, 0.02]];
+const VISIBLE: [[f32; PACES]; 2] = [[0.0, 0.0008, 0.008, 0.02], [0.0, 0.0008, 0.0024, 0.02]];
 /// Bodies from which on an island is large.
 const LARGE: usize = 128;
 /// Bodies thinner than this tip and pass where others only sink a little: for them the same part of their thickness
