@@ -22,9 +22,16 @@ pub struct Row {
     pub wall_ms: f64,
     /// 99th percentile of a step, milliseconds: CPU time with one thread, wall time with several.
     pub p99_ms: f64,
+    /// The step that took most, on the same clock, milliseconds: the least of the repeats, because what else the
+    /// machine does only adds to it.
+    pub worst_ms: f64,
     /// This row's time over the reference's, which is ours where we ran: CPU time with one thread,
     /// wall time with several. Above 1: the reference is faster.
     pub ratio: f64,
+    /// The same of the 99th percentiles.
+    pub p99_ratio: f64,
+    /// The same of the worst steps.
+    pub worst_ratio: f64,
     /// Name of the engine that ratios refer to.
     pub reference: String,
     /// Least and greatest of the repeats' mean CPU times, milliseconds.
@@ -54,6 +61,9 @@ impl Row {
         let median = |part: fn(&Report) -> f64| {
             percentile(&reports.iter().map(part).collect::<Vec<_>>(), 0.5)
         };
+        let least = |part: fn(&Report) -> f64| {
+            reports.iter().map(part).fold(f64::INFINITY, f64::min)
+        };
         let mut cpu: Vec<f64> = reports.iter().map(|report| report.cpu_ms).collect();
         cpu.sort_by(f64::total_cmp);
         let first = &reports[0];
@@ -69,7 +79,14 @@ impl Row {
             } else {
                 median(|report| report.cpu_p99_ms)
             },
+            worst_ms: least(if threads > 1 {
+                |report: &Report| report.wall_worst_ms
+            } else {
+                |report: &Report| report.cpu_worst_ms
+            }),
             ratio: 1.0,
+            p99_ratio: 1.0,
+            worst_ratio: 1.0,
             reference: String::new(),
             cpu_range_ms: [cpu[0], cpu[cpu.len() - 1]],
             steps: first.steps,
@@ -100,10 +117,22 @@ pub fn rows<'a>(
     let Some(reference) = rows.first().cloned() else { return rows };
     for row in &mut rows {
         row.ratio = row.time_ms() / reference.time_ms();
+        row.p99_ratio = row.p99_ms / reference.p99_ms;
+        row.worst_ratio = row.worst_ms / reference.worst_ms;
         row.reference = reference.name.to_owned();
         row.differs = honesty::differences(&row.end, &reference.end);
     }
     rows
+}
+
+/// A geometric mean, and the least with its scene.
+fn mean_and_least(rows: &[&Row], ratio: fn(&Row) -> f64) -> String {
+    let Some(least) = rows.iter().min_by(|a, b| ratio(a).total_cmp(&ratio(b))) else {
+        return String::new();
+    };
+    let logs: f64 = rows.iter().map(|row| ratio(row).ln()).sum();
+    let mean = (logs / rows.len() as f64).exp();
+    format!("{mean:8.2}{:7.2} {:24}", ratio(least), format!("({})", least.scene))
 }
 
 /// Prints rows as JSON, an object a line.
@@ -125,11 +154,14 @@ pub fn print_scene(rows: &[Row], threads: u16) {
         first.scene, first.steps, first.repeat, first.reference,
     );
     println!(
-        "{:14}{:>9}{:>9}{:>9}{:>8}  |{:>8}{:>8}{:>9}{:>8}{:>10}{:>12}{:>9}{:>8}",
+        "{:14}{:>9}{:>9}{:>8}{:>9}{:>7}{:>9}{:>7}  |{:>8}{:>8}{:>9}{:>8}{:>10}{:>12}{:>9}{:>8}",
         "engine",
         "cpu ms",
         "wall ms",
+        "ratio",
         "p99 ms",
+        "ratio",
+        "worst ms",
         "ratio",
         "bodies",
         "joints",
@@ -143,12 +175,15 @@ pub fn print_scene(rows: &[Row], threads: u16) {
     for row in rows {
         let end = &row.end;
         println!(
-            "{:14}{:9.3}{:9.3}{:9.3}{:8.2}  |{:8}{:8}{:9}{:8}{:10.3}{:>12.3e}{:9.4}{:8.0}{}",
+            "{:14}{:9.4}{:9.4}{:8.2}{:9.3}{:7.2}{:9.3}{:7.2}  |{:8}{:8}{:9}{:8}{:10.3}{:>12.3e}{:9.4}{:8.0}{}",
             row.name,
             row.cpu_ms,
             row.wall_ms,
-            row.p99_ms,
             row.ratio,
+            row.p99_ms,
+            row.p99_ratio,
+            row.worst_ms,
+            row.worst_ratio,
             end.bodies,
             end.joints,
             end.contacts,
@@ -165,17 +200,18 @@ pub fn print_scene(rows: &[Row], threads: u16) {
     }
 }
 
-/// Prints, for each engine, the geometric mean of its ratios over all scenes, and the least.
+/// Prints, for each engine, the geometric means of its ratios over all scenes, and the least ones.
 pub fn print_means(configs: &[Config], rows: &[Row]) {
-    println!("\ngeometric mean of the ratios, and the least");
+    println!("\ngeometric means of the ratios, and the least: mean step, 99th percentile, worst step");
     for config in configs {
         let own: Vec<&Row> = rows.iter().filter(|row| row.name == config.name).collect();
-        let least = own.iter().min_by(|a, b| a.ratio.total_cmp(&b.ratio));
-        if let Some(least) = least {
-            let logs: f64 = own.iter().map(|row| row.ratio.ln()).sum();
-            let mean = (logs / own.len() as f64).exp();
-            let (name, count) = (config.name, own.len());
-            println!("{name:14}{mean:8.2}{:8.2} ({}), {count} scenes", least.ratio, least.scene);
+        let parts = [
+            mean_and_least(&own, |row| row.ratio),
+            mean_and_least(&own, |row| row.p99_ratio),
+            mean_and_least(&own, |row| row.worst_ratio),
+        ];
+        if !own.is_empty() {
+            println!("{:14}{}  {} scenes", config.name, parts.join(""), own.len());
         }
     }
     println!("{}", honesty::bounds());

@@ -49,6 +49,10 @@ pub struct Report {
     pub cpu_p99_ms: f64,
     /// 99th percentile of a step's wall time, milliseconds.
     pub wall_p99_ms: f64,
+    /// CPU time of the step that took most, milliseconds.
+    pub cpu_worst_ms: f64,
+    /// Wall time of the step that took most, milliseconds.
+    pub wall_worst_ms: f64,
     /// Wall time of building the world, milliseconds.
     pub build_ms: f64,
     /// Greatest resident memory of the process, mebibytes; 0 where the system does not tell.

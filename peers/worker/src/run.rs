@@ -64,6 +64,8 @@ fn run<E: Engine>(job: &Job) -> Result<Report, String> {
         wall_ms: mean(&wall_ms),
         cpu_p99_ms: percentile(&cpu_ms, 0.99),
         wall_p99_ms: percentile(&wall_ms, 0.99),
+        cpu_worst_ms: percentile(&cpu_ms, 1.0),
+        wall_worst_ms: percentile(&wall_ms, 1.0),
         build_ms,
         peak_mib: peak_mib(),
         end: engine.summary(),
