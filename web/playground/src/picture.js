@@ -37,9 +37,9 @@ export function framing(world) {
   const both = [Math.min(l0, l1), Math.min(b0, b1), Math.max(r0, r1), Math.max(t0, t1)];
   const size = (box) => Math.max(box[2] - box[0], box[3] - box[1]);
   const moving = [l1, b1, r1, t1];
-  if (size(both) <= 1.5 * (1 + size(moving))) return both;
+  if (size(both) <= 2.2 * (1 + size(moving))) return both;
   // Of ground that goes on only what is near.
-  const near = grown(moving, 0.35);
+  const near = grown(moving, 0.6);
   return [
     Math.min(l1, Math.max(l0, near[0])),
     Math.min(b1, Math.max(b0, near[1])),
