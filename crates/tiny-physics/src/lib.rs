@@ -52,7 +52,8 @@
 //! # Features
 //!
 //! `parallel` (default) lets a world use several threads; results do not depend on it. `serde` writes
-//! descriptions, settings, worlds, handles and recordings to files of any format.
+//! descriptions, settings, worlds, handles and recordings to files of any format. `glam` and `mint` turn vectors
+//! into those of other crates and back: what takes a vector takes theirs.
 
 pub mod broad_phase;
 mod codec;
@@ -64,6 +65,7 @@ mod fixed_step;
 mod footprint;
 pub mod geometry;
 pub mod math;
+pub mod prelude;
 pub mod record;
 mod simd;
 mod stages;

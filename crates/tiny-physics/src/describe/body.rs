@@ -151,7 +151,8 @@ impl RigidBody {
     }
 
     /// Sets [`RigidBody::velocity`].
-    pub fn velocity(mut self, velocity: Vec2) -> Self {
+    pub fn velocity(mut self, velocity: impl Into<Vec2>) -> Self {
+        let velocity = velocity.into();
         self.velocity = velocity;
         self
     }

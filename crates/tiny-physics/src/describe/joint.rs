@@ -276,7 +276,7 @@ impl JointDef {
     }
 
     /// A slider along a direction of A's frame, for bodies that now have the same angle.
-    pub fn prismatic(direction: Vec2) -> Self {
+    pub fn prismatic(direction: impl Into<Vec2>) -> Self {
         let kind = JointKind::Prismatic { spring: None, target: 0.0, limits: None, motor: None };
         Self::new(kind).direction(direction)
     }
@@ -287,7 +287,7 @@ impl JointDef {
     }
 
     /// A wheel on a suspension along a direction of A's frame, without a spring yet.
-    pub fn wheel(direction: Vec2) -> Self {
+    pub fn wheel(direction: impl Into<Vec2>) -> Self {
         Self::new(JointKind::Wheel { spring: None, limits: None, motor: None }).direction(direction)
     }
 
@@ -338,7 +338,9 @@ impl JointDef {
 /// Builder methods. One that a kind has no use for changes nothing.
 impl JointDef {
     /// Sets both anchors, each in its body's frame.
-    pub fn anchors(mut self, anchor_a: Vec2, anchor_b: Vec2) -> Self {
+    pub fn anchors(mut self, anchor_a: impl Into<Vec2>, anchor_b: impl Into<Vec2>) -> Self {
+        let anchor_a = anchor_a.into();
+        let anchor_b = anchor_b.into();
         self.anchor_a = anchor_a;
         self.anchor_b = anchor_b;
         self
@@ -352,7 +354,8 @@ impl JointDef {
     }
 
     /// Sets both angles of the joint's frame to that of a direction.
-    pub fn direction(self, direction: Vec2) -> Self {
+    pub fn direction(self, direction: impl Into<Vec2>) -> Self {
+        let direction = direction.into();
         let angle = crate::math::atan2(direction.y, direction.x);
         self.angles(angle, angle)
     }

@@ -110,7 +110,8 @@ impl ShapeDef {
     }
 
     /// Sets [`ShapeDef::offset`].
-    pub fn offset(mut self, offset: Vec2) -> Self {
+    pub fn offset(mut self, offset: impl Into<Vec2>) -> Self {
+        let offset = offset.into();
         self.offset = offset;
         self
     }
@@ -164,7 +165,8 @@ impl ShapeDef {
     }
 
     /// Sets [`ShapeDef::one_way`].
-    pub fn one_way(mut self, direction: Vec2) -> Self {
+    pub fn one_way(mut self, direction: impl Into<Vec2>) -> Self {
+        let direction = direction.into();
         self.one_way = Some(direction);
         self
     }

@@ -82,7 +82,8 @@ impl Tile {
     }
 
     /// Sets [`Tile::one_way`].
-    pub fn one_way(mut self, direction: Vec2) -> Self {
+    pub fn one_way(mut self, direction: impl Into<Vec2>) -> Self {
+        let direction = direction.into();
         self.one_way = Some(direction);
         self
     }

@@ -48,7 +48,7 @@ impl MassProperties {
             let (mass, center) = (f64::from(part.mass), DVec2::from(part.center) - origin);
             sum.area += mass;
             sum.first = sum.first + center * mass;
-            sum.second += f64::from(part.inertia) + mass * dot(center, center);
+            sum.second += f64::from(part.inertia) + mass * center.length_sq();
             (centers, count) = (centers + center, count + 1.0);
         }
         if sum.area > 0.0 {
@@ -108,7 +108,7 @@ impl Moments {
     /// Mass, centre and inertia about the centre, for a density; the area must be above 0.
     fn finish(&self, origin: DVec2, density: f64) -> MassProperties {
         let center = self.first * (1.0 / self.area);
-        let inertia = self.second - self.area * dot(center, center);
+        let inertia = self.second - self.area * center.length_sq();
         MassProperties {
             mass: (density * self.area) as f32,
             center: (origin + center).to_vec2(),
@@ -121,18 +121,18 @@ impl Moments {
         let doubled = p.x * q.y - p.y * q.x;
         self.area += doubled / 2.0;
         self.first = self.first + (p + q) * (doubled / 6.0);
-        self.second += doubled / 12.0 * (dot(p, p) + dot(p, q) + dot(q, q));
+        self.second += doubled / 12.0 * (p.length_sq() + p.dot(q) + q.length_sq());
     }
 
     /// The rectangle of the given thickness outside the edge.
     fn add_edge(&mut self, start: DVec2, end: DVec2, normal: DVec2, thickness: f64) {
         let edge = end - start;
-        let length_sq = dot(edge, edge);
+        let length_sq = edge.length_sq();
         let area = length_sq.sqrt() * thickness;
         let center = (start + end) * 0.5 + normal * (0.5 * thickness);
         self.area += area;
         self.first = self.first + center * area;
-        self.second += area * ((length_sq + thickness * thickness) / 12.0 + dot(center, center));
+        self.second += area * ((length_sq + thickness * thickness) / 12.0 + center.length_sq());
     }
 
     /// The sector between the normals of two edges that meet. With u the unit vector that goes from one to
@@ -151,14 +151,9 @@ impl Moments {
         self.area += area;
         self.first = self.first + center * area + first;
         self.second += 0.25 * radius_sq * radius_sq * angle
-            + 2.0 * dot(center, first)
-            + area * dot(center, center);
+            + 2.0 * center.dot(first)
+            + area * center.length_sq();
     }
-}
-
-#[inline]
-fn dot(a: DVec2, b: DVec2) -> f64 {
-    a.x * b.x + a.y * b.y
 }
 
 #[cfg(test)]

@@ -81,24 +81,24 @@ impl Shape {
     ///
     /// # Errors
     /// A half extent that is not finite or outside [`MIN_EXTENT`] to [`MAX_EXTENT`].
-    pub fn aabb_box(half_extents: Vec2) -> Result<Self, Error> {
-        Self::Aabb { half_extents }.validated()
+    pub fn aabb_box(half_extents: impl Into<Vec2>) -> Result<Self, Error> {
+        Self::Aabb { half_extents: half_extents.into() }.validated()
     }
 
     /// All points within `radius` of the segment from `a` to `b`.
     ///
     /// # Errors
     /// A number that is not finite or out of range; ends closer than [`MIN_EXTENT`].
-    pub fn capsule(a: Vec2, b: Vec2, radius: f32) -> Result<Self, Error> {
-        Self::Capsule { a, b, radius }.validated()
+    pub fn capsule(a: impl Into<Vec2>, b: impl Into<Vec2>, radius: f32) -> Result<Self, Error> {
+        Self::Capsule { a: a.into(), b: b.into(), radius }.validated()
     }
 
     /// A line segment without thickness.
     ///
     /// # Errors
     /// A number that is not finite or out of range; ends closer than [`MIN_EXTENT`].
-    pub fn segment(a: Vec2, b: Vec2) -> Result<Self, Error> {
-        Self::Segment { a, b }.validated()
+    pub fn segment(a: impl Into<Vec2>, b: impl Into<Vec2>) -> Result<Self, Error> {
+        Self::Segment { a: a.into(), b: b.into() }.validated()
     }
 
     /// The convex hull of some points: see [`Polygon::hull`].

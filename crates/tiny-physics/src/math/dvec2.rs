@@ -2,7 +2,7 @@
 
 use super::Vec2;
 use core::fmt;
-use core::ops::{Add, AddAssign, Mul, Sub};
+use core::ops::{Add, AddAssign, Mul, Neg, Sub};
 
 /// A point in the world, in `f64`.
 ///
@@ -39,6 +39,54 @@ impl DVec2 {
     #[inline]
     pub fn relative_to(self, origin: Self) -> Vec2 {
         (self - origin).to_vec2()
+    }
+
+    /// Both parts equal.
+    #[inline]
+    pub const fn splat(value: f64) -> Self {
+        Self::new(value, value)
+    }
+
+    /// Scalar product.
+    #[inline]
+    pub fn dot(self, other: Self) -> f64 {
+        self.x * other.x + self.y * other.y
+    }
+
+    /// z part of the cross product: positive where `other` is to the left.
+    #[inline]
+    pub fn cross(self, other: Self) -> f64 {
+        self.x * other.y - self.y * other.x
+    }
+
+    /// Turned left by a right angle.
+    #[inline]
+    pub fn perp(self) -> Self {
+        Self::new(-self.y, self.x)
+    }
+
+    /// Square of the length.
+    #[inline]
+    pub fn length_sq(self) -> f64 {
+        self.dot(self)
+    }
+
+    /// Length.
+    #[inline]
+    pub fn length(self) -> f64 {
+        self.length_sq().sqrt()
+    }
+
+    /// Distance to another point.
+    #[inline]
+    pub fn distance(self, other: Self) -> f64 {
+        (self - other).length()
+    }
+
+    /// The point that is `t` of the way to another: 0 here, 1 there.
+    #[inline]
+    pub fn lerp(self, other: Self, t: f64) -> Self {
+        self + (other - self) * t
     }
 
     /// Neither part is NaN or infinite.
@@ -96,6 +144,14 @@ impl Sub<Vec2> for DVec2 {
     #[inline]
     fn sub(self, other: Vec2) -> Self {
         self - Self::from(other)
+    }
+}
+
+impl Neg for DVec2 {
+    type Output = Self;
+    #[inline]
+    fn neg(self) -> Self {
+        Self::new(-self.x, -self.y)
     }
 }
 

@@ -4,6 +4,7 @@
 //! `sqrt` and comparisons, which IEEE 754 fixes to the last bit.
 
 mod aabb;
+mod convert;
 mod dvec2;
 mod rot;
 mod transform;

@@ -186,7 +186,8 @@ impl BodyMut<'_> {
     }
 
     /// Sets the velocity of the centre of mass, metres a second. Nothing happens to a static body.
-    pub fn set_velocity(&mut self, velocity: Vec2) {
+    pub fn set_velocity(&mut self, velocity: impl Into<Vec2>) {
+        let velocity = velocity.into();
         if self.info().kind != BodyKind::Static && self.accept(&[velocity.x, velocity.y]) {
             self.world.state.bodies.set_velocity(self.index, velocity);
             self.wake_riders(velocity != Vec2::ZERO);
@@ -209,15 +210,16 @@ impl BodyMut<'_> {
     }
 
     /// Applies a force in newtons at a world point, during the next step.
-    pub fn apply_force(&mut self, force: Vec2, point: impl Into<DVec2>) {
+    pub fn apply_force(&mut self, force: impl Into<Vec2>, point: impl Into<DVec2>) {
+        let force = force.into();
         let arm = point.into().relative_to(self.as_ref().center());
         let torque = arm.cross(force);
         self.apply_forces(force, torque);
     }
 
     /// Applies a force in newtons at the centre of mass, during the next step.
-    pub fn apply_force_to_center(&mut self, force: Vec2) {
-        self.apply_forces(force, 0.0);
+    pub fn apply_force_to_center(&mut self, force: impl Into<Vec2>) {
+        self.apply_forces(force.into(), 0.0);
     }
 
     /// Applies a torque in newton metres during the next step.
@@ -235,14 +237,15 @@ impl BodyMut<'_> {
     }
 
     /// Applies an impulse in newton seconds at a world point, at once.
-    pub fn apply_impulse(&mut self, impulse: Vec2, point: impl Into<DVec2>) {
+    pub fn apply_impulse(&mut self, impulse: impl Into<Vec2>, point: impl Into<DVec2>) {
+        let impulse = impulse.into();
         let arm = point.into().relative_to(self.as_ref().center());
         self.apply_impulses(impulse, arm.cross(impulse));
     }
 
     /// Applies an impulse in newton seconds at the centre of mass, at once.
-    pub fn apply_impulse_to_center(&mut self, impulse: Vec2) {
-        self.apply_impulses(impulse, 0.0);
+    pub fn apply_impulse_to_center(&mut self, impulse: impl Into<Vec2>) {
+        self.apply_impulses(impulse.into(), 0.0);
     }
 
     /// Applies an angular impulse in newton metre seconds, at once.

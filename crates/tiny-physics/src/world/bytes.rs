@@ -7,6 +7,7 @@
 use super::World;
 use crate::codec::{Counter, Data, Reader, Sink, Writer, bad, hash_bytes};
 use crate::error::Error;
+use crate::math::Vec2;
 
 /// The first bytes of a frame.
 const MAGIC: [u8; 4] = *b"tpw1";
@@ -91,7 +92,7 @@ impl World {
     }
 
     fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
-        let mut world = Self::with_settings(Data::load(reader)?, Data::load(reader)?);
+        let mut world = Self::with_settings(Vec2::load(reader)?, Data::load(reader)?);
         world.state = Data::load(reader)?;
         Ok(world)
     }

@@ -20,6 +20,7 @@ mod mover;
 #[cfg(feature = "serde")]
 pub(crate) mod packed;
 mod queries;
+mod reading;
 mod sensors;
 mod shape_changes;
 mod shapes;
@@ -125,12 +126,13 @@ struct Scratch {
 
 impl World {
     /// An empty world with default settings.
-    pub fn new(gravity: Vec2) -> Self {
+    pub fn new(gravity: impl Into<Vec2>) -> Self {
         Self::with_settings(gravity, Settings::default())
     }
 
     /// An empty world with settings of your own.
-    pub fn with_settings(gravity: Vec2, settings: Settings) -> Self {
+    pub fn with_settings(gravity: impl Into<Vec2>, settings: Settings) -> Self {
+        let gravity = gravity.into();
         Self {
             gravity,
             settings,

@@ -63,7 +63,8 @@ impl ShapeMut<'_> {
     ///
     /// # Errors
     /// A number is not finite.
-    pub fn set_local(&mut self, offset: Vec2, angle: f32) -> Result<(), Error> {
+    pub fn set_local(&mut self, offset: impl Into<Vec2>, angle: f32) -> Result<(), Error> {
+        let offset = offset.into();
         Error::check_finite_vec("offset", offset)?;
         Error::check_finite("angle", angle)?;
         self.replace(|record| record.local = Transform::from_angle(offset, angle));

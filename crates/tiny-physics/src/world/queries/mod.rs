@@ -30,8 +30,8 @@ pub struct RayCast {
 
 impl RayCast {
     /// A ray by its start and the vector to its end.
-    pub fn new(origin: impl Into<DVec2>, translation: Vec2) -> Self {
-        Self { origin: origin.into(), translation }
+    pub fn new(origin: impl Into<DVec2>, translation: impl Into<Vec2>) -> Self {
+        Self { origin: origin.into(), translation: translation.into() }
     }
 }
 
@@ -99,30 +99,30 @@ impl World {
     pub fn ray_cast(
         &self,
         origin: impl Into<DVec2>,
-        translation: Vec2,
+        translation: impl Into<Vec2>,
         filter: &QueryFilter<'_>,
     ) -> Option<RayCastHit> {
-        Finder { world: self, filter }.first_on_ray(origin.into(), translation)
+        Finder { world: self, filter }.first_on_ray(origin.into(), translation.into())
     }
 
     /// All shapes that a ray enters, nearest first: see [`World::ray_cast`].
     pub fn ray_cast_all(
         &self,
         origin: impl Into<DVec2>,
-        translation: Vec2,
+        translation: impl Into<Vec2>,
         filter: &QueryFilter<'_>,
     ) -> Vec<RayCastHit> {
-        Finder { world: self, filter }.all_on_ray(origin.into(), translation)
+        Finder { world: self, filter }.all_on_ray(origin.into(), translation.into())
     }
 
     /// Does a ray enter any shape? Cheaper than [`World::ray_cast`]: for lines of sight.
     pub fn ray_cast_any(
         &self,
         origin: impl Into<DVec2>,
-        translation: Vec2,
+        translation: impl Into<Vec2>,
         filter: &QueryFilter<'_>,
     ) -> bool {
-        Finder { world: self, filter }.any_on_ray(origin.into(), translation)
+        Finder { world: self, filter }.any_on_ray(origin.into(), translation.into())
     }
 
     /// Many ray casts at once, on all threads of the world. `hits` gets the answers in the order of the
@@ -163,10 +163,10 @@ impl World {
         &self,
         shape: &Shape,
         pose: impl Into<Pose>,
-        translation: Vec2,
+        translation: impl Into<Vec2>,
         filter: &QueryFilter<'_>,
     ) -> Option<ShapeCastHit> {
-        Finder { world: self, filter }.first_on_way(shape, pose.into(), translation)
+        Finder { world: self, filter }.first_on_way(shape, pose.into(), translation.into())
     }
 
     /// The shapes that overlap a shape, in index order. Touching counts.

@@ -1,0 +1,7 @@
+//! What most programs need: `use tiny_physics::prelude::*;`.
+
+pub use crate::{
+    Aabb, Body, BodyId, BodyKind, BodyMut, ChainDef, CharacterMover, DVec2, Error, Filter,
+    FixedStep, JointDef, JointId, JointKind, Material, MoverInput, Polygon, Pose, QueryFilter,
+    RigidBody, Rot, Settings, Shape, ShapeDef, ShapeId, TileGrid, Transform, Vec2, World,
+};

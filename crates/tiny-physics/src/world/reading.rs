@@ -1,0 +1,126 @@
+//! Going through all that a world holds, and printing it.
+
+use super::{Body, BodyMut, JointRef, ShapeMut, ShapeRef, World};
+use crate::describe::BodyKind;
+use core::fmt;
+
+impl World {
+    /// All bodies, in index order.
+    ///
+    /// ```
+    /// use tiny_physics::prelude::*;
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let mut world = World::new((0.0, -10.0));
+    /// for x in 0..3 {
+    ///     world.add_body(RigidBody::dynamic().position((f64::from(x), 5.0)).shape(Shape::circle(0.3)?))?;
+    /// }
+    /// world.step(1.0 / 60.0);
+    /// assert!(world.bodies().all(|body| body.position().y < 5.0));
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn bodies(&self) -> impl Iterator<Item = Body<'_>> {
+        self.body_ids().filter_map(|id| self.body(id))
+    }
+
+    /// All shapes, in index order.
+    pub fn shapes(&self) -> impl Iterator<Item = ShapeRef<'_>> {
+        self.shape_ids().filter_map(|id| self.shape(id))
+    }
+
+    /// All joints, in index order.
+    pub fn joints(&self) -> impl Iterator<Item = JointRef<'_>> {
+        self.joint_ids().filter_map(|id| self.joint(id))
+    }
+}
+
+impl fmt::Debug for Body<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut out = f.debug_struct("Body");
+        out.field("id", &self.id()).field("kind", &self.kind());
+        out.field("position", &self.position_f64()).field("angle", &self.angle());
+        if self.kind() != BodyKind::Static {
+            out.field("velocity", &self.velocity());
+            out.field("angular_velocity", &self.angular_velocity());
+            out.field("awake", &self.is_awake());
+        }
+        out.finish_non_exhaustive()
+    }
+}
+
+impl fmt::Debug for BodyMut<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.as_ref().fmt(f)
+    }
+}
+
+impl fmt::Debug for ShapeRef<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut out = f.debug_struct("Shape");
+        out.field("id", &self.id()).field("body", &self.body()).field("shape", self.shape());
+        out.field("sensor", &self.is_sensor()).finish_non_exhaustive()
+    }
+}
+
+impl fmt::Debug for ShapeMut<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.as_ref().fmt(f)
+    }
+}
+
+impl fmt::Debug for JointRef<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut out = f.debug_struct("Joint");
+        out.field("id", &self.id()).field("bodies", &self.bodies()).field("kind", &self.def().kind);
+        out.finish_non_exhaustive()
+    }
+}
+
+/// What a body tells is told by one that may be changed, too.
+macro_rules! told_by_both {
+    ($($(#[doc = $doc:literal])+ $name:ident: $out:ty;)+) => {
+        impl BodyMut<'_> {
+            $($(#[doc = $doc])+
+            pub fn $name(&self) -> $out {
+                self.as_ref().$name()
+            })+
+        }
+    };
+}
+
+told_by_both! {
+    /// Its handle.
+    id: super::BodyId;
+    /// Origin of its frame: world, metres.
+    position: crate::math::Vec2;
+    /// Origin of its frame in 64 bits: world, metres.
+    position_f64: crate::math::DVec2;
+    /// Frame of the body in the world.
+    pose: crate::math::Pose;
+    /// Rotation of its frame.
+    rotation: crate::math::Rot;
+    /// Angle of its frame, radians in [-pi, pi].
+    angle: f32;
+    /// Centre of mass: world, metres.
+    center: crate::math::DVec2;
+    /// Centre of mass in the body's frame, metres.
+    local_center: crate::math::Vec2;
+    /// Velocity of the centre of mass, metres a second.
+    velocity: crate::math::Vec2;
+    /// Radians a second, anticlockwise.
+    angular_velocity: f32;
+    /// Kilograms; 0 for bodies that are not dynamic.
+    mass: f32;
+    /// Moment of inertia about the centre of mass, kilogram square metres; 0 for bodies that are not dynamic.
+    inertia: f32;
+    /// What moves it.
+    kind: BodyKind;
+    /// Is it simulated at the moment?
+    is_awake: bool;
+    /// Is it swept against moving bodies too?
+    is_bullet: bool;
+    /// Does it take part?
+    is_enabled: bool;
+    /// The user's number.
+    user_data: u64;
+}
