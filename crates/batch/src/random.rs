@@ -50,7 +50,7 @@ mod tests {
             most = if x > most { x } else { most };
         }
         assert!((sum / 10_000.0 - 2.0).abs() < 0.1);
-        assert!(least >= -2.0 && least < -1.99 && most < 6.0 && most > 5.99);
+        assert!((-2.0..-1.99).contains(&least) && (5.99..6.0).contains(&most));
         let mut counts = [0; 3];
         (0..3000).for_each(|_| counts[(random.whole(4, 7) - 4) as usize] += 1);
         assert!(counts.iter().all(|&count| (900..1100).contains(&count)), "{counts:?}");

@@ -191,6 +191,11 @@ impl Trial {
         self.bodies.len()
     }
 
+    /// Has it no bodies?
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// Dynamic bodies that are there, by their places in the scene.
     pub fn dynamic(&self) -> Vec<usize> {
         let is_dynamic = |&body: &usize| {

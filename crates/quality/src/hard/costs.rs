@@ -61,8 +61,9 @@ pub(super) fn many_shapes(lab: &mut Lab<'_>) -> Vec<Measure> {
     let shapes = |count: usize| drop(world_of(|world| level(world, count).map(drop)));
     let (side, wide) = lab.pick((32, 96), (24, 72));
     let tiles = |count: usize| {
-        let row =
-            |y: usize| (0..count / side).map(move |x| if (x + y) % 2 == 0 { '#' } else { '.' });
+        let row = |y: usize| {
+            (0..count / side).map(move |x| if (x + y).is_multiple_of(2) { '#' } else { '.' })
+        };
         let rows: Vec<String> = (0..side).map(|y| row(y).collect()).collect();
         let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
         drop(world_of(|world| {

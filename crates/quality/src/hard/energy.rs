@@ -171,7 +171,7 @@ pub(super) fn energy_of_scenes(lab: &mut Lab<'_>) -> Vec<Measure> {
     let count = scenes.len();
     let (mut grown, mut worst) = (0, 0.0_f64);
     for mut scene in scenes {
-        scene.gravity = scene.gravity * lab.pick(1.0, 1.7);
+        scene.gravity *= lab.pick(1.0, 1.7);
         let seconds = f64::from(scene.steps) * f64::from(scene.dt);
         lab.expect_seconds(seconds, scene.dt);
         let mut trial = lab.build(scene);

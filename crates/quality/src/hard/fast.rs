@@ -47,7 +47,7 @@ pub(super) fn head_on(lab: &mut Lab<'_>) -> Vec<Measure> {
             let y = 10.0 * i as f32;
             let apart = 2.0 + 2.0 * speed * DT as f32 * i as f32 / PHASES as f32;
             for side in [-1.0, 1.0] {
-                let body = moving(shape.clone(), Vec2::new(0.5 * apart * side, y));
+                let body = moving(shape, Vec2::new(0.5 * apart * side, y));
                 scene.body(body.velocity(Vec2::new(-speed * side, 0.0)));
             }
         }
@@ -196,7 +196,7 @@ pub(super) fn debris(lab: &mut Lab<'_>) -> Vec<Measure> {
             let half = 0.01 * 50.0_f32.powf(random.range(0.0, 1.0));
             scene.body(fixed(rect(half, 60.0), Vec2::new(x + half, -30.0)));
             let speed = Vec2::new(random.range(10.0, 100.0), random.range(-5.0, 5.0));
-            let thing = moving(shape.clone(), Vec2::new(x - random.range(4.0, 7.0), 0.0));
+            let thing = moving(shape, Vec2::new(x - random.range(4.0, 7.0), 0.0));
             let thing = thing.angle(random.range(0.0, 3.0)).velocity(speed);
             scene.body(thing.angular_velocity(random.range(2.0, 20.0)));
         }

@@ -222,7 +222,7 @@ mod tests {
                 let point = DVec2::from(point);
                 sum.area += area;
                 sum.first = sum.first + point * area;
-                sum.second += dot(point, point) * area;
+                sum.second += point.length_sq() * area;
             }
         }
         sum.finish(DVec2::ZERO, 1.0)

@@ -1,6 +1,8 @@
 //! Vectors and poses from and to those of other crates.
 
-use super::{DVec2, Pose, Rot, Transform, Vec2};
+#[cfg(any(test, feature = "glam", feature = "mint"))]
+use super::Vec2;
+use super::{DVec2, Pose, Rot};
 
 impl From<(f64, f64)> for DVec2 {
     fn from((x, y): (f64, f64)) -> Self {
@@ -50,7 +52,8 @@ macro_rules! wider {
 
 #[cfg(feature = "glam")]
 mod with_glam {
-    use super::{DVec2, Pose, Rot, Transform, Vec2};
+    use super::{DVec2, Pose, Rot, Vec2};
+    use crate::math::Transform;
     use glam::{Affine2, DAffine2, DMat2, Mat2};
 
     same_parts!(glam::Vec2, Vec2; glam::DVec2, DVec2;);

@@ -268,7 +268,7 @@ mod tests {
     }
 
     fn act(history: &mut History, step: usize) {
-        if step % 5 == 0 {
+        if step.is_multiple_of(5) {
             let place = Vec2::new((step % 7) as f32, 6.0);
             let ball = RigidBody::dynamic().position(place).shape(Shape::circle(0.3).unwrap());
             history.apply(Command::AddBody(ball)).unwrap();

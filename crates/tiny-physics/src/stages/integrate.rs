@@ -116,9 +116,9 @@ fn advance(row: &mut Row, factor: &[f32; 4], h: f32, limits: Limits) {
         limit(&mut v, speed_sq, limits);
     }
     let way = [h * v[0], h * v[1], h * v[2], 0.0];
-    for k in 0..4 {
-        row[k] = v[k];
-        row[4 + k] += way[k];
+    row[..4].copy_from_slice(&v);
+    for (place, way) in row[4..].iter_mut().zip(way) {
+        *place += way;
     }
 }
 

@@ -17,16 +17,6 @@ macro_rules! handle {
                 Self { index, generation }
             }
 
-            /// The handle as a number: for user data, files, and other languages.
-            pub fn to_bits(self) -> u64 {
-                u64::from(self.generation) << 32 | u64::from(self.index)
-            }
-
-            /// The handle that [`Self::to_bits`] made this number of. Any other number is a stale handle.
-            pub fn from_bits(bits: u64) -> Self {
-                Self::new(bits as u32, (bits >> 32) as u32)
-            }
-
             /// Dense index: small, reused after removal. For tables beside the world.
             pub fn index(self) -> usize {
                 self.index as usize
