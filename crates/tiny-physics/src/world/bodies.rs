@@ -2,6 +2,7 @@
 
 use super::World;
 use super::build::MAX_COORDINATE;
+use super::contacts::ContactView;
 use super::ids::{BodyId, ShapeId};
 use super::state::State;
 use crate::describe::BodyKind;
@@ -111,8 +112,17 @@ impl<'a> Body<'a> {
         self.info().user_data
     }
 
+    /// Its contacts that touch (or are about to) as of the last step, the newest first; none while it sleeps.
+    pub fn contacts(&self) -> impl Iterator<Item = ContactView> + use<'a> {
+        let world = self.world;
+        world
+            .contacts
+            .of_body(self.info().first_contact)
+            .filter_map(move |(i, _)| world.contact_view(i))
+    }
+
     /// Handles of its shapes, in the order in which it was described; later ones first.
-    pub fn shapes(&self) -> impl Iterator<Item = ShapeId> + 'a {
+    pub fn shapes(&self) -> impl Iterator<Item = ShapeId> + use<'a> {
         let world = self.world;
         world.state.shapes.of_body(self.info().first_shape).map(move |i| world.shape_id(i))
     }

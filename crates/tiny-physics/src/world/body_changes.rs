@@ -40,7 +40,7 @@ impl<'a> Body<'a> {
     }
 
     /// Handles of its joints, the newest first.
-    pub fn joints(&self) -> impl Iterator<Item = JointId> + 'a {
+    pub fn joints(&self) -> impl Iterator<Item = JointId> + use<'a> {
         let world = self.world;
         world.state.joints.of_body(self.info().first_joint).map(move |(i, _)| world.joint_id(i))
     }

@@ -5,7 +5,7 @@ use super::events::{ContactBegin, ContactEnd, Hit};
 use super::ids::{BodyId, ShapeId};
 use super::state::State;
 use crate::describe::BodyKind;
-use crate::dynamics::{Bucket, NULL, flags};
+use crate::dynamics::{Bucket, NULL, Place, flags};
 use crate::math::{DVec2, Vec2};
 use crate::simd::BLOCK;
 use crate::stages::islands::Stores;
@@ -62,6 +62,14 @@ impl World {
         self.state.graph.touching_buckets().flat_map(move |(_, bucket)| {
             (0..bucket.contacts.len()).map(move |slot| self.view(bucket, slot))
         })
+    }
+
+    /// A contact as the user sees it, where it touches and is awake.
+    pub(super) fn contact_view(&self, index: u32) -> Option<ContactView> {
+        let contact = &self.state.contacts.records[index as usize];
+        let Place::Graph { colour, slot } = contact.place else { return None };
+        let bucket = self.state.graph.find(usize::from(colour), contact.class)?;
+        contact.touching.then(|| self.view(bucket, slot as usize))
     }
 
     pub(super) fn view(&self, bucket: &Bucket, slot: usize) -> ContactView {

@@ -161,6 +161,7 @@ impl World {
     /// then.
     pub fn try_step(&mut self, dt: f32) -> Result<(), Error> {
         let lengths = self.step_lengths(dt)?;
+        self.stats.dt = dt;
         let pool = self.pool.clone();
         pool.scope(|team| self.run_stages(team, lengths));
         self.state.step_count += 1;

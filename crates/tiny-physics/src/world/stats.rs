@@ -51,6 +51,8 @@ impl Stage {
 pub struct Stats {
     pub(crate) timed: bool,
     pub(crate) seconds: [f64; Stage::ALL.len()],
+    /// Length of the last step, seconds.
+    pub dt: f32,
     /// Pairs of shapes that came near and became contacts.
     pub candidate_pairs: usize,
     /// Shapes that left their fat boxes.

@@ -1,0 +1,100 @@
+//! Energy that comes from nowhere.
+
+use crate::look::{About, Findings, Look, Sighting, Words, figure};
+use crate::{Code, Severity};
+use tiny_physics::{Body, BodyKind};
+
+/// Steps with growing energy before it is a finding.
+const GROWING: u32 = 30;
+/// Factor by which kinetic energy has to pass what was there before.
+const FACTOR: f64 = 1.5;
+
+#[derive(Default, Debug, Clone)]
+pub(crate) struct Memory {
+    kinetic: f64,
+    potential: f64,
+    mass: f64,
+    moved: bool,
+    gravity: [f32; 2],
+    /// Least energy since the world was last changed, joules.
+    least: Option<f64>,
+    last: f64,
+    /// Greatest kinetic energy until the energy was least.
+    peak: f64,
+    growing: u32,
+}
+
+impl Memory {
+    /// The world has been changed: what was before says nothing.
+    pub(crate) fn reset(&mut self) {
+        (self.least, self.growing, self.peak) = (None, 0, 0.0);
+    }
+
+    pub(crate) fn begin(&mut self) {
+        (self.kinetic, self.potential, self.mass, self.moved) = (0.0, 0.0, 0.0, false);
+    }
+
+    pub(crate) fn add(&mut self, look: &Look<'_>, body: &Body<'_>) {
+        let velocity = body.velocity();
+        if body.kind() != BodyKind::Dynamic {
+            self.moved |= velocity.length_sq() > 0.0 || body.angular_velocity() != 0.0;
+            return;
+        }
+        let mass = f64::from(body.mass());
+        let turning = f64::from(body.angular_velocity());
+        self.kinetic += 0.5
+            * (mass * f64::from(velocity.length_sq())
+                + f64::from(body.inertia()) * turning * turning);
+        let (center, gravity) = (body.center(), look.world.gravity * body.gravity_scale());
+        self.potential -=
+            mass * (center.x * f64::from(gravity.x) + center.y * f64::from(gravity.y));
+        self.mass += mass;
+    }
+
+    /// Judges the sums, where they are those of all bodies.
+    pub(crate) fn end(
+        &mut self,
+        look: &Look<'_>,
+        whole: bool,
+        driven: bool,
+        findings: &mut Findings,
+    ) {
+        let gravity = look.world.gravity;
+        if !whole || driven || self.moved || self.gravity != [gravity.x, gravity.y] {
+            self.gravity = [gravity.x, gravity.y];
+            self.reset();
+            return;
+        }
+        let energy = self.kinetic + self.potential;
+        let least = self.least.map_or(energy, |least| least.min(energy));
+        if self.least.is_none_or(|before| energy <= before) {
+            self.peak = self.peak.max(self.kinetic);
+            self.growing = 0;
+        }
+        self.growing += u32::from(energy > self.last && self.least.is_some());
+        (self.least, self.last) = (Some(least), energy);
+        let unit = f64::from(look.unit);
+        let scale = self.peak + 0.05 * self.mass * unit * (f64::from(gravity.length()) + unit);
+        let gain = energy - least;
+        if self.growing >= GROWING && gain > FACTOR * scale {
+            self.report(look, gain, FACTOR * scale, findings);
+        }
+    }
+
+    fn report(&self, look: &Look<'_>, gain: f64, bound: f64, findings: &mut Findings) {
+        let bodies = look.world.body_ids().filter_map(|id| look.world.body(id));
+        let energy =
+            |body: &Body<'_>| f64::from(body.mass()) * f64::from(body.velocity().length_sq());
+        let fastest = bodies
+            .filter(|body| body.kind() == BodyKind::Dynamic)
+            .max_by(|a, b| energy(a).total_cmp(&energy(b)));
+        let figure = figure("energy gained", gain as f32, bound as f32, " J");
+        let seen = Sighting::new(Code::EnergyGain, Severity::Warning, About::World, figure);
+        findings.add(look, seen, || Words {
+            what: format!("energy has grown by {gain:.1} J in {} steps without a motor or a moved body", self.growing),
+            advice: "if your program pushes in each step, that is it: bound the force, add damping; else look for joints made out of place and restitution near 1",
+            bodies: fastest.map(|body| body.id()).into_iter().collect(),
+            ..Words::default()
+        });
+    }
+}

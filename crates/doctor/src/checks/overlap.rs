@@ -1,0 +1,337 @@
+//! Bodies inside each other: from the start, deep, stuck, sinking; and those that never meet.
+
+use crate::look::{About, Findings, Look, Sighting, Touch, Words, figure};
+use crate::track::Track;
+use crate::{Code, Severity};
+use tiny_physics::{Body, BodyId, BodyKind, QueryFilter, ShapeRef, contact};
+
+/// Length units: what is less deep is never called deep.
+const DEEP: f32 = 0.04;
+/// Length units by which overlap has to grow to be sinking.
+const SINKING: f32 = 0.01;
+/// Seconds in its place after which a body has settled.
+const SETTLED: f32 = 0.7;
+/// Seconds after which overlap is no longer from the start.
+const START: f32 = 1.0;
+
+/// Looks at how deep its contacts are.
+pub(crate) fn check(
+    look: &Look<'_>,
+    body: &Body<'_>,
+    track: &mut Track,
+    touches: &[Touch],
+    findings: &mut Findings,
+) {
+    if body.kind() != BodyKind::Dynamic {
+        return;
+    }
+    let deepest = touches.iter().copied().reduce(|a, b| if b.overlap > a.overlap { b } else { a });
+    check_sinking(look, track, deepest.as_ref(), findings);
+    if let Some(touch) = deepest.filter(|touch| touch.overlap > bound(look, touch)) {
+        track.deep_looks += 1;
+        let age = (look.step - track.since) as f32 * look.dt;
+        if age < START && track.placed.is_none() {
+            at_start(look, track, &touch, age, findings);
+        } else if track.deep_looks >= 2 && !findings.has(Code::Sinking, About::Body(track.id)) {
+            deep(look, body, track, touches, &touch, findings);
+        }
+    } else {
+        track.deep_looks = 0;
+    }
+    track.overlap = deepest.map_or(0.0, |touch| touch.overlap);
+}
+
+/// From which overlap on a contact is deep, metres.
+fn bound(look: &Look<'_>, touch: &Touch) -> f32 {
+    let thin = |id| look.world.shape(id).map_or(0.0, |shape| shape.shape().inner_radius());
+    // A line has no thickness of its own.
+    let (a, b) = (thin(touch.own), thin(touch.shape));
+    let thinner = if a > 0.0 && (b == 0.0 || a < b) { a } else { b };
+    (0.2 * thinner).max(DEEP * look.unit)
+}
+
+fn at_start(look: &Look<'_>, track: &Track, touch: &Touch, age: f32, findings: &mut Findings) {
+    if age > 0.1 && !findings.has(Code::OverlapAtStart, About::Body(track.id)) {
+        return;
+    }
+    let figure = figure("overlap", touch.overlap, bound(look, touch), " m");
+    let seen =
+        Sighting::new(Code::OverlapAtStart, Severity::Warning, About::Body(track.id), figure);
+    findings.add(look, seen, || Words {
+        what: format!("{} was created {:.3} m inside {} of {}", track.id, touch.overlap, touch.shape, touch.body),
+        advice: "let bodies touch or leave a gap at the start: overlap is pushed apart, and piles jump or wedge",
+        bodies: vec![track.id, touch.body],
+        shapes: vec![touch.own, touch.shape],
+        ..Words::default()
+    });
+}
+
+fn deep(
+    look: &Look<'_>,
+    body: &Body<'_>,
+    track: &Track,
+    touches: &[Touch],
+    touch: &Touch,
+    findings: &mut Findings,
+) {
+    let cause = cause(look, body, track, touches, touch);
+    // What it overlapped with from the start is told as that.
+    let started = findings.has(Code::OverlapAtStart, About::Body(track.id));
+    let inside = touch.overlap > 0.5 * track.thin && track.thin > 0.0;
+    if track.still > 0.5 && inside && !matches!(cause, Cause::Crushed(_)) {
+        report_stuck(look, body, track, touch, findings);
+    } else if !started {
+        report_deep(look, track, touch, &cause, findings);
+    }
+}
+
+/// It has fallen asleep: is it inside something?
+pub(crate) fn slept(look: &Look<'_>, track: &Track, findings: &mut Findings) {
+    let (bound, within) = (0.5 * track.thin, track.overlap);
+    if track.deep_looks < 2 || within < bound || bound == 0.0 {
+        return;
+    }
+    let figure = figure("overlap", within, bound, " m");
+    let seen = Sighting::new(Code::Stuck, Severity::Error, About::Body(track.id), figure);
+    findings.add(look, seen, || Words {
+        what: format!("{} fell asleep {within:.2} m inside another body", track.id),
+        advice: "put it where there is room (overlap_shape tells); locks may keep it from being pushed out",
+        bodies: vec![track.id],
+        ..Words::default()
+    });
+}
+
+fn report_stuck(
+    look: &Look<'_>,
+    body: &Body<'_>,
+    track: &Track,
+    touch: &Touch,
+    findings: &mut Findings,
+) {
+    let figure = figure("overlap", touch.overlap, 0.5 * track.thin, " m");
+    let seen = Sighting::new(Code::Stuck, Severity::Error, About::Body(track.id), figure);
+    let locks = body.locks();
+    let locked = locks.x || locks.y;
+    findings.add(look, seen, || Words {
+        what: format!("{} is {:.2} m inside {} and does not come out", track.id, touch.overlap, touch.body),
+        advice: if locked {
+            "its locks keep it from being pushed out: unlock the axis, or put it elsewhere"
+        } else if look.world.settings.push_speed * look.unit < 0.05 {
+            "Settings::push_speed is so small that overlap is hardly pushed out: use the default"
+        } else {
+            "put it where there is room (overlap_shape tells), or make the gap that it is wedged in wider"
+        },
+        bodies: vec![track.id, touch.body],
+        shapes: vec![touch.own, touch.shape],
+        ..Words::default()
+    });
+}
+
+/// Why a contact is deep.
+enum Cause {
+    Crushed(BodyId),
+    Placed,
+    Weight(f32),
+    Push,
+}
+
+fn cause(
+    look: &Look<'_>,
+    body: &Body<'_>,
+    track: &Track,
+    touches: &[Touch],
+    touch: &Touch,
+) -> Cause {
+    let world = look.world;
+    let moved = |touch: &&Touch| {
+        world.body(touch.body).is_some_and(|other| {
+            let speed = other.velocity().length() + other.angular_velocity().abs() * track.size;
+            other.kind() == BodyKind::Kinematic && speed > 0.0
+        })
+    };
+    if let Some(crusher) = touches.iter().find(moved) {
+        return Cause::Crushed(crusher.body);
+    }
+    let other_placed =
+        world.body(touch.body).is_some_and(|other| other.kind() != BodyKind::Dynamic);
+    if track.placed.is_some_and(|step| look.step - step < 120) && other_placed {
+        return Cause::Placed;
+    }
+    let masses =
+        touches.iter().filter_map(|touch| world.body(touch.body)).map(|other| other.mass());
+    let heaviest = masses.fold(0.0, f32::max);
+    let ratio = heaviest / body.mass().max(f32::MIN_POSITIVE);
+    if ratio > 10.0 { Cause::Weight(ratio) } else { Cause::Push }
+}
+
+fn report_deep(
+    look: &Look<'_>,
+    track: &Track,
+    touch: &Touch,
+    cause: &Cause,
+    findings: &mut Findings,
+) {
+    let figure = figure("overlap", touch.overlap, bound(look, touch), " m");
+    let about = About::Body(track.id);
+    let seen = Sighting::new(Code::DeepOverlap, Severity::Warning, about, figure);
+    findings.add(look, seen, || {
+        let start = format!("{} is {:.3} m inside {}", track.id, touch.overlap, touch.body);
+        let (what, advice) = match cause {
+            Cause::Crushed(by) => (
+                format!("{start}: {by}, which nothing can stop, pushes it against something else"),
+                "let the moved body stop or turn back when it meets resistance: make it dynamic and drive it by a motor of bounded force",
+            ),
+            Cause::Placed => (
+                format!("{start}: it was put there"),
+                "ask overlap_shape whether there is room before setting a position",
+            ),
+            Cause::Weight(ratio) => (
+                format!("{start}: what presses on it is {ratio:.0} times as heavy"),
+                "bring the masses closer together, or give the world more substeps",
+            ),
+            Cause::Push => (
+                format!("{start} and is only slowly pushed out"),
+                "raise Settings::push_speed, or look for what pushes it in: forces in each step, a joint, a crowd that does not fit",
+            ),
+        };
+        Words { what, advice, bodies: vec![track.id, touch.body], shapes: vec![touch.own, touch.shape], ..Words::default() }
+    });
+}
+
+fn check_sinking(
+    look: &Look<'_>,
+    track: &mut Track,
+    deepest: Option<&Touch>,
+    findings: &mut Findings,
+) {
+    let Some(touch) = deepest.filter(|_| track.still > SETTLED) else {
+        track.resting_overlap = None;
+        return;
+    };
+    let sunk = touch.overlap - *track.resting_overlap.get_or_insert(touch.overlap);
+    let bound = SINKING * look.unit;
+    if sunk < bound {
+        return;
+    }
+    let figure = figure("sunk by", sunk, bound, " m");
+    let seen = Sighting::new(Code::Sinking, Severity::Warning, About::Body(track.id), figure);
+    findings.add(look, seen, || Words {
+        what: format!("{} rests, and yet it sinks into {}", track.id, touch.body),
+        advice: "its contacts are too soft for the load: raise Settings::contact_hertz and substeps, or make what lies on it lighter",
+        bodies: vec![track.id, touch.body],
+        shapes: vec![touch.own, touch.shape],
+        ..Words::default()
+    });
+}
+
+/// Is it inside something that it never meets?
+pub(crate) fn check_unmet(
+    look: &Look<'_>,
+    body: &Body<'_>,
+    track: &Track,
+    findings: &mut Findings,
+) {
+    let world = look.world;
+    let filter = QueryFilter::new().sensors().exclude(track.id);
+    let touched: Vec<_> = body.contacts().map(|c| [c.shape_a, c.shape_b]).collect();
+    for own in body.shapes().filter_map(|id| world.shape(id)) {
+        for shape in world.overlap_shape(own.shape(), own.pose(), &filter).into_iter().take(8) {
+            let Some(other) = world.shape(shape) else { continue };
+            if touched.iter().any(|pair| pair.contains(&own.id()) && pair.contains(&shape)) {
+                continue;
+            }
+            let Some(partner) = world.body(other.body()) else { continue };
+            let depth = contact(own.shape(), &own.pose(), other.shape(), &other.pose())
+                .map_or(0.0, |c| c.depth);
+            let bound = 0.3 * thinner(&own, &other);
+            if depth > bound && (body.is_awake() || !body.is_enabled()) {
+                report_unmet(look, body, &partner, track, [&own, &other], [depth, bound], findings);
+            }
+        }
+    }
+}
+
+fn thinner(a: &ShapeRef<'_>, b: &ShapeRef<'_>) -> f32 {
+    let (a, b) = (a.shape().inner_radius(), b.shape().inner_radius());
+    if a > 0.0 && (b == 0.0 || a < b) { a } else { b }
+}
+
+/// Why two shapes do not meet, and whether that looks like a mistake.
+fn reason(
+    look: &Look<'_>,
+    body: &Body<'_>,
+    partner: &Body<'_>,
+    shapes: [&ShapeRef<'_>; 2],
+    falls: bool,
+) -> Option<(&'static str, &'static str, Severity)> {
+    let [own, other] = shapes;
+    let ground = partner.kind() == BodyKind::Static && falls;
+    let worse = if ground { Severity::Warning } else { Severity::Note };
+    let (a, b) = (own.filter(), other.filter());
+    if own.one_way().is_some() || other.one_way().is_some() {
+        return None;
+    }
+    if !body.is_enabled() || !partner.is_enabled() {
+        return Some(("one of the bodies is not enabled", "call set_enabled(true)", worse));
+    }
+    if own.is_sensor() || other.is_sensor() {
+        // Zones are meant to be entered; ground that one falls through is not.
+        let looks_solid = ground && own.is_sensor() && !other.is_sensor();
+        return looks_solid.then_some((
+            "the falling shape is a sensor",
+            "leave out `sensor`, or give the body a solid shape beside it",
+            Severity::Warning,
+        ));
+    }
+    if body.kind() != BodyKind::Dynamic && partner.kind() != BodyKind::Dynamic {
+        return Some((
+            "neither body is dynamic",
+            "kinematic and static bodies never collide: make one dynamic, or lead it by cast_shape",
+            Severity::Note,
+        ));
+    }
+    let joint = body.joints().filter_map(|id| look.world.joint(id)).find(|joint| {
+        [joint.bodies().0, joint.bodies().1].contains(&partner.id())
+            && !joint.def().collide_connected
+    });
+    if joint.is_some() {
+        return Some(("a joint connects them", "set JointDef::collide_connected", worse));
+    }
+    if a.group == b.group && a.group < 0 {
+        return Some(("both are in one negative group", "give one another group, or 0", worse));
+    }
+    if !a.collides(&b) {
+        let one_sided = (a.mask & b.category != 0) != (b.mask & a.category != 0);
+        let severity = if one_sided { Severity::Warning } else { worse };
+        let why = if one_sided {
+            "the mask of only one of them excludes the other"
+        } else {
+            "their masks exclude each other"
+        };
+        return Some((why, "each one's mask needs a bit of the other's category", severity));
+    }
+    None
+}
+
+fn report_unmet(
+    look: &Look<'_>,
+    body: &Body<'_>,
+    partner: &Body<'_>,
+    track: &Track,
+    shapes: [&ShapeRef<'_>; 2],
+    [depth, bound]: [f32; 2],
+    findings: &mut Findings,
+) {
+    let speed = track.velocity.dot(look.down());
+    let falls = body.kind() == BodyKind::Dynamic && speed > 1.0 * look.unit || !body.is_enabled();
+    let Some((why, advice, severity)) = reason(look, body, partner, shapes, falls) else { return };
+    let figure = figure("overlap", depth, bound, " m");
+    let seen = Sighting::new(Code::Filter, severity, About::Body(track.id), figure);
+    findings.add(look, seen, || Words {
+        what: format!("{} and {} overlap and never meet: {why}", track.id, partner.id()),
+        advice,
+        bodies: vec![track.id, partner.id()],
+        shapes: shapes.map(|shape| shape.id()).to_vec(),
+        ..Words::default()
+    });
+}

@@ -1,0 +1,191 @@
+//! Bodies that should be at rest: jitter, and what keeps them awake.
+
+use crate::look::{About, Findings, Look, Sighting, Touch, Words, figure};
+use crate::track::Track;
+use crate::{Code, Severity};
+use tiny_physics::{Body, BodyKind, JointRef};
+
+/// Metres a second, by the length unit, at which what is at rest shakes visibly.
+const SHAKING: f32 = 0.02;
+/// Part of the steps in which a velocity turns round.
+const TURNS: f32 = 0.125;
+/// Seconds at one place and awake.
+const AWAKE: f32 = 5.0;
+/// Wakings at one place.
+const WAKINGS: u32 = 10;
+
+/// Does a body call for a thorough look?
+pub(crate) fn calls(look: &Look<'_>, before: &Track, track: &Track) -> bool {
+    let change = (track.velocity - before.velocity).length();
+    let hit = change > 1.0 * look.unit + 3.0 * look.world.gravity.length() * look.dt;
+    let turn = (look.step + track.id.index() as u64) % 4 == 0;
+    let falling = track.free > 0.2 && track.velocity.length() > 1.0 * look.unit;
+    let shaking = track.still > 1.0 && track.flips > TURNS && track.speed > SHAKING * look.unit;
+    let deep = track.deep_looks > 0;
+    let young = look.step - track.since < 6;
+    let restless = track.still > AWAKE && (look.step + track.id.index() as u64) % 32 == 0;
+    hit || turn && (falling || shaking || deep || young) || restless
+}
+
+pub(crate) fn check(
+    look: &Look<'_>,
+    body: &Body<'_>,
+    track: &Track,
+    touches: &[Touch],
+    findings: &mut Findings,
+) {
+    let shaking = track.still > 1.0 && track.flips > TURNS && track.speed > SHAKING * look.unit;
+    if shaking && !touches_moved(look, touches) {
+        jitter(look, body, track, touches, findings);
+    } else if track.still > AWAKE {
+        never_sleeps(look, body, track, touches, findings);
+    }
+}
+
+fn touches_moved(look: &Look<'_>, touches: &[Touch]) -> bool {
+    touches.iter().filter_map(|touch| look.world.body(touch.body)).any(|other| {
+        other.kind() == BodyKind::Kinematic
+            && (other.velocity().length() > 0.0 || other.angular_velocity() != 0.0)
+    })
+}
+
+/// A joint of the body with a motor that is at work.
+fn motor_of<'a>(look: &Look<'a>, body: &Body<'a>) -> Option<JointRef<'a>> {
+    let joints = body.joints().filter_map(|id| look.world.joint(id));
+    joints.into_iter().find(|joint| super::joints::is_driven(&joint.def().kind))
+}
+
+fn jitter(
+    look: &Look<'_>,
+    body: &Body<'_>,
+    track: &Track,
+    touches: &[Touch],
+    findings: &mut Findings,
+) {
+    let figure = figure("speed at rest", track.speed, SHAKING * look.unit, " m/s");
+    let seen = Sighting::new(Code::Jitter, Severity::Warning, About::Body(track.id), figure);
+    let motor = motor_of(look, body);
+    findings.add(look, seen, || {
+        let (why, advice) = if let Some(joint) = &motor {
+            (format!("; {} drives it", joint.id()), "lower the motor's greatest force, or turn the motor off at its limit")
+        } else if body.joints().next().is_some() {
+            (", and joints hold it".to_owned(), "look for joints that exclude each other or are too stiff; add damping or joint friction")
+        } else if track.size < 0.05 * look.unit {
+            ("; it is very small".to_owned(), "set Settings::length_unit to the size of a usual body")
+        } else if touches.is_empty() {
+            (", though it touches nothing".to_owned(), "something is set in each step: a force, a velocity or a position")
+        } else {
+            (String::new(), "look for a force, velocity or position that is set in each step; else make overlap at the start, mass ratios and restitution smaller")
+        };
+        Words {
+            what: format!("{} is at rest and yet shakes at {:.2} m/s{why}", track.id, track.speed),
+            advice,
+            bodies: vec![track.id],
+            joints: motor.iter().map(|joint| joint.id()).collect(),
+            ..Words::default()
+        }
+    });
+}
+
+fn never_sleeps(
+    look: &Look<'_>,
+    body: &Body<'_>,
+    track: &Track,
+    touches: &[Touch],
+    findings: &mut Findings,
+) {
+    if track.speed > 2.0 * body.sleep_speed().max(0.05 * look.unit) {
+        return;
+    }
+    let figure = figure("awake at rest for", track.still, AWAKE, " s");
+    let (why, advice, severity) = what_keeps_awake(look, body, track, touches);
+    let seen = Sighting::new(Code::NeverSleeps, severity, About::Body(track.id), figure);
+    findings.add(look, seen, || Words {
+        what: format!("{} is at rest and stays awake: {why}", track.id),
+        advice,
+        bodies: vec![track.id],
+        ..Words::default()
+    });
+}
+
+/// It has woken once more.
+pub(crate) fn woke(look: &Look<'_>, track: &mut Track, findings: &mut Findings) {
+    track.wakings += 1;
+    if track.wakings < WAKINGS {
+        return;
+    }
+    let figure = figure("woken", track.wakings as f32, WAKINGS as f32, " times");
+    let seen = Sighting::new(Code::NeverSleeps, Severity::Note, About::Body(track.id), figure);
+    findings.add(look, seen, || Words {
+        what: format!("{} is at rest and was woken {} times", track.id, track.wakings),
+        advice: "call wake, set_velocity, apply_force, set_position and the like only where something has to change",
+        bodies: vec![track.id],
+        ..Words::default()
+    });
+}
+
+fn what_keeps_awake(
+    look: &Look<'_>,
+    body: &Body<'_>,
+    track: &Track,
+    touches: &[Touch],
+) -> (String, &'static str, Severity) {
+    let world = look.world;
+    if !world.settings.sleep {
+        return (
+            "sleep is off".to_owned(),
+            "turn Settings::sleep on if bodies at rest shall cost nothing",
+            Severity::Note,
+        );
+    }
+    let neighbours = || touches.iter().filter_map(|touch| world.body(touch.body));
+    if !body.can_sleep() {
+        return ("it is told never to sleep".to_owned(), "set can_sleep(true)", Severity::Note);
+    }
+    if let Some(other) =
+        neighbours().find(|other| !other.can_sleep() && other.kind() == BodyKind::Dynamic)
+    {
+        return (
+            format!("{}, which it touches, is told never to sleep", other.id()),
+            "set can_sleep(true) there",
+            Severity::Note,
+        );
+    }
+    if touches_moved(look, touches) {
+        return (
+            "it lies on a body that is moved".to_owned(),
+            "let the moved body stand still when it has arrived (velocity 0)",
+            Severity::Note,
+        );
+    }
+    if let Some(joint) = motor_of(look, body) {
+        return (
+            format!("the motor of {} is at work", joint.id()),
+            "turn motors off that have arrived",
+            Severity::Note,
+        );
+    }
+    if touches.iter().any(|touch| belt(look, touch)) {
+        return (
+            "a belt runs under it".to_owned(),
+            "stop belts that nobody looks at",
+            Severity::Note,
+        );
+    }
+    if track.speed > body.sleep_speed() {
+        return (
+            "it never gets slow enough".to_owned(),
+            "raise sleep_speed for it, or find what shakes it",
+            Severity::Warning,
+        );
+    }
+    let advice = "a call in each step keeps it awake (apply_force, set_velocity, wake), or its island holds something restless";
+    ("nothing that can be seen moves it".to_owned(), advice, Severity::Warning)
+}
+
+fn belt(look: &Look<'_>, touch: &Touch) -> bool {
+    [touch.own, touch.shape]
+        .into_iter()
+        .filter_map(|id| look.world.shape(id))
+        .any(|shape| shape.material().tangent_speed != 0.0)
+}

@@ -1,0 +1,149 @@
+//! Sizes, units and masses.
+
+use crate::look::{About, Findings, Look, Sighting, Words, figure};
+use crate::track::Track;
+use crate::{Code, Severity};
+use tiny_physics::{Body, BodyId, BodyKind, JointId, World};
+
+/// Length units.
+const SMALLEST: f32 = 0.02;
+const LARGEST: f32 = 100.0;
+/// Median of sizes from which on units look like pixels.
+const LIKE_PIXELS: f32 = 12.0;
+const MIXED: f32 = 1000.0;
+/// Greatest factor between a body's density and the median.
+const ODD_DENSITY: f32 = 1000.0;
+/// Mass ratios of a note and of a warning.
+const RATIO: [f32; 2] = [50.0, 200.0];
+
+/// Is one body's size in range?
+pub(crate) fn check_one(look: &Look<'_>, body: &Body<'_>, track: &Track, findings: &mut Findings) {
+    let size = 2.0 * track.size / look.unit;
+    if body.kind() != BodyKind::Dynamic || size == 0.0 || (SMALLEST..=LARGEST).contains(&size) {
+        return;
+    }
+    let small = size < SMALLEST;
+    let figure = if small {
+        figure("times too small", SMALLEST / size, 1.0, "")
+    } else {
+        figure("times too large", size / LARGEST, 1.0, "")
+    };
+    let seen = Sighting::new(Code::Size, Severity::Warning, About::Body(track.id), figure);
+    findings.add(look, seen, || Words {
+        what: format!(
+            "{} is {} length units wide, far {} than what contacts are made for",
+            track.id,
+            size,
+            if small { "smaller" } else { "larger" }
+        ),
+        advice: "scale the world so that moving bodies are 0.1 to 10 units, or set Settings::length_unit to the size of a usual one",
+        bodies: vec![track.id],
+        ..Words::default()
+    });
+}
+
+/// Do the bodies fit the units and each other?
+pub(crate) fn check_all<'a>(
+    look: &Look<'_>,
+    tracks: impl Iterator<Item = &'a Track>,
+    findings: &mut Findings,
+) {
+    let (mut sizes, mut stuff) = (Vec::new(), Vec::new());
+    for track in tracks {
+        let Some(body) = look.world.body(track.id) else { continue };
+        if body.kind() == BodyKind::Dynamic && track.size > 0.0 {
+            sizes.push((2.0 * track.size / look.unit, track.id));
+            stuff.extend(density(look.world, &body).map(|density| (density, track.id)));
+        }
+    }
+    if sizes.is_empty() {
+        return;
+    }
+    sizes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    stuff.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (smallest, largest) = (sizes[0], sizes[sizes.len() - 1]);
+    let median = sizes[sizes.len() / 2].0;
+    if look.unit == 1.0 && median > LIKE_PIXELS {
+        let seen = Sighting::new(
+            Code::Size,
+            Severity::Warning,
+            About::World,
+            figure("usual size", median, LIKE_PIXELS, " units"),
+        );
+        findings.add(look, seen, || Words {
+            what: format!("bodies are {median:.0} units wide: that looks like pixels, and everything falls as slowly as from a tower"),
+            advice: "set Settings::length_unit to the pixels of a metre and gravity in pixels, or build the world in metres and scale what you draw",
+            ..Words::default()
+        });
+    } else if largest.0 > MIXED * smallest.0 {
+        let seen = Sighting::new(
+            Code::Size,
+            Severity::Warning,
+            About::World,
+            figure("largest by smallest", largest.0 / smallest.0, MIXED, ""),
+        );
+        findings.add(look, seen, || Words {
+            what: format!(
+                "{} is {:.0} times as large as {}: units look mixed",
+                largest.1,
+                largest.0 / smallest.0,
+                smallest.1
+            ),
+            advice: "give all lengths in one unit",
+            bodies: vec![largest.1, smallest.1],
+            ..Words::default()
+        });
+    }
+    check_density(look, &stuff, findings);
+}
+
+fn check_density(look: &Look<'_>, stuff: &[(f32, BodyId)], findings: &mut Findings) {
+    if stuff.len() < 2 {
+        return;
+    }
+    // Of two, each is as usual as the other: the lighter counts as usual.
+    let median = stuff[(stuff.len() - 1) / 2].0;
+    for &(density, id) in [stuff[0], stuff[stuff.len() - 1]].iter() {
+        let factor = if density > median { density / median } else { median / density };
+        if factor < ODD_DENSITY {
+            continue;
+        }
+        let figure = figure("density by the median", factor, ODD_DENSITY, "");
+        let seen = Sighting::new(Code::Density, Severity::Warning, About::Body(id), figure);
+        findings.add(look, seen, || Words {
+            what: format!("{id} has {density:.4} kg by square metre where {median:.4} is usual"),
+            advice: "leave out `mass` and give materials a density: masses then follow from sizes",
+            bodies: vec![id],
+            ..Words::default()
+        });
+    }
+}
+
+fn density(world: &World, body: &Body<'_>) -> Option<f32> {
+    let solid = body.shapes().filter_map(|id| world.shape(id)).filter(|shape| !shape.is_sensor());
+    let area: f32 = solid.map(|shape| shape.shape().area()).sum();
+    (area > 0.0 && body.mass() > 0.0).then(|| body.mass() / area)
+}
+
+/// A light body that carries a heavy one.
+pub(crate) fn report_ratio(
+    look: &Look<'_>,
+    [light, heavy]: [BodyId; 2],
+    ratio: f32,
+    joint: Option<JointId>,
+    findings: &mut Findings,
+) {
+    if ratio < RATIO[0] {
+        return;
+    }
+    let severity = if ratio >= RATIO[1] { Severity::Warning } else { Severity::Note };
+    let figure = figure("mass ratio", ratio, RATIO[0], "");
+    let seen = Sighting::new(Code::MassRatio, severity, About::Body(light), figure);
+    findings.add(look, seen, || Words {
+        what: format!("{light} carries {heavy}, which is {ratio:.0} times as heavy"),
+        advice: "bring the masses closer together (give materials a density instead of bodies a mass), or raise substeps",
+        bodies: vec![light, heavy],
+        joints: joint.into_iter().collect(),
+        ..Words::default()
+    });
+}

@@ -1,0 +1,188 @@
+//! What the doctor knows by name.
+
+use core::fmt;
+use core::str::FromStr;
+
+/// How bad it is.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Hash, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Severity {
+    /// Worth knowing; may well be meant.
+    Note,
+    /// Looks wrong or will.
+    Warning,
+    /// The world does what no user wants.
+    Error,
+}
+
+impl Severity {
+    /// The word used in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Note => "note",
+            Self::Warning => "warning",
+            Self::Error => "error",
+        }
+    }
+}
+
+macro_rules! codes {
+    ($($(#[doc = $doc:literal])+ $code:ident $name:literal $page:literal: $explain:literal;)+) => {
+        /// The kinds of findings.
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Hash, serde::Serialize)]
+        #[serde(rename_all = "snake_case")]
+        #[non_exhaustive]
+        pub enum Code {
+            $($(#[doc = $doc])+ $code,)+
+        }
+
+        impl Code {
+            /// All of them, in the order in which causes come before their effects.
+            pub const ALL: &[Self] = &[$(Self::$code,)+];
+
+            /// The name used in reports and on command lines.
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$code => $name,)+ }
+            }
+
+            /// The section of the guide's troubleshooting page.
+            pub fn page(self) -> &'static str {
+                match self { $(Self::$code => concat!("docs/guide/troubleshooting.md#", $page),)+ }
+            }
+
+            /// How it is told, and when the doctor may be wrong.
+            pub fn explain(self) -> &'static str {
+                match self { $(Self::$code => $explain,)+ }
+            }
+        }
+    };
+}
+
+codes! {
+    /// Numbers were refused, or bodies frozen because theirs stopped being finite.
+    RefusedInput "refused_input" "numbers-that-did-nothing":
+        "The engine counts steps, numbers and handles that it refused, and bodies that it froze because their numbers stopped \
+         being finite. Any count above zero is a finding. It cannot say which line of your program did it.";
+    /// Sizes far from what the engine is made for, or units that look like pixels.
+    Size "size" "sizes-and-units":
+        "Moving bodies are measured against the length unit: below 0.02 units or above 100 units is out of range; a median above 12 \
+         units with the length unit at 1 looks like pixels; a ratio above 1000 between the largest and the smallest looks like mixed \
+         units. Wrong where a world really is that large: then the sizes still cost precision, but may be meant.";
+    /// Stuff far lighter or heavier than the rest.
+    Density "density" "masses":
+        "Mass by area of each moving body against the median of all moving bodies: a factor of 1000 or more is a finding. Wrong where one \
+         body is meant to be a balloon or a neutron star.";
+    /// Time steps too long for the speeds.
+    StepTooLong "step_too_long" "time-steps":
+        "A step above 1/29 s is a finding: contacts and joints get softer with the square of the step. Wrong for slow scenes that nobody looks at.";
+    /// Time steps of many lengths.
+    VariableStep "variable_step" "time-steps":
+        "The lengths of the last 64 steps: more than a tenth of them differ by over 2 % from the most usual one. Runs can then not be repeated, and \
+         warm starting loses its accuracy.";
+    /// Bodies created inside others.
+    OverlapAtStart "overlap_at_start" "overlaps":
+        "In the first steps after a body was added, a contact is deeper than 4 cm (length units) and than a tenth of the thinner shape.";
+    /// A position set into or through others.
+    Teleport "teleport" "teleports":
+        "A body is somewhere else than its last step left it, further than its speed explains, and the straight way there leads through a shape that \
+         it collides with, or ends inside one. Portals and respawns do so on purpose.";
+    /// Shapes that look as if they should meet, and never do.
+    Filter "filter" "filters":
+        "Two shapes overlap by more than a seventh of the thinner one without a contact. The reason is read from masks, groups, sensors, joints, kinds of \
+         bodies and `is_enabled`. A note where it looks meant (groups, sensors, joints); a warning where only one of two masks excludes the other, or where a \
+         body falls through static ground.";
+    /// Went through something.
+    Tunnelling "tunnelling" "things-pass-through-each-other":
+        "The way of a body's centre in one step, seen from the other body, enters and leaves a shape that it collides with, without a contact between them. \
+         Grazing of corners is left out by demanding that the way through is longer than a tenth of the body's thickness.";
+    /// Moves further in a step than what it hits is thick.
+    NearMiss "near_miss" "things-pass-through-each-other":
+        "A body hit something while it moved further in a step than both are thick: only the sweep of continuous collision held it. A note, as long as it holds.";
+    /// At the speed limit.
+    SpeedLimit "speed_limit" "speed-limit":
+        "A body's speed is at 98 % or more of `Settings::max_speed`.";
+    /// Falls for ever.
+    FellOut "fell_out" "falling-for-ever":
+        "A body is below everything static by more than 30 units and ten times its size and still falls, or falls freely for more than 8 s.";
+    /// Inside something and does not come out.
+    Stuck "stuck" "overlaps":
+        "A body's overlap is over a quarter of its thickness for half a second while it stays where it is although nothing moves it apart.";
+    /// Squeezed, pushed or loaded into another body.
+    DeepOverlap "deep_overlap" "overlaps":
+        "A contact is deeper than 4 cm (length units) and a tenth of the thinner shape in two looks after the body's first second. The cause is looked for in \
+         this order: a moved body that crushes, a teleport, a mass ratio, the bound on pushing apart.";
+    /// A heavy body on a light one.
+    MassRatio "mass_ratio" "masses":
+        "Two bodies that touch or are joined differ in mass by a factor of 200 (warning) or 50 (note), and the light one has to carry the heavy one.";
+    /// Two constraints that exclude each other.
+    JointFight "joint_fight" "joints":
+        "A joint stays apart by more than 2 % of its bodies' size (and 1 cm) for a second while its bodies stand still, and bears over five times their weight: \
+         something holds against it, another joint, a limit or a contact.";
+    /// A joint whose anchors are apart.
+    JointStretch "joint_stretch" "joints":
+        "What a joint holds rigid is apart by more than 3 % of its bodies' size and 2 cm (length units), in two looks.";
+    /// A joint beyond its limits.
+    LimitOverrun "limit_overrun" "joints":
+        "A joint's coordinate is outside its limits by more than 0.07 rad or 3 cm (length units), in two looks.";
+    /// A motor that pushes into a limit.
+    MotorAtLimit "motor_at_limit" "joints":
+        "A motor drives a joint into the end of its range for a third of a second. A very strong one shakes there.";
+    /// Energy comes from nowhere.
+    EnergyGain "energy_gain" "energy":
+        "Kinetic and potential energy of all bodies grows past what it has been by half and more, though no motor, belt, mouse or moved body is there to do work. \
+         Forces and velocities that your program sets cannot be seen: if you set some, this is no fault.";
+    /// Speed lost at a seam between two shapes.
+    GhostBump "ghost_bump" "bumps-at-seams":
+        "A body that slides along static ground loses over 3 % of its speed and 0.3 m/s in one step, more than friction takes, while it touches two static shapes \
+         side by side whose surfaces meet with a ledge or a slit.";
+    /// Does not bounce though its material does.
+    RestitutionLost "restitution_lost" "bounces":
+        "A body with a restitution of 0.2 or more meets something whose mix with it is below a third of that, or hits slower than the restitution threshold while \
+         falling from more than its own size.";
+    /// At rest, yet it moves.
+    Jitter "jitter" "stacks-shake-sink-or-slide":
+        "A body stays within a tenth of its size for a second, and yet its velocity turns round in more than one step of eight at over 2 cm/s (length units).";
+    /// Goes down slowly though it rests.
+    Sinking "sinking" "stacks-shake-sink-or-slide":
+        "The overlap of a body at rest grows from look to look, by more than 1 cm (length units) in all.";
+    /// At rest, but never asleep.
+    NeverSleeps "never_sleeps" "never-asleep":
+        "A body stays in its place for five seconds and stays awake, or is woken ten times there. What keeps it awake is read from its settings, its neighbours and joints, and the events.";
+    /// Slow, and why.
+    Slow "slow" "it-is-slow":
+        "Told by counts, not by the clock: a debug build with many bodies, one body with hundreds of contacts, sensors in great number, a level of thousands of static \
+         bodies, bodies kept awake at rest, many polygons of more than four corners.";
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Code {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        let found = Self::ALL.iter().copied().find(|code| code.name() == name);
+        found.ok_or_else(|| {
+            let names: Vec<_> = Self::ALL.iter().map(|code| code.name()).collect();
+            format!("there is no finding `{name}`; there are {}", names.join(", "))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_found_again_and_are_those_of_json() {
+        for &code in Code::ALL {
+            assert_eq!(code.name().parse(), Ok(code));
+            assert_eq!(serde_json::to_string(&code).unwrap(), format!("\"{code}\""));
+            assert!(code.explain().ends_with('.'));
+        }
+        assert!("wobble".parse::<Code>().unwrap_err().contains("jitter"));
+    }
+}

@@ -1,0 +1,190 @@
+//! What a check sees, and where it says what it found.
+
+use crate::finding::{Figure, Finding, Who};
+use crate::{Code, Report, Severity};
+use std::collections::BTreeMap;
+use tiny_physics::{BodyId, ContactView, JointId, ShapeId, Vec2, World};
+
+/// One step of a world, as all checks see it.
+#[derive(Clone, Copy)]
+pub(crate) struct Look<'a> {
+    pub(crate) world: &'a World,
+    pub(crate) step: u64,
+    pub(crate) dt: f32,
+    /// Length unit: what metre-scaled bounds are multiplied by.
+    pub(crate) unit: f32,
+}
+
+impl<'a> Look<'a> {
+    pub(crate) fn new(world: &'a World) -> Self {
+        let dt = world.stats().dt;
+        Self { world, step: world.step_count(), dt, unit: world.settings.length_unit }
+    }
+
+    /// Down, unit; zero without gravity.
+    pub(crate) fn down(&self) -> Vec2 {
+        self.world.gravity.normalized()
+    }
+
+    fn body(&self, id: BodyId) -> Who<BodyId> {
+        Who { id, user_data: self.world.body(id).map_or(0, |body| body.user_data()) }
+    }
+
+    fn shape(&self, id: ShapeId) -> Who<ShapeId> {
+        Who { id, user_data: self.world.shape(id).map_or(0, |shape| shape.user_data()) }
+    }
+
+    fn joint(&self, id: JointId) -> Who<JointId> {
+        Who { id, user_data: self.world.joint(id).map_or(0, |joint| joint.user_data()) }
+    }
+}
+
+/// A contact seen from one of its bodies.
+#[derive(Clone, Copy)]
+pub(crate) struct Touch {
+    pub(crate) own: ShapeId,
+    pub(crate) shape: ShapeId,
+    pub(crate) body: BodyId,
+    /// Out of the other body.
+    pub(crate) normal: Vec2,
+    /// Metres, 0 or above.
+    pub(crate) overlap: f32,
+}
+
+impl Touch {
+    pub(crate) fn of(body: BodyId, contact: &ContactView) -> Self {
+        let first = contact.body_a == body;
+        let deepest = contact.points().iter().map(|p| p.separation).fold(0.0, f32::min);
+        let (own, shape, other) = if first {
+            (contact.shape_a, contact.shape_b, contact.body_b)
+        } else {
+            (contact.shape_b, contact.shape_a, contact.body_a)
+        };
+        Self {
+            own,
+            shape,
+            body: other,
+            normal: if first { -contact.normal } else { contact.normal },
+            overlap: -deepest,
+        }
+    }
+}
+
+/// What a finding is about: one for each is kept.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(crate) enum About {
+    World,
+    Body(BodyId),
+    Joint(JointId),
+}
+
+/// Something seen: a finding in the making.
+pub(crate) struct Sighting {
+    pub(crate) code: Code,
+    pub(crate) severity: Severity,
+    pub(crate) about: About,
+    pub(crate) figure: Figure,
+}
+
+impl Sighting {
+    pub(crate) fn new(code: Code, severity: Severity, about: About, figure: Figure) -> Self {
+        Self { code, severity, about, figure }
+    }
+}
+
+/// A figure with its bound.
+pub(crate) fn figure(name: &'static str, value: f32, threshold: f32, unit: &'static str) -> Figure {
+    Figure { name, value: f64::from(value), threshold: f64::from(threshold), unit }
+}
+
+/// The words of a finding, made only where they are needed.
+#[derive(Default)]
+pub(crate) struct Words {
+    pub(crate) what: String,
+    pub(crate) advice: &'static str,
+    pub(crate) bodies: Vec<BodyId>,
+    pub(crate) shapes: Vec<ShapeId>,
+    pub(crate) joints: Vec<JointId>,
+    pub(crate) figures: Vec<Figure>,
+}
+
+/// Findings kept of one code; more are counted.
+const KEPT: usize = 16;
+
+/// All that was found.
+#[derive(Default, Debug, Clone)]
+pub(crate) struct Findings {
+    found: BTreeMap<Code, BTreeMap<About, Finding>>,
+    more: BTreeMap<Code, u64>,
+}
+
+impl Findings {
+    /// Books a sighting; asks for words where it is new or worse than before.
+    pub(crate) fn add(&mut self, look: &Look<'_>, seen: Sighting, words: impl FnOnce() -> Words) {
+        let kept = self.found.entry(seen.code).or_default();
+        if let Some(known) = kept.get_mut(&seen.about) {
+            known.count += 1;
+            known.last_step = look.step;
+            let worse = seen.severity > known.severity
+                || seen.severity == known.severity
+                    && seen.figure.value > known.figures[0].value * 1.1;
+            if worse {
+                let (first_step, count) = (known.first_step, known.count);
+                *known = Finding { first_step, count, ..describe(look, &seen, words()) };
+            }
+        } else if kept.len() < KEPT {
+            kept.insert(seen.about, describe(look, &seen, words()));
+        } else {
+            *self.more.entry(seen.code).or_default() += 1;
+        }
+    }
+
+    /// Is anything of this code known about a body?
+    pub(crate) fn has(&self, code: Code, about: About) -> bool {
+        self.found.get(&code).is_some_and(|kept| kept.contains_key(&about))
+    }
+
+    /// One finding for each code and severity: the one that weighs most; the others are counted.
+    pub(crate) fn report(&self, steps: u64, bodies: usize) -> Report {
+        let mut findings: Vec<Finding> = Vec::new();
+        for (code, kept) in &self.found {
+            let mut worst: BTreeMap<Severity, Finding> = BTreeMap::new();
+            for finding in kept.values() {
+                let Some(known) = worst.get_mut(&finding.severity) else {
+                    worst.insert(finding.severity, finding.clone());
+                    continue;
+                };
+                let others = known.others + 1;
+                if finding.weight() > known.weight() {
+                    *known = finding.clone();
+                }
+                known.others = others;
+            }
+            if let Some(mut most) = worst.last_entry() {
+                most.get_mut().others += u64::from(self.more.contains_key(code));
+            }
+            findings.extend(worst.into_values());
+        }
+        Report { steps, bodies, findings }.sorted()
+    }
+}
+
+fn describe(look: &Look<'_>, seen: &Sighting, words: Words) -> Finding {
+    let mut figures = vec![seen.figure];
+    figures.extend(words.figures);
+    Finding {
+        code: seen.code,
+        severity: seen.severity,
+        first_step: look.step,
+        last_step: look.step,
+        count: 1,
+        others: 0,
+        bodies: words.bodies.into_iter().map(|id| look.body(id)).collect(),
+        shapes: words.shapes.into_iter().map(|id| look.shape(id)).collect(),
+        joints: words.joints.into_iter().map(|id| look.joint(id)).collect(),
+        figures,
+        what: words.what,
+        advice: words.advice.to_owned(),
+        page: seen.code.page(),
+    }
+}
