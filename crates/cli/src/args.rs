@@ -3,6 +3,7 @@
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use tiny_physics::SimdLevel;
+use tiny_physics_doctor::Code;
 
 /// A 2D rigid-body physics engine at work: walls hold, stacks stand, it stays light.
 #[derive(Parser, Debug)]
@@ -58,6 +59,19 @@ Examples:
   tiny-physics run my_scene.json --json"
     )]
     Run(RunArgs),
+    /// Watch a run and say what is wrong: where, since when, why, and what to change
+    #[command(
+        after_help = "Ends with status 0 where nothing worse than a note was found, with 1 where there is, so that a game's build server can
+use it.
+
+Examples:
+  tiny-physics doctor my_level.json
+  tiny-physics doctor crash.recording --json
+  tiny-physics doctor seed_demo --pictures moments
+  tiny-physics doctor stack --trace 3,4 --steps 60
+  tiny-physics doctor --explain jitter"
+    )]
+    Doctor(DoctorArgs),
     /// Time scenes stage by stage, on every SIMD level
     #[command(
         after_help = "Scenes go by name, by file, or by tag: benchmark (where nothing is said), box2d, show, scale (circles from
@@ -251,6 +265,31 @@ pub struct ListArgs {
     /// As JSON
     #[arg(long)]
     pub json: bool,
+}
+
+/// Options of `doctor`.
+#[derive(Args, Clone, Debug)]
+pub struct DoctorArgs {
+    /// Name of a built-in scene, a scene file (.json), or a recording
+    #[arg(value_name = "SCENE|FILE|RECORDING")]
+    pub subject: Option<String>,
+    /// Steps to watch; all of the scene or recording where not said
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub steps: Option<u32>,
+    /// Report as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Print the contacts of these bodies (by index) in each step, and mark normals that flip
+    #[arg(long, value_name = "BODY", value_delimiter = ',')]
+    pub trace: Vec<usize>,
+    /// Write pictures of the moments that the report speaks of into this folder
+    #[arg(long, value_name = "FOLDER")]
+    pub pictures: Option<PathBuf>,
+    /// Say how a finding is told and when it may be wrong, instead of watching anything
+    #[arg(long, value_name = "CODE")]
+    pub explain: Option<Code>,
+    #[command(flatten)]
+    pub world: WorldArgs,
 }
 
 /// Options of `run`.

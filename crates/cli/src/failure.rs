@@ -20,6 +20,16 @@ impl Failure {
         Self { what: what.into(), hint: None, broken_pipe: false }
     }
 
+    /// A failure about which everything has been said already.
+    pub fn without_words() -> Self {
+        Self::new("")
+    }
+
+    /// Is there anything to say?
+    pub fn has_words(&self) -> bool {
+        !self.what.is_empty()
+    }
+
     /// Adds what to do about it.
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());

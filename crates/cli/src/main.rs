@@ -17,7 +17,9 @@ fn main() -> ExitCode {
         // Whoever reads our output has seen enough: `tiny-physics list | head -3`.
         Err(failure) if failure.is_broken_pipe() => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("{failure}");
+            if failure.has_words() {
+                eprintln!("{failure}");
+            }
             ExitCode::FAILURE
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::args::Overlay;
 use crate::simulation::{Framing, Simulation};
-use tiny_physics::{DVec2, DebugDraw, DebugDrawOptions, Layer};
+use tiny_physics::{DVec2, DebugDraw, DebugDrawOptions, Layer, World};
 use tiny_physics_draw::{Camera, Canvas};
 
 /// What a picture shows besides bodies.
@@ -96,26 +96,38 @@ pub fn draw(
     overlays: &Overlays,
     note: &str,
 ) {
+    let lines = status_lines(simulation, note);
+    draw_world(canvas, simulation.world(), camera, overlays, &lines);
+    if let Some((from, to)) = simulation.pull_line() {
+        let relative = |p: DVec2| p.relative_to(camera.center);
+        let color = overlays.world.palette.joint;
+        canvas.layer(Layer::Joint);
+        canvas.segment(relative(from), relative(to), color);
+        canvas.point(relative(from), 7.0, color);
+    }
+}
+
+/// Draws a world, with lines of text if those are shown.
+pub fn draw_world(
+    canvas: &mut Canvas,
+    world: &World,
+    camera: &Camera,
+    overlays: &Overlays,
+    lines: &[String],
+) {
     canvas.begin(camera);
-    let view = camera.view();
     let options = DebugDrawOptions {
         origin: camera.center,
-        clip: Some(view),
+        clip: Some(camera.view()),
         point_size: (camera.scale * POINT_METRES).clamp(1.5, 6.5),
         ..overlays.world
     };
-    simulation.world().debug_draw(canvas, &options);
-    if let Some((from, to)) = simulation.pull_line() {
-        let relative = |p: DVec2| p.relative_to(camera.center);
-        canvas.layer(Layer::Joint);
-        canvas.segment(relative(from), relative(to), options.palette.joint);
-        canvas.point(relative(from), 7.0, options.palette.joint);
-    }
+    world.debug_draw(canvas, &options);
     if overlays.legend {
         canvas.legend(&options.palette);
     }
     if overlays.text {
-        canvas.status(&status_lines(simulation, note));
+        canvas.status(lines);
     }
 }
 

@@ -109,7 +109,7 @@ codes! {
         "A body's overlap is over a quarter of its thickness for half a second while it stays where it is although nothing moves it apart.";
     /// Squeezed, pushed or loaded into another body.
     DeepOverlap "deep_overlap" "overlaps":
-        "A contact is deeper than 4 cm (length units) and a tenth of the thinner shape in two looks after the body's first second. The cause is looked for in \
+        "A contact is deeper than 4 cm (length units) and a tenth of the thinner shape in two looks after the body's first second; a note where it passes within a quarter of a second, as a hard hit does. The cause is looked for in \
          this order: a moved body that crushes, a teleport, a mass ratio, the bound on pushing apart.";
     /// A heavy body on a light one.
     MassRatio "mass_ratio" "masses":
@@ -141,7 +141,7 @@ codes! {
          falling from more than its own size.";
     /// At rest, yet it moves.
     Jitter "jitter" "stacks-shake-sink-or-slide":
-        "A body stays within a tenth of its size for a second, and yet its velocity turns round in more than one step of eight at over 2 cm/s (length units).";
+        "A body stays within a tenth of its size for a second and more, and for another second and a half its velocity turns round in more than one step of eight at over 2 cm/s (length units).";
     /// Goes down slowly though it rests.
     Sinking "sinking" "stacks-shake-sink-or-slide":
         "The overlap of a body at rest grows from look to look, by more than 1 cm (length units) in all.";

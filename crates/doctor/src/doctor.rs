@@ -117,17 +117,14 @@ impl Doctor {
                 }
                 continue;
             };
-            if !body.is_awake() && body.is_enabled() {
-                track.glance(&body, 0.0);
-                track.glance = look.step;
-                self.energy.add(look, &body);
-                continue;
-            }
             let before = *track;
             let elapsed = (look.step - track.glance) as f32 * look.dt;
-            track.glance(&body, elapsed);
+            track.glance(&body, elapsed, look.unit);
             track.glance = look.step;
             self.energy.add(look, &body);
+            if !body.is_awake() && body.is_enabled() {
+                continue;
+            }
             if flight::glance(look, &body, &before, track, &self.ground, &mut self.findings) {
                 self.energy.reset();
             }

@@ -32,8 +32,10 @@ pub(crate) struct Track {
     pub(crate) overlap: f32,
     /// Overlap when it had come to rest, metres.
     pub(crate) resting_overlap: Option<f32>,
-    /// Looks in a row in which its overlap was deep.
-    pub(crate) deep_looks: u32,
+    /// Step since which its overlap has been deep.
+    pub(crate) deep_since: Option<u64>,
+    /// Seconds for which it has shaken in its place.
+    pub(crate) shaking: f32,
     /// Step in which it was last put somewhere else by the user.
     pub(crate) placed: Option<u64>,
     /// Wakings within its time of rest.
@@ -42,6 +44,10 @@ pub(crate) struct Track {
 
 /// Parts of its size that a body may move and still be in its place.
 const PLACE: f32 = 0.1;
+/// Metres a second, by the length unit, at which what is at rest shakes visibly.
+pub(crate) const SHAKING: f32 = 0.02;
+/// Part of the steps in which a velocity turns round.
+const TURNS: f32 = 0.125;
 /// Seconds over which speed and flips are smoothed.
 const SMOOTHING: f32 = 0.3;
 
@@ -63,7 +69,8 @@ impl Track {
             flips: 0.0,
             overlap: 0.0,
             resting_overlap: None,
-            deep_looks: 0,
+            deep_since: None,
+            shaking: 0.0,
             placed: None,
             wakings: 0,
         };
@@ -87,12 +94,17 @@ impl Track {
         self.size = size;
     }
 
+    /// Does its velocity turn round in its place, again and again?
+    fn shakes(&self, unit: f32) -> bool {
+        self.still > 1.0 && self.flips > TURNS && self.speed > SHAKING * unit
+    }
+
     /// Takes in where it is now, `dt` seconds after the last glance.
-    pub(crate) fn glance(&mut self, body: &Body<'_>, dt: f32) {
+    pub(crate) fn glance(&mut self, body: &Body<'_>, dt: f32, unit: f32) {
         let (center, velocity) = (body.center(), body.velocity());
         let away = center.relative_to(self.place).length();
         if !body.is_awake() || body.kind() != BodyKind::Dynamic {
-            (self.still, self.free) = (0.0, 0.0);
+            (self.still, self.free) = ((self.still - dt).max(0.0), 0.0);
         } else if away > PLACE * self.size {
             self.place = center;
             (self.still, self.resting_overlap, self.wakings) = (0.0, None, 0);
@@ -104,6 +116,7 @@ impl Track {
         let turned = velocity.dot(self.velocity) < 0.0;
         self.flips += (f32::from(u8::from(turned)) - self.flips) * blend;
         self.speed += (velocity.length() - self.speed) * blend;
+        self.shaking = if self.shakes(unit) { self.shaking + dt } else { 0.0 };
         (self.center, self.before, self.velocity) = (center, self.velocity, velocity);
     }
 }

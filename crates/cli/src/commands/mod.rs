@@ -2,6 +2,7 @@
 
 mod bench;
 mod demo;
+mod doctor;
 mod figures;
 mod list;
 mod play;
@@ -34,6 +35,7 @@ pub fn run(cli: Cli) -> Outcome {
         Some(Command::Record(args)) => record::record(&args),
         Some(Command::Replay(args)) => record::replay(&args),
         Some(Command::Diff(args)) => record::diff(&args),
+        Some(Command::Doctor(args)) => doctor::run(&args),
         Some(Command::Soak(args)) => soak::run(&args),
     }
 }

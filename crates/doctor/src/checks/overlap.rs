@@ -9,6 +9,8 @@ use tiny_physics::{Body, BodyId, BodyKind, QueryFilter, ShapeRef, contact};
 const DEEP: f32 = 0.04;
 /// Length units by which overlap has to grow to be sinking.
 const SINKING: f32 = 0.01;
+/// Seconds for which a hard hit may press bodies into each other.
+const PASSING: f32 = 0.25;
 /// Seconds in its place after which a body has settled.
 const SETTLED: f32 = 0.7;
 /// Seconds after which overlap is no longer from the start.
@@ -28,15 +30,15 @@ pub(crate) fn check(
     let deepest = touches.iter().copied().reduce(|a, b| if b.overlap > a.overlap { b } else { a });
     check_sinking(look, track, deepest.as_ref(), findings);
     if let Some(touch) = deepest.filter(|touch| touch.overlap > bound(look, touch)) {
-        track.deep_looks += 1;
+        let since = *track.deep_since.get_or_insert(look.step);
         let age = (look.step - track.since) as f32 * look.dt;
         if age < START && track.placed.is_none() {
             at_start(look, track, &touch, age, findings);
-        } else if track.deep_looks >= 2 && !findings.has(Code::Sinking, About::Body(track.id)) {
+        } else if since < look.step && !findings.has(Code::Sinking, About::Body(track.id)) {
             deep(look, body, track, touches, &touch, findings);
         }
     } else {
-        track.deep_looks = 0;
+        track.deep_since = None;
     }
     track.overlap = deepest.map_or(0.0, |touch| touch.overlap);
 }
@@ -78,17 +80,22 @@ fn deep(
     // What it overlapped with from the start is told as that.
     let started = findings.has(Code::OverlapAtStart, About::Body(track.id));
     let inside = touch.overlap > 0.5 * track.thin && track.thin > 0.0;
-    if track.still > 0.5 && inside && !matches!(cause, Cause::Crushed(_)) {
+    let seconds = seconds_deep(look, track);
+    if track.still > 0.5 && seconds > 0.5 && inside && !matches!(cause, Cause::Crushed(_)) {
         report_stuck(look, body, track, touch, findings);
     } else if !started {
         report_deep(look, track, touch, &cause, findings);
     }
 }
 
+fn seconds_deep(look: &Look<'_>, track: &Track) -> f32 {
+    track.deep_since.map_or(0.0, |since| (look.step - since) as f32 * look.dt)
+}
+
 /// It has fallen asleep: is it inside something?
 pub(crate) fn slept(look: &Look<'_>, track: &Track, findings: &mut Findings) {
     let (bound, within) = (0.5 * track.thin, track.overlap);
-    if track.deep_looks < 2 || within < bound || bound == 0.0 {
+    if track.deep_since.is_none() || within < bound || bound == 0.0 {
         return;
     }
     let figure = figure("overlap", within, bound, " m");
@@ -172,8 +179,9 @@ fn report_deep(
     findings: &mut Findings,
 ) {
     let figure = figure("overlap", touch.overlap, bound(look, touch), " m");
-    let about = About::Body(track.id);
-    let seen = Sighting::new(Code::DeepOverlap, Severity::Warning, about, figure);
+    let lasts = seconds_deep(look, track) > PASSING;
+    let severity = if lasts { Severity::Warning } else { Severity::Note };
+    let seen = Sighting::new(Code::DeepOverlap, severity, About::Body(track.id), figure);
     findings.add(look, seen, || {
         let start = format!("{} is {:.3} m inside {}", track.id, touch.overlap, touch.body);
         let (what, advice) = match cause {

@@ -1,14 +1,12 @@
 //! Bodies that should be at rest: jitter, and what keeps them awake.
 
 use crate::look::{About, Findings, Look, Sighting, Touch, Words, figure};
-use crate::track::Track;
+use crate::track::{SHAKING, Track};
 use crate::{Code, Severity};
 use tiny_physics::{Body, BodyKind, JointRef};
 
-/// Metres a second, by the length unit, at which what is at rest shakes visibly.
-const SHAKING: f32 = 0.02;
-/// Part of the steps in which a velocity turns round.
-const TURNS: f32 = 0.125;
+/// Seconds of shaking before it is called jitter.
+const JITTER: f32 = 1.5;
 /// Seconds at one place and awake.
 const AWAKE: f32 = 5.0;
 /// Wakings at one place.
@@ -20,8 +18,8 @@ pub(crate) fn calls(look: &Look<'_>, before: &Track, track: &Track) -> bool {
     let hit = change > 1.0 * look.unit + 3.0 * look.world.gravity.length() * look.dt;
     let turn = (look.step + track.id.index() as u64) % 4 == 0;
     let falling = track.free > 0.2 && track.velocity.length() > 1.0 * look.unit;
-    let shaking = track.still > 1.0 && track.flips > TURNS && track.speed > SHAKING * look.unit;
-    let deep = track.deep_looks > 0;
+    let shaking = track.shaking > JITTER;
+    let deep = track.deep_since.is_some();
     let young = look.step - track.since < 6;
     let restless = track.still > AWAKE && (look.step + track.id.index() as u64) % 32 == 0;
     hit || turn && (falling || shaking || deep || young) || restless
@@ -34,7 +32,7 @@ pub(crate) fn check(
     touches: &[Touch],
     findings: &mut Findings,
 ) {
-    let shaking = track.still > 1.0 && track.flips > TURNS && track.speed > SHAKING * look.unit;
+    let shaking = track.shaking > JITTER;
     if shaking && !touches_moved(look, touches) {
         jitter(look, body, track, touches, findings);
     } else if track.still > AWAKE {
