@@ -116,6 +116,7 @@ impl<'a> Body<'a> {
     pub fn contacts(&self) -> impl Iterator<Item = ContactView> + use<'a> {
         let world = self.world;
         world
+            .state
             .contacts
             .of_body(self.info().first_contact)
             .filter_map(move |(i, _)| world.contact_view(i))
