@@ -48,7 +48,8 @@ fn answer(request: Request, file: Option<&Path>, port: u16) -> std::io::Result<(
     if *request.method() != Method::Get || !is_for_us(&request, port) {
         return request.respond(Response::empty(403));
     }
-    let path = request.url().split(['?', '#']).next().unwrap_or_default();
+    let url = request.url().to_owned();
+    let path = url.split(['?', '#']).next().unwrap_or_default();
     let name = match path.trim_start_matches('/') {
         "" => "index.html",
         name => name,
