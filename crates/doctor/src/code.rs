@@ -89,8 +89,7 @@ codes! {
     /// Shapes that look as if they should meet, and never do.
     Filter "filter" "filters":
         "Two shapes overlap by more than a seventh of the thinner one without a contact. The reason is read from masks, groups, sensors, joints, kinds of \
-         bodies and `is_enabled`. A note where it looks meant (groups, sensors, joints); a warning where only one of two masks excludes the other, or where a \
-         body falls through static ground.";
+         bodies and `is_enabled`. A note, since it may be meant; a warning where a body falls through wide static ground.";
     /// Went through something.
     Tunnelling "tunnelling" "things-pass-through-each-other":
         "The way of a body's centre in one step, seen from the other body, enters and leaves a shape that it collides with, without a contact between them. \
@@ -113,7 +112,7 @@ codes! {
          this order: a moved body that crushes, a teleport, a mass ratio, the bound on pushing apart.";
     /// A heavy body on a light one.
     MassRatio "mass_ratio" "masses":
-        "Two bodies that touch or are joined differ in mass by a factor of 200 (warning) or 50 (note), and the light one has to carry the heavy one.";
+        "Two bodies that touch or are joined differ in mass by a factor of 2000 (warning) or 50 (note), and the light one has to carry the heavy one.";
     /// Two constraints that exclude each other.
     JointFight "joint_fight" "joints":
         "A joint stays apart by more than 2 % of its bodies' size (and 1 cm) for a second while its bodies stand still, and bears over five times their weight: \
@@ -130,7 +129,7 @@ codes! {
     /// Energy comes from nowhere.
     EnergyGain "energy_gain" "energy":
         "Kinetic and potential energy of all bodies grows past what it has been by half and more, though no motor, belt, mouse or moved body is there to do work. \
-         Forces and velocities that your program sets cannot be seen: if you set some, this is no fault.";
+         A note where the program pushed bodies meanwhile (forces, impulses, velocities), which may be meant.";
     /// Speed lost at a seam between two shapes.
     GhostBump "ghost_bump" "bumps-at-seams":
         "A body that slides along static ground loses over 3 % of its speed and 0.3 m/s in one step, more than friction takes, while it touches two static shapes \

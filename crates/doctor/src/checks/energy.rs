@@ -22,6 +22,10 @@ pub(crate) struct Memory {
     /// Greatest kinetic energy until the energy was least.
     peak: f64,
     growing: u32,
+    /// Total mass at the last judgement, kilograms.
+    weighed: f64,
+    /// Pushes by the user before the energy was least.
+    pushes: u64,
 }
 
 impl Memory {
@@ -60,8 +64,9 @@ impl Memory {
         findings: &mut Findings,
     ) {
         let gravity = look.world.gravity;
-        if !whole || driven || self.moved || self.gravity != [gravity.x, gravity.y] {
-            self.gravity = [gravity.x, gravity.y];
+        let other = self.gravity != [gravity.x, gravity.y] || self.weighed != self.mass;
+        if !whole || driven || self.moved || other {
+            (self.gravity, self.weighed) = ([gravity.x, gravity.y], self.mass);
             self.reset();
             return;
         }
@@ -69,7 +74,7 @@ impl Memory {
         let least = self.least.map_or(energy, |least| least.min(energy));
         if self.least.is_none_or(|before| energy <= before) {
             self.peak = self.peak.max(self.kinetic);
-            self.growing = 0;
+            (self.growing, self.pushes) = (0, look.world.stats().pushes);
         }
         self.growing += u32::from(energy > self.last && self.least.is_some());
         (self.least, self.last) = (Some(least), energy);
@@ -89,10 +94,21 @@ impl Memory {
             .filter(|body| body.kind() == BodyKind::Dynamic)
             .max_by(|a, b| energy(a).total_cmp(&energy(b)));
         let figure = figure("energy gained", gain as f32, bound as f32, " J");
-        let seen = Sighting::new(Code::EnergyGain, Severity::Warning, About::World, figure);
+        let pushed = look.world.stats().pushes.saturating_sub(self.pushes);
+        let severity = if pushed > 0 { Severity::Note } else { Severity::Warning };
+        let seen = Sighting::new(Code::EnergyGain, severity, About::World, figure);
+        let steps = self.growing;
         findings.add(look, seen, || Words {
-            what: format!("energy has grown by {gain:.1} J in {} steps without a motor or a moved body", self.growing),
-            advice: "if your program pushes in each step, that is it: bound the force, add damping; else look for joints made out of place and restitution near 1",
+            what: if pushed > 0 {
+                format!("energy has grown by {gain:.1} J in {steps} steps, in which the program pushed {pushed} times")
+            } else {
+                format!("energy has grown by {gain:.1} J in {steps} steps without a motor, a moved body or a push")
+            },
+            advice: if pushed > 0 {
+                "bound the forces and velocities that are set in each step, or add damping"
+            } else {
+                "look for joints made out of place or against each other, and restitution near 1"
+            },
             bodies: fastest.map(|body| body.id()).into_iter().collect(),
             ..Words::default()
         });

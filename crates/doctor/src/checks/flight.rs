@@ -75,7 +75,7 @@ fn check_speed(look: &Look<'_>, id: BodyId, speed: f32, findings: &mut Findings)
         return;
     }
     let figure = figure("speed", speed, 0.98 * limit, " m/s");
-    let seen = Sighting::new(Code::SpeedLimit, Severity::Warning, About::Body(id), figure);
+    let seen = Sighting::new(Code::SpeedLimit, Severity::Note, About::Body(id), figure);
     findings.add(look, seen, || Words {
         what: format!("{id} moves at the world's speed limit"),
         advice: "raise Settings::max_speed if it shall be that fast; else look for the force, and for units that are too small",
@@ -107,7 +107,7 @@ fn check_fall(
         Some(below) if below >= margin => figure("below the lowest ground", below, margin, " m"),
         _ => figure("falling for", track.free, 8.0, " s"),
     };
-    let seen = Sighting::new(Code::FellOut, Severity::Warning, About::Body(track.id), figure);
+    let seen = Sighting::new(Code::FellOut, Severity::Note, About::Body(track.id), figure);
     findings.add(look, seen, || Words {
         what: format!("{} has left the level and falls for ever at {speed:.0} m/s", track.id),
         advice: "close the level, or remove bodies that are below it: each costs time in every step",

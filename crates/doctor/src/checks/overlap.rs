@@ -76,12 +76,16 @@ fn deep(
     touch: &Touch,
     findings: &mut Findings,
 ) {
-    let cause = cause(look, body, track, touches, touch);
+    let cause = cause(look, body, track, touches, touch, findings);
     // What it overlapped with from the start is told as that.
     let started = findings.has(Code::OverlapAtStart, About::Body(track.id));
     let inside = touch.overlap > 0.5 * track.thin && track.thin > 0.0;
     let seconds = seconds_deep(look, track);
-    if track.still > 0.5 && seconds > 0.5 && inside && !matches!(cause, Cause::Crushed(_)) {
+    if track.still > 0.5
+        && seconds > 0.5
+        && inside
+        && !matches!(cause, Cause::Crushed(_) | Cause::Placed)
+    {
         report_stuck(look, body, track, touch, findings);
     } else if !started {
         report_deep(look, track, touch, &cause, findings);
@@ -95,7 +99,8 @@ fn seconds_deep(look: &Look<'_>, track: &Track) -> f32 {
 /// It has fallen asleep: is it inside something?
 pub(crate) fn slept(look: &Look<'_>, track: &Track, findings: &mut Findings) {
     let (bound, within) = (0.5 * track.thin, track.overlap);
-    if track.deep_since.is_none() || within < bound || bound == 0.0 {
+    let sinks = findings.has(Code::Sinking, About::Body(track.id));
+    if sinks || track.deep_since.is_none() || within < bound || bound == 0.0 {
         return;
     }
     let figure = figure("overlap", within, bound, " m");
@@ -148,6 +153,7 @@ fn cause(
     track: &Track,
     touches: &[Touch],
     touch: &Touch,
+    findings: &Findings,
 ) -> Cause {
     let world = look.world;
     let moved = |touch: &&Touch| {
@@ -159,9 +165,8 @@ fn cause(
     if let Some(crusher) = touches.iter().find(moved) {
         return Cause::Crushed(crusher.body);
     }
-    let other_placed =
-        world.body(touch.body).is_some_and(|other| other.kind() != BodyKind::Dynamic);
-    if track.placed.is_some_and(|step| look.step - step < 120) && other_placed {
+    let placed = track.placed.is_some_and(|step| look.step - step < 120);
+    if placed || findings.has(Code::Teleport, About::Body(touch.body)) {
         return Cause::Placed;
     }
     let masses =
@@ -212,7 +217,8 @@ fn check_sinking(
     deepest: Option<&Touch>,
     findings: &mut Findings,
 ) {
-    let Some(touch) = deepest.filter(|_| track.still > SETTLED) else {
+    let lies = |touch: &&Touch| track.still > SETTLED && touch.normal.dot(look.down()) < -0.5;
+    let Some(touch) = deepest.filter(lies) else {
         track.resting_overlap = None;
         return;
     };
@@ -273,7 +279,8 @@ fn reason(
     falls: bool,
 ) -> Option<(&'static str, &'static str, Severity)> {
     let [own, other] = shapes;
-    let ground = partner.kind() == BodyKind::Static && falls;
+    let wide = other.shape().bounding_radius() > 4.0 * own.shape().bounding_radius();
+    let ground = partner.kind() == BodyKind::Static && falls && wide;
     let worse = if ground { Severity::Warning } else { Severity::Note };
     let (a, b) = (own.filter(), other.filter());
     if own.one_way().is_some() || other.one_way().is_some() {
@@ -303,20 +310,19 @@ fn reason(
             && !joint.def().collide_connected
     });
     if joint.is_some() {
-        return Some(("a joint connects them", "set JointDef::collide_connected", worse));
+        return Some(("a joint connects them", "set JointDef::collide_connected", Severity::Note));
     }
     if a.group == b.group && a.group < 0 {
         return Some(("both are in one negative group", "give one another group, or 0", worse));
     }
     if !a.collides(&b) {
         let one_sided = (a.mask & b.category != 0) != (b.mask & a.category != 0);
-        let severity = if one_sided { Severity::Warning } else { worse };
         let why = if one_sided {
             "the mask of only one of them excludes the other"
         } else {
             "their masks exclude each other"
         };
-        return Some((why, "each one's mask needs a bit of the other's category", severity));
+        return Some((why, "each one's mask needs a bit of the other's category", worse));
     }
     None
 }

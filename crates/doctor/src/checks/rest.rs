@@ -97,6 +97,7 @@ fn never_sleeps(
     }
     let figure = figure("awake at rest for", track.still, AWAKE, " s");
     let (why, advice, severity) = what_keeps_awake(look, body, track, touches);
+    let severity = if track.still > 3.0 * AWAKE { severity } else { Severity::Note };
     let seen = Sighting::new(Code::NeverSleeps, severity, About::Body(track.id), figure);
     findings.add(look, seen, || Words {
         what: format!("{} is at rest and stays awake: {why}", track.id),

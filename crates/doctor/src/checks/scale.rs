@@ -14,7 +14,7 @@ const MIXED: f32 = 1000.0;
 /// Greatest factor between a body's density and the median.
 const ODD_DENSITY: f32 = 1000.0;
 /// Mass ratios of a note and of a warning.
-const RATIO: [f32; 2] = [50.0, 200.0];
+const RATIO: [f32; 2] = [50.0, 2000.0];
 
 /// Is one body's size in range?
 pub(crate) fn check_one(look: &Look<'_>, body: &Body<'_>, track: &Track, findings: &mut Findings) {

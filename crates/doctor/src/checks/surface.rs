@@ -3,7 +3,7 @@
 use crate::look::{About, Findings, Look, Sighting, Touch, Words, figure};
 use crate::track::Track;
 use crate::{Code, Severity};
-use tiny_physics::{Body, BodyKind, ShapeRef};
+use tiny_physics::{Body, BodyKind, ShapeId, ShapeRef};
 
 /// Metres a second, by the length unit, lost at least in a bump.
 const BUMP: f32 = 0.3;
@@ -20,7 +20,9 @@ pub(crate) fn check(
     for touch in touches {
         restitution(look, body, track, touch, findings);
     }
-    mass_ratio(look, body, track, touches, findings);
+    if body.kind() == BodyKind::Dynamic {
+        mass_ratio(look, body, track, touches, findings);
+    }
 }
 
 /// Was it stopped by something thinner than its step is long?
@@ -59,9 +61,11 @@ fn ghost_bump(look: &Look<'_>, track: &Track, touches: &[Touch], findings: &mut 
     let fixed: Vec<&Touch> = touches.iter().filter(|touch| is_static(look, touch)).collect();
     // It slides along one of them, and another meets that one.
     let Some(floor) = fixed.iter().find(|touch| touch.normal.dot(way).abs() < 0.1) else { return };
-    let Some(step) =
-        fixed.iter().find(|touch| touch.shape != floor.shape && touch.normal.dot(way) < 0.0)
-    else {
+    let top = |touch: &Touch| top_of(look, touch.shape);
+    let Some(step) = fixed.iter().find(|touch| {
+        let level = (top(touch) - top(floor)).abs() < 0.2 * track.size;
+        touch.shape != floor.shape && touch.normal.dot(way) < 0.0 && level
+    }) else {
         return;
     };
     let figure = figure("speed lost", lost, bound, " m/s");
@@ -73,6 +77,16 @@ fn ghost_bump(look: &Look<'_>, track: &Track, touches: &[Touch], findings: &mut 
         shapes: vec![floor.shape, step.shape],
         ..Words::default()
     });
+}
+
+/// How high a shape reaches against gravity, metres.
+fn top_of(look: &Look<'_>, shape: ShapeId) -> f32 {
+    let bounds = look.world.shape(shape).and_then(|shape| shape.fat_aabb());
+    let up = -look.down();
+    bounds.map_or(0.0, |bounds| {
+        let half = bounds.half_extents();
+        bounds.center().dot(up) + half.x * up.x.abs() + half.y * up.y.abs()
+    })
 }
 
 fn is_static(look: &Look<'_>, touch: &Touch) -> bool {

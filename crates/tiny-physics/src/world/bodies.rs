@@ -150,6 +150,7 @@ impl BodyMut<'_> {
     pub(super) fn accept(&mut self, numbers: &[f32]) -> bool {
         let acceptable = numbers.iter().all(|n| n.abs() <= MAX_NUMBER);
         if acceptable {
+            self.world.stats.pushes += u64::from(!numbers.is_empty());
             self.world.wake_index(self.index);
         } else {
             self.world.stats.refused_numbers += 1;

@@ -67,6 +67,8 @@ pub struct Stats {
     pub frozen_bodies: usize,
     /// Steps refused because the time step was not a positive finite number, since the world was made.
     pub refused_steps: u64,
+    /// Forces, impulses and velocities that the user gave to bodies, since the world was made.
+    pub pushes: u64,
     /// Calls that changed nothing because a number was not finite or beyond all measure, since the world was made:
     /// those that give no [`Error`](crate::Error).
     pub refused_numbers: u64,
