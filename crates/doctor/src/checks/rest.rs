@@ -16,12 +16,12 @@ const WAKINGS: u32 = 10;
 pub(crate) fn calls(look: &Look<'_>, before: &Track, track: &Track) -> bool {
     let change = (track.velocity - before.velocity).length();
     let hit = change > 1.0 * look.unit + 3.0 * look.world.gravity.length() * look.dt;
-    let turn = (look.step + track.id.index() as u64) % 4 == 0;
+    let turn = (look.step + track.id.index() as u64).is_multiple_of(4);
     let falling = track.free > 0.2 && track.velocity.length() > 1.0 * look.unit;
     let shaking = track.shaking > JITTER;
     let deep = track.deep_since.is_some();
     let young = look.step - track.since < 6;
-    let restless = track.still > AWAKE && (look.step + track.id.index() as u64) % 32 == 0;
+    let restless = track.still > AWAKE && (look.step + track.id.index() as u64).is_multiple_of(32);
     hit || turn && (falling || shaking || deep || young) || restless
 }
 
