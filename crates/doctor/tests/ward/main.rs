@@ -15,11 +15,13 @@ pub(crate) struct Patient {
     case: Case,
 }
 
+type Act = Box<dyn FnMut(&mut World, u64) -> f32>;
+
 /// A world and what is done to it.
 pub(crate) struct Case {
     world: World,
     /// Done before a step: the step's number, from 0. Gives the step's length.
-    act: Box<dyn FnMut(&mut World, u64) -> f32>,
+    act: Act,
 }
 
 const DT: f32 = 1.0 / 60.0;
