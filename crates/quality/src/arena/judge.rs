@@ -180,7 +180,7 @@ impl Judge {
             return;
         }
         self.found.passed = self.sides.look(trial);
-        if step % 2 == 0 && self.started_inside < 0.05 {
+        if step.is_multiple_of(2) && self.started_inside < 0.05 {
             self.found.deepest = self.found.deepest.max(trial.deepest_overlap());
         }
         if let Some(gain) = &mut self.gain {
