@@ -86,7 +86,8 @@ def main() -> None:
     import ray
 
     local = {"num_cpus": words.workers, "include_dashboard": False}
-    path = {"env_vars": {"PYTHONPATH": str(Path(__file__).resolve().parent)}}
+    here = str(Path(__file__).resolve().parent)
+    path = {"env_vars": {"PYTHONPATH": os.pathsep.join([here, os.environ.get("PYTHONPATH", "")])}}
     ray.init(
         logging_level="ERROR",
         log_to_driver=False,

@@ -21,12 +21,14 @@ from . import _native
 from . import describe as _describe
 
 #: Velocity iterations of Box2D that one solver iteration stands for.
-_ITERATIONS_PER_ITERATION = 16
-_MOST_ITERATIONS = 12
+_ITERATIONS_PER_ITERATION = 24
+_MOST_ITERATIONS = 8
+#: Substeps of a step: those steps are long, and light legs carry heavy hulls.
+_SUBSTEPS = 8
 #: Metres that the anchors of a new joint may be apart; steps to bring them together, and seconds of each.
 _LOOSE = 0.02
-_SETTLING_STEPS = 60
-_SETTLING_STEP = 1.0 / 240.0
+_SETTLING_STEPS = 240
+_SETTLING_STEP = 1.0 / 1000.0
 
 
 class b2Vec2(tuple):
@@ -424,7 +426,7 @@ class b2World:
     def __init__(
         self, gravity: Any = (0.0, -10.0), doSleep: bool = True, contactListener: Any = None
     ) -> None:
-        self._inner = _native.World(gravity, {"sleep": bool(doSleep)})
+        self._inner = _native.World(gravity, {"sleep": bool(doSleep), "substeps": _SUBSTEPS})
         self._fixtures: dict[_native.Shape, b2Fixture] = {}
         self._iterations = 1
         self._forces: list[tuple[Any, tuple[Any, ...]]] = []
@@ -515,10 +517,10 @@ class b2World:
             self._tell(self.contactListener)
 
     def _settle(self) -> None:
-        """Brings the anchors of new joints together without giving anything a velocity, as Box2D does: Gymnasium's robots
-        are put together from parts half a metre apart."""
-        if not any(joint._gap() > _LOOSE for joint in self._fresh):
-            self._fresh.clear()
+        """Puts the bodies of new joints together: Gymnasium's robots begin in parts half a metre apart. Box2D brings
+        positions together without giving anything a velocity, so what the solver gives here is taken away again."""
+        fresh, self._fresh = self._fresh, []
+        if not any(joint._gap() > _LOOSE for joint in fresh):
             return
         bodies = [body for body in self.bodies if body._inner.kind == "dynamic"]
         kept = [(b._inner.velocity, b._inner.angular_velocity) for b in bodies]
@@ -530,7 +532,6 @@ class b2World:
         self._inner.gravity = gravity
         for body, (velocity, spin) in zip(bodies, kept):
             body._inner.velocity, body._inner.angular_velocity = velocity, spin
-        self._fresh.clear()
 
     def ClearForces(self) -> None:
         """Forces last one step; this drops those of the next."""

@@ -20,8 +20,8 @@ const MOST_SPEED: f32 = 8.0;
 /// Steps between two shoves, at least and at most, and their greatest impulse, newton seconds.
 const SHOVES: (i64, i64) = (60, 140);
 const SHOVE: f32 = 8.0;
-/// A head below this part of its first height has fallen.
-const FALLEN: f32 = 0.6;
+/// A head below this part of its first height has fallen; kneeling is 0.74.
+const FALLEN: f32 = 0.8;
 
 /// A bone: its parent and the joint to it.
 struct Bone {
