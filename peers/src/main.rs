@@ -23,7 +23,7 @@ use table::Row;
 /// Runs the benchmark scenes in tiny-physics, Box2D v3 and Rapier, interleaved.
 ///
 /// Prints, for each scene and engine, the median over the repeats of the mean CPU and wall time of a
-/// step, the 99th percentile, and the ratio of its time to that of tiny-physics; beside them the
+/// step, the 99th percentile and the worst step, and the ratios of its times to those of tiny-physics; beside them the
 /// figures that show whether all simulated the same.
 #[derive(Parser)]
 #[command(version, args_conflicts_with_subcommands = true)]
@@ -49,6 +49,9 @@ struct Args {
     /// Print one JSON object a row instead of tables.
     #[arg(long)]
     json: bool,
+    /// Print one table in Markdown, as in the README, in place of one a scene.
+    #[arg(long, conflicts_with = "json")]
+    markdown: bool,
 }
 
 #[derive(Subcommand)]
@@ -93,10 +96,13 @@ fn compare(args: &Args) -> Result<(), String> {
         let rows = run_scene(args, scene, &configs);
         if args.json {
             table::print_json(&rows);
-        } else {
+        } else if !args.markdown {
             table::print_scene(&rows, args.threads);
         }
         all.extend(rows);
+    }
+    if args.markdown {
+        table::print_markdown(&configs, &all);
     }
     if !args.json && scenes.len() > 1 {
         table::print_means(&configs, &all);

@@ -61,9 +61,8 @@ impl Row {
         let median = |part: fn(&Report) -> f64| {
             percentile(&reports.iter().map(part).collect::<Vec<_>>(), 0.5)
         };
-        let least = |part: fn(&Report) -> f64| {
-            reports.iter().map(part).fold(f64::INFINITY, f64::min)
-        };
+        let least =
+            |part: fn(&Report) -> f64| reports.iter().map(part).fold(f64::INFINITY, f64::min);
         let mut cpu: Vec<f64> = reports.iter().map(|report| report.cpu_ms).collect();
         cpu.sort_by(f64::total_cmp);
         let first = &reports[0];
@@ -200,9 +199,29 @@ pub fn print_scene(rows: &[Row], threads: u16) {
     }
 }
 
+/// Prints a line a scene: of each engine the time of a mean step, and the ratios of mean, 99th percentile and worst step.
+pub fn print_markdown(configs: &[Config], rows: &[Row]) {
+    let heads: Vec<String> = configs.iter().map(|config| format!("{} ms", config.name)).collect();
+    println!("| scene | {} |\n|{}", heads.join(" | "), "---|".repeat(configs.len() + 1));
+    for rows in rows.chunk_by(|a, b| a.scene == b.scene) {
+        let cell = |config: &Config| {
+            let row = rows.iter().find(|row| row.name == config.name);
+            row.map_or("-".to_owned(), |row| {
+                let ratios = [row.ratio, row.p99_ratio, row.worst_ratio];
+                let [mean, p99, worst] = ratios.map(|ratio| format!("{ratio:.2}"));
+                format!("{:.4} ({mean}, {p99}, {worst})", row.time_ms())
+            })
+        };
+        let cells: Vec<String> = configs.iter().map(cell).collect();
+        println!("| {} | {} |", rows[0].scene, cells.join(" | "));
+    }
+}
+
 /// Prints, for each engine, the geometric means of its ratios over all scenes, and the least ones.
 pub fn print_means(configs: &[Config], rows: &[Row]) {
-    println!("\ngeometric means of the ratios, and the least: mean step, 99th percentile, worst step");
+    println!(
+        "\ngeometric means of the ratios, and the least: mean step, 99th percentile, worst step"
+    );
     for config in configs {
         let own: Vec<&Row> = rows.iter().filter(|row| row.name == config.name).collect();
         let parts = [
