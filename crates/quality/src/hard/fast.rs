@@ -6,7 +6,7 @@ use crate::report::Measure;
 use crate::scenery::{disk, fixed, moving, rect, scene, weightless};
 use crate::target::Target;
 use core::f64::consts::{PI, TAU};
-use tiny_physics::{JointDef, RigidBody, Shape, ShapeDef, Vec2, World};
+use tiny_physics::{DVec2, JointDef, RigidBody, Shape, ShapeDef, Vec2, World};
 use tiny_physics_scenes::{Options, Random, Scene, find};
 
 /// A heavy plate and a light ball: how many pass?
@@ -200,11 +200,20 @@ pub(super) fn debris(lab: &mut Lab<'_>) -> Vec<Measure> {
             let thing = thing.angle(random.range(0.0, 3.0)).velocity(speed);
             scene.body(thing.angular_velocity(random.range(2.0, 20.0)));
         }
-        lab.expect_seconds(2.5, scene.dt);
+        lab.expect_seconds(3.0, scene.dt);
         let mut trial = lab.build(scene);
         lab.run(&mut trial, 2.5, |_| {});
-        // Free fall is 31 m; a thing that slides down a wall comes far, too.
-        let stuck = |i: &usize| !(trial.moved(2 * i + 1).y < -6.0);
+        let mut last: Vec<DVec2> = (0..COUNT).map(|i| trial.position(2 * i + 1)).collect();
+        let mut ways = vec![0.0_f64; COUNT];
+        lab.run(&mut trial, 0.5, |trial| {
+            for (i, (way, last)) in ways.iter_mut().zip(&mut last).enumerate() {
+                let now = trial.position(2 * i + 1);
+                *way += (now.x - last.x).hypot(now.y - last.y);
+                *last = now;
+            }
+        });
+        // Whatever flies, falls or slides comes half a metre at least.
+        let stuck = |i: &usize| !(ways[*i] > 0.05);
         let is_behind = |i: &usize| !(trial.position(2 * i + 1).x < trial.position(2 * i).x);
         behind += (0..COUNT).filter(is_behind).count();
         let stuck = (0..COUNT).filter(stuck).count();
