@@ -189,7 +189,7 @@ pub struct WorldArgs {
     /// Threads to use; results do not depend on it
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
     pub threads: u16,
-    /// SIMD level: scalar, sse2, sse42, avx2, avx512, neon or simd128; the best there is where not
+    /// SIMD level: scalar, sse2, avx2, avx512, neon or simd128; the best there is where not
     /// said. Results do not depend on it
     #[arg(long, value_name = "LEVEL", value_parser = simd_level)]
     pub simd: Option<SimdLevel>,
@@ -317,7 +317,7 @@ pub struct BenchArgs {
     /// Threads to use
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
     pub threads: u16,
-    /// SIMD levels to measure, of scalar, sse2, sse42, avx2, avx512, neon and simd128; all that this machine
+    /// SIMD levels to measure, of scalar, sse2, avx2, avx512, neon and simd128; all that this machine
     /// has where not said
     #[arg(long, value_name = "LEVEL", value_delimiter = ',', value_parser = simd_level)]
     pub simd: Vec<SimdLevel>,

@@ -182,3 +182,16 @@ pub(crate) struct BlockHead {
     /// Lanes whose body B has joints.
     pub(crate) jointed_b: u16,
 }
+
+impl BlockHead {
+    /// That of a block whose first lane is this one, and whose others are empty.
+    pub(crate) fn lane(&self, lane: usize) -> Self {
+        let first = |lanes: u16| lanes >> lane & 1;
+        Self {
+            touching: first(self.touching),
+            flags: self.flags,
+            jointed_a: first(self.jointed_a),
+            jointed_b: first(self.jointed_b),
+        }
+    }
+}

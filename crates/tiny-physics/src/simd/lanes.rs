@@ -241,7 +241,7 @@ macro_rules! portable_operations {
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 pub(super) use portable_operations;
 
-/// Four lanes: SSE2, SSE4.2, NEON, wasm simd128.
+/// Four lanes: SSE2, NEON, wasm simd128.
 impl<S: Simd> Lanes for f32x4<S> {
     type Token = S;
     type Mask = <Self as SimdBase<S>>::Mask;

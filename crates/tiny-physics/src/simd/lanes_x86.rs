@@ -3,8 +3,8 @@
 use super::lanes::{Lanes, Native, RowSource, portable_operations, write_rows};
 use crate::threads::SharedRows;
 use fearless_simd::{
-    Avx2, Avx512, Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, Sse2,
-    Sse4_2, f32x4, f32x8, f32x16,
+    Avx2, Avx512, Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, Sse2, f32x4,
+    f32x8, f32x16,
 };
 
 /// Half of row `i`, from float `AT` on.
@@ -183,9 +183,6 @@ fearless_simd::kernel!(
 );
 
 impl Native for Sse2 {
-    type Lanes = f32x4<Self>;
-}
-impl Native for Sse4_2 {
     type Lanes = f32x4<Self>;
 }
 impl Native for Avx2 {

@@ -9,12 +9,10 @@ use fearless_simd::Level;
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
 #[non_exhaustive]
 pub enum SimdLevel {
-    /// One lane, no vector instructions.
+    /// One lane, no vector instructions; where every machine has four lanes (64-bit x86), those.
     Scalar,
     /// Four lanes on x86.
     Sse2,
-    /// Four lanes on x86 with the shuffles of SSE4.2.
-    Sse42,
     /// Eight lanes on x86.
     Avx2,
     /// Sixteen lanes on x86 (Ice Lake and later).
@@ -27,15 +25,8 @@ pub enum SimdLevel {
 
 impl SimdLevel {
     /// Every level there is, on any platform.
-    pub const ALL: [Self; 7] = [
-        Self::Scalar,
-        Self::Sse2,
-        Self::Sse42,
-        Self::Avx2,
-        Self::Avx512,
-        Self::Neon,
-        Self::Simd128,
-    ];
+    pub const ALL: [Self; 6] =
+        [Self::Scalar, Self::Sse2, Self::Avx2, Self::Avx512, Self::Neon, Self::Simd128];
 
     /// The best level of this machine.
     pub fn detect() -> Self {
@@ -56,18 +47,17 @@ impl SimdLevel {
     pub fn lane_count(self) -> usize {
         match self {
             Self::Scalar => 1,
-            Self::Sse2 | Self::Sse42 | Self::Neon | Self::Simd128 => 4,
+            Self::Sse2 | Self::Neon | Self::Simd128 => 4,
             Self::Avx2 => 8,
             Self::Avx512 => 16,
         }
     }
 
-    /// The name used on command lines: `scalar`, `sse2`, `sse42`, `avx2`, `avx512`, `neon`, `simd128`.
+    /// The name used on command lines: `scalar`, `sse2`, `avx2`, `avx512`, `neon`, `simd128`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Scalar => "scalar",
             Self::Sse2 => "sse2",
-            Self::Sse42 => "sse42",
             Self::Avx2 => "avx2",
             Self::Avx512 => "avx512",
             Self::Neon => "neon",
@@ -91,13 +81,13 @@ impl SimdLevel {
     fn of(level: Level) -> Self {
         match level {
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Level::Sse2(_) => Self::Sse2,
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Level::Sse4_2(_) => Self::Sse42,
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Sse2(_) | Level::Sse4_2(_) => Self::Sse2,
+            #[cfg(target_arch = "x86_64")]
             Level::Avx2(_) => Self::Avx2,
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            #[cfg(target_arch = "x86_64")]
             Level::Avx512(_) => Self::Avx512,
+            #[cfg(target_arch = "x86")]
+            Level::Avx2(_) | Level::Avx512(_) => Self::Sse2,
             #[cfg(target_arch = "aarch64")]
             Level::Neon(_) => Self::Neon,
             #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
@@ -112,11 +102,9 @@ impl SimdLevel {
         match self {
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
             Self::Sse2 => best.as_sse2().map(Level::Sse2),
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Self::Sse42 => best.as_sse4_2().map(Level::Sse4_2),
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            #[cfg(target_arch = "x86_64")]
             Self::Avx2 => best.as_avx2().map(Level::Avx2),
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            #[cfg(target_arch = "x86_64")]
             Self::Avx512 => best.as_avx512().map(Level::Avx512),
             #[cfg(target_arch = "aarch64")]
             Self::Neon => best.as_neon().map(Level::Neon),
@@ -143,6 +131,8 @@ impl FromStr for SimdLevel {
     type Err = String;
 
     fn from_str(name: &str) -> Result<Self, String> {
+        // A level of its own once; it gained nothing.
+        let name = if name == "sse42" { "sse2" } else { name };
         Self::ALL.into_iter().find(|level| level.name() == name).ok_or_else(|| {
             let names: Vec<_> = Self::ALL.iter().map(|level| level.name()).collect();
             format!("no SIMD level is called '{name}'; there are {}", names.join(", "))
@@ -158,31 +148,51 @@ pub(crate) trait LaneKernel {
     fn run<L: Lanes>(self, token: L::Token) -> Self::Output;
 }
 
-/// Runs a kernel on the lanes of `level`; on one lane where the machine lacks the level.
+/// Runs a kernel on the lanes of `level`, or the widest below it that this machine has.
 ///
-/// Built with `--cfg tiny_physics_quick`, there are two instances only, one lane and AVX2: a third of the time to build.
+/// Every kernel is built once for each width that it is dispatched to, which is most of the time that the engine takes
+/// to build: what gains nothing from more lanes goes through [`dispatch_narrow`] or [`dispatch_baseline`]. Built with
+/// `--cfg tiny_physics_quick`, there is one instance, AVX2.
 #[inline]
-#[allow(unreachable_patterns, reason = "each platform has its own part of the levels")]
 pub(crate) fn dispatch<K: LaneKernel>(level: SimdLevel, kernel: K) -> K::Output {
-    #[cfg(tiny_physics_quick)]
-    if level != SimdLevel::Scalar
-        && let Some(token) = Level::new().as_avx2()
-    {
+    #[cfg(all(target_arch = "x86_64", not(tiny_physics_quick)))]
+    if let (SimdLevel::Avx512, Some(token)) = (level, Level::new().as_avx512()) {
         return run_native(token, kernel);
     }
-    #[cfg(tiny_physics_quick)]
-    return kernel.run::<f32>(());
+    dispatch_narrow(level, kernel)
+}
 
-    #[cfg(not(tiny_physics_quick))]
+/// The same with at most eight lanes.
+#[inline]
+pub(crate) fn dispatch_narrow<K: LaneKernel>(level: SimdLevel, kernel: K) -> K::Output {
+    #[cfg(all(target_arch = "x86_64", not(tiny_physics_quick)))]
+    if let (SimdLevel::Avx2 | SimdLevel::Avx512, Some(token)) = (level, Level::new().as_avx2()) {
+        return run_native(token, kernel);
+    }
+    dispatch_baseline(level, kernel)
+}
+
+/// Runs a kernel on the lanes that every machine of this platform has. On 64-bit x86 those are four for
+/// [`SimdLevel::Scalar`], too, but in the engine's own tests.
+#[inline]
+#[allow(unused_variables, reason = "each platform has its own part of the levels")]
+pub(crate) fn dispatch_baseline<K: LaneKernel>(level: SimdLevel, kernel: K) -> K::Output {
+    #[cfg(all(target_arch = "x86_64", tiny_physics_quick))]
+    match Level::new().as_avx2() {
+        Some(token) => run_native(token, kernel),
+        None => unreachable!("--cfg tiny_physics_quick is for machines with AVX2"),
+    }
+    #[cfg(all(target_arch = "x86_64", not(tiny_physics_quick)))]
+    match Level::new().as_sse2() {
+        #[cfg(test)]
+        _ if level == SimdLevel::Scalar => kernel.run::<f32>(()),
+        Some(token) => run_native(token, kernel),
+        None => unreachable!("64-bit x86 has SSE2"),
+    }
+    #[cfg(not(target_arch = "x86_64"))]
     match level.token() {
-        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        #[cfg(target_arch = "x86")]
         Some(Level::Sse2(token)) => run_native(token, kernel),
-        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        Some(Level::Sse4_2(token)) => run_native(token, kernel),
-        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        Some(Level::Avx2(token)) => run_native(token, kernel),
-        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        Some(Level::Avx512(token)) => run_native(token, kernel),
         #[cfg(target_arch = "aarch64")]
         Some(Level::Neon(token)) => run_native(token, kernel),
         #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]

@@ -1,8 +1,8 @@
 //! Lanes: one kernel source, run at the width that the machine has.
 //!
 //! A kernel is a function generic over [`Lanes`], a small vector of `f32`. [`SimdLevel`] names the
-//! instruction set, chosen at run time, and [`dispatch_lanes!`] calls a kernel with the lane type of
-//! that level: 1 (scalar), 4 (SSE2, SSE4.2, NEON, wasm), 8 (AVX2) or 16 lanes (AVX-512).
+//! instruction set, chosen at run time, and [`dispatch`] calls a kernel with the lane type of
+//! that level: 1 (scalar), 4 (SSE2, NEON, wasm), 8 (AVX2) or 16 lanes (AVX-512).
 //!
 //! Every level gives the same bits: operations are the exactly rounded ones of IEEE 754, `min` and
 //! `max` are compare-and-select, there is no fused multiply-add and no estimate, and nothing is summed
@@ -18,4 +18,4 @@ mod level;
 
 pub(crate) use lanes::{BLOCK, Lanes, Row};
 pub use level::SimdLevel;
-pub(crate) use level::{LaneKernel, dispatch};
+pub(crate) use level::{LaneKernel, dispatch, dispatch_baseline, dispatch_narrow};

@@ -11,7 +11,7 @@ use crate::dynamics::{
 };
 use crate::geometry::manifold::{self, LaneManifold, LanePair, PairClass};
 use crate::math::{Pose, Rot, Transform, Vec2};
-use crate::simd::{BLOCK, LaneKernel, Lanes, Row, SimdLevel, dispatch};
+use crate::simd::{BLOCK, LaneKernel, Lanes, Row, SimdLevel, dispatch, dispatch_baseline};
 use crate::threads::Team;
 
 /// What the narrow phase reads.
@@ -48,13 +48,16 @@ fn update(context: Context<'_>, class: PairClass, blocks: Blocks<'_>) {
         PairClass::CapsuleCapsule => run_kernel::<CapsuleCapsule>(context, blocks),
         PairClass::CapsuleCircle => run_kernel::<CapsuleCircle>(context, blocks),
         PairClass::CircleCircle => run_kernel::<CircleCircle>(context, blocks),
-        PairClass::General => run_kernel::<General>(context, blocks),
+        // One after the other, whatever the lanes.
+        PairClass::General => {
+            dispatch_baseline(context.level, Update::<General>::new(context, blocks))
+        }
     }
 }
 
 fn run_kernel<K: PairKernel>(context: Context<'_>, blocks: Blocks<'_>) {
     let level = context.level.for_count(blocks.count);
-    dispatch(level, Update::<K> { context, blocks, kernel: core::marker::PhantomData });
+    dispatch(level, Update::<K>::new(context, blocks));
 }
 
 /// A manifold kernel for a class of pairs.
@@ -167,6 +170,12 @@ struct Update<'a, K> {
     context: Context<'a>,
     blocks: Blocks<'a>,
     kernel: core::marker::PhantomData<K>,
+}
+
+impl<'a, K> Update<'a, K> {
+    fn new(context: Context<'a>, blocks: Blocks<'a>) -> Self {
+        Self { context, blocks, kernel: core::marker::PhantomData }
+    }
 }
 
 impl<K: PairKernel> LaneKernel for Update<'_, K> {

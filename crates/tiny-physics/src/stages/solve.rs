@@ -217,7 +217,7 @@ fn run_joints(
     for (in_order, lanes) in joint_graph.in_lanes(pace) {
         if in_order {
             lanes.for_each_run(&Team::alone(), |blocks| {
-                joint_solver::run_in_order(pass, inv_h, rows, blocks);
+                joint_solver::run_one_by_one(level, pass, inv_h, rows, blocks);
             });
         } else {
             lanes.for_each_run(team, |blocks| joint_solver::run(level, pass, inv_h, rows, blocks));

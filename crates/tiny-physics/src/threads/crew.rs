@@ -28,7 +28,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::thread::{self, JoinHandle, Thread};
 use std::time::{Duration, Instant};
 
-#[cfg(debug_assertions)]
+#[cfg(tiny_physics_race)]
 use super::race;
 
 /// Most members, one bit each in `sleepers`.
@@ -81,7 +81,7 @@ struct Shared {
 #[derive(Clone, Copy)]
 struct Job {
     chunk: *const (dyn Fn(usize) + Sync + 'static),
-    #[cfg(debug_assertions)]
+    #[cfg(tiny_physics_race)]
     stage: u64,
 }
 
@@ -187,7 +187,7 @@ impl Section<'_> {
         unsafe {
             *shared.job.get() = Job {
                 chunk,
-                #[cfg(debug_assertions)]
+                #[cfg(tiny_physics_race)]
                 stage: race::new_stage(),
             };
         }
@@ -209,7 +209,7 @@ impl Shared {
         Self {
             job: UnsafeCell::new(Job {
                 chunk: idle,
-                #[cfg(debug_assertions)]
+                #[cfg(tiny_physics_race)]
                 stage: 0,
             }),
             seats: (0..member_count).map(|_| Seat(AtomicU64::new(0))).collect(),
@@ -263,7 +263,7 @@ impl Shared {
         // written before it ends; the claim acquired what the section wrote.
         let job = unsafe { *self.job.get() };
         let outcome = catch_unwind(AssertUnwindSafe(|| {
-            #[cfg(debug_assertions)]
+            #[cfg(tiny_physics_race)]
             let _inside = race::InChunk::enter(job.stage, chunk);
             // SAFETY: the stage lasts, so its closure is still borrowed.
             unsafe { (*job.chunk)(chunk) }

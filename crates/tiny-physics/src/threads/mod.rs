@@ -47,7 +47,7 @@ mod crew;
 #[cfg(all(feature = "parallel", target_has_atomic = "64", not(target_family = "wasm")))]
 mod crew;
 mod pool;
-#[cfg(debug_assertions)]
+#[cfg(tiny_physics_race)]
 mod race;
 mod shared;
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Debug builds only: finds chunks of one stage that touch what another chunk of it writes.
+//! Only where it is built with `--cfg tiny_physics_race`, as the build server does for its tests: finds chunks of one stage that touch what another chunk of it writes.
 //!
 //! Ownership is by chunk, not by thread, so that an overlap shows in every run and not only when
 //! two threads happen to meet. Notes live in a table of fixed size where a newer element may push out an

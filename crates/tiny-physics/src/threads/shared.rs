@@ -3,22 +3,22 @@
 use core::marker::PhantomData;
 use core::ops::Range;
 
-#[cfg(debug_assertions)]
+#[cfg(tiny_physics_race)]
 use super::race;
 
 /// A slice whose elements several chunks of a stage read and write at once, each its own elements.
 ///
 /// The caller keeps the invariant: *while one chunk of a stage writes an element, no other chunk of the
 /// stage touches it.* Within a colour of the constraint graph every moving body occurs once, and
-/// bodies that cannot move are never written; `World::validate` checks the colouring. Debug builds
-/// watch every access of stages that run on more than one thread, and panic when two chunks break the
+/// bodies that cannot move are never written; `World::validate` checks the colouring. Builds with
+/// `--cfg tiny_physics_race` watch every access of stages that run on more than one thread, and panic when two chunks break the
 /// rule, even where both happened to run on one thread.
 ///
 /// Indices out of range panic.
 pub(crate) struct SharedSlice<'a, T> {
     start: *mut T,
     len: usize,
-    #[cfg(debug_assertions)]
+    #[cfg(tiny_physics_race)]
     id: u64,
     marker: PhantomData<&'a mut [T]>,
 }
@@ -49,7 +49,7 @@ impl<'a, T> SharedSlice<'a, T> {
         Self {
             start: slice.as_mut_ptr(),
             len: slice.len(),
-            #[cfg(debug_assertions)]
+            #[cfg(tiny_physics_race)]
             id: race::new_slice(),
             marker: PhantomData,
         }
@@ -62,7 +62,7 @@ impl<'a, T> SharedSlice<'a, T> {
         T: Copy,
     {
         assert!((index as usize) < self.len);
-        #[cfg(debug_assertions)]
+        #[cfg(tiny_physics_race)]
         race::note(self.id, index, race::Access::Read);
         // SAFETY: in bounds by the assertion; no thread writes the element meanwhile, see the type.
         unsafe { self.start.add(index as usize).read() }
@@ -96,7 +96,7 @@ impl<'a, T> SharedSlice<'a, T> {
     pub(crate) fn range(self, range: Range<usize>) -> &'a mut [T] {
         let end = range.end.min(self.len);
         let start = range.start.min(end);
-        #[cfg(debug_assertions)]
+        #[cfg(tiny_physics_race)]
         for index in start..end {
             race::note(self.id, index as u32, race::Access::Write);
         }
@@ -110,7 +110,7 @@ impl<'a, T> SharedSlice<'a, T> {
     #[inline(always)]
     fn place(self, index: u32) -> *mut T {
         assert!((index as usize) < self.len);
-        #[cfg(debug_assertions)]
+        #[cfg(tiny_physics_race)]
         race::note(self.id, index, race::Access::Write);
         // SAFETY: in bounds by the assertion.
         unsafe { self.start.add(index as usize) }

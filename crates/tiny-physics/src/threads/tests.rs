@@ -39,7 +39,7 @@ fn mix(team: &Team<'_>, len: usize, stage_count: u32) -> Vec<u64> {
 fn results_do_not_depend_on_the_number_of_threads() {
     let (len, stage_count, repeats) = match MIRI {
         true => (23, 3, 1),
-        false if cfg!(debug_assertions) => (131, 300, 3),
+        false if cfg!(tiny_physics_race) => (131, 300, 3),
         false => (131, 3000, 3),
     };
     let expected = mix(&Team::alone(), len, stage_count);
@@ -188,7 +188,7 @@ fn a_pool_can_be_shared_and_sent() {
     assert_eq!(format!("{:?}", Pool::default()), "Pool { thread_count: 1 }");
 }
 
-#[cfg(all(debug_assertions, feature = "parallel", not(target_family = "wasm")))]
+#[cfg(all(tiny_physics_race, feature = "parallel", not(target_family = "wasm")))]
 #[test]
 #[should_panic = "two chunks of one stage touch element 5"]
 fn chunks_that_write_the_same_element_are_found() {

@@ -463,7 +463,7 @@ fn for_random_blocks(rounds: u32, mut check: impl FnMut(PairClass, &Rows)) {
 fn every_level_gives_the_same_bits() {
     for_random_blocks(200, |class, rows| {
         let kernel = || CollideBlock { class, rows, max_separation: 0.3 };
-        let expected = dispatch(SimdLevel::Scalar, kernel());
+        let expected = kernel().run::<f32>(());
         for level in SimdLevel::available() {
             let found = dispatch(level, kernel());
             for (x, y) in expected.iter().flatten().zip(found.iter().flatten()) {
@@ -477,7 +477,7 @@ fn every_level_gives_the_same_bits() {
 #[test]
 fn hostile_input_gives_a_unit_normal_and_no_nan() {
     for_random_blocks(2000, |class, rows| {
-        let out = dispatch(SimdLevel::Scalar, CollideBlock { class, rows, max_separation: 0.3 });
+        let out = CollideBlock { class, rows, max_separation: 0.3 }.run::<f32>(());
         for lane in 0..BLOCK {
             let normal = Vec2::new(out[0][lane], out[1][lane]);
             let input: Vec<f32> = rows.iter().map(|row| row[lane]).collect();

@@ -24,8 +24,8 @@
 //! The files: `normals` has normal impulses, `friction` friction and rolling, `bounce` what bodies with
 //! restitution do before the substeps, `pair` the two bodies of a lane that all of them work on.
 //!
-//! Within a colour, order does not matter; colours go in order. The same functions serve as lanes
-//! and, one lane wide, for the overflow.
+//! Within a colour, order does not matter; colours go in order. The same functions serve the overflow, with one
+//! contact in a block at a time.
 
 mod bounce;
 mod friction;
@@ -34,7 +34,9 @@ mod pair;
 
 pub(crate) use bounce::{Memory as BounceMemory, run as run_bounces};
 
-use crate::dynamics::{Blocks, ConstraintBlock, Graph, Schedule, SurfaceBlock, flags, is_overflow};
+use crate::dynamics::{
+    Blocks, ConstraintBlock, Graph, LaneBlock, Schedule, SurfaceBlock, flags, is_overflow,
+};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
 use crate::threads::{SharedRows, Team};
 use friction::{roll, solve_friction, solve_rolling};
@@ -114,14 +116,12 @@ pub(crate) fn run(
     schedule: &Schedule,
 ) {
     for stage in schedule.stages() {
-        let level = if is_overflow(stage.place) { SimdLevel::Scalar } else { level };
         graph.for_each_run(team, &stage, |class, blocks| {
-            let level = level.for_count(blocks.count);
-            let work = RunPass { pass, parameters, rows, blocks };
-            if class.max_points() == 1 {
-                dispatch(level, Points::<1, _>(work));
+            let (work, points) = (RunPass { pass, parameters, rows, blocks }, class.max_points());
+            if is_overflow(stage.place) {
+                work.one_by_one(level, points);
             } else {
-                dispatch(level, Points::<2, _>(work));
+                work.run(level, points);
             }
         });
     }
@@ -132,6 +132,37 @@ struct RunPass<'a> {
     parameters: &'a Parameters,
     rows: SharedRows<'a>,
     blocks: Blocks<'a>,
+}
+
+impl RunPass<'_> {
+    fn run(self, level: SimdLevel, points: usize) {
+        let level = level.for_count(self.blocks.count);
+        if points == 1 {
+            dispatch(level, Points::<1, _>(self));
+        } else {
+            dispatch(level, Points::<2, _>(self));
+        }
+    }
+
+    /// For contacts that have bodies in common: each by itself, in the first lane of an empty block.
+    fn one_by_one(self, level: SimdLevel, points: usize) {
+        let Blocks { count, constraints, surfaces, heads, .. } = self.blocks;
+        let (mut constraint, mut surface) = (ConstraintBlock::NULL, SurfaceBlock::NULL);
+        for (block, lane) in (0..count).map(|slot| (slot / BLOCK, slot % BLOCK)) {
+            constraint.copy_lane(0, &constraints[block], lane);
+            surface.copy_lane(0, &surfaces[block], lane);
+            let blocks = Blocks {
+                count: 1,
+                manifolds: &mut [],
+                heads: &mut [heads[block].lane(lane)],
+                constraints: core::slice::from_mut(&mut constraint),
+                surfaces: core::slice::from_mut(&mut surface),
+            };
+            RunPass { blocks, ..self }.run(level, points);
+            constraints[block].copy_lane(lane, &constraint, 0);
+            surfaces[block].copy_lane(lane, &surface, 0);
+        }
+    }
 }
 
 struct Points<const POINTS: usize, W>(W);

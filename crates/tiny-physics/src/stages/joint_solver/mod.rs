@@ -42,11 +42,11 @@ mod tests;
 
 use crate::describe::{BodyKind, JointDef};
 use crate::dynamics::{
-    BodyInfo, JointBlocks, JointBucket, JointClass, JointGraph, JointLanes, JointLoad, JointPlace,
-    Joints, REFINEMENT, pace_at,
+    BodyInfo, FrameLanes, JointBlocks, JointBucket, JointClass, JointGraph, JointLanes, JointLoad,
+    JointPlace, Joints, REFINEMENT, pace_at,
 };
 use crate::math::{Pose, Vec2};
-use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
+use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_baseline, dispatch_narrow};
 use crate::threads::SharedRows;
 use parts::{Start, Stride};
 use spring::Rates;
@@ -159,7 +159,7 @@ fn describe_bucket<B: JointKernel>(
 /// Writes what follows from the poses (of the centres of mass) at the start of the step. `h` is the
 /// substep length, seconds.
 pub(crate) fn prepare(level: SimdLevel, poses: &[Pose], h: f32, blocks: JointBlocks<'_>) {
-    with_blocks!(blocks, blocks => dispatch(level, Prepare { poses, h, blocks }));
+    with_blocks!(blocks, blocks => dispatch_baseline(level, Prepare { poses, h, blocks }));
 }
 
 struct Prepare<'a, B> {
@@ -192,12 +192,42 @@ pub(crate) fn run(
     rows: SharedRows<'_>,
     blocks: JointBlocks<'_>,
 ) {
-    with_blocks!(blocks, blocks => dispatch(level, RunPass { pass, inv_h, rows, blocks }));
+    with_blocks!(blocks, blocks => {
+        dispatch_narrow(level, RunPass { pass, inv_h, rows, blocks, lanes: BLOCK });
+    });
 }
 
-/// Runs a pass over blocks of the overflow: the one-lane instance, in order.
-pub(crate) fn run_in_order(pass: Pass, inv_h: f32, rows: SharedRows<'_>, blocks: JointBlocks<'_>) {
-    run(SimdLevel::Scalar, pass, inv_h, rows, blocks);
+/// Runs a pass over joints that have bodies in common: each by itself, in the first lane of an empty block.
+pub(crate) fn run_one_by_one(
+    level: SimdLevel,
+    pass: Pass,
+    inv_h: f32,
+    rows: SharedRows<'_>,
+    blocks: JointBlocks<'_>,
+) {
+    with_blocks!(blocks, blocks => one_by_one(level, pass, inv_h, rows, blocks));
+}
+
+fn one_by_one<B: JointKernel>(
+    level: SimdLevel,
+    pass: Pass,
+    inv_h: f32,
+    rows: SharedRows<'_>,
+    blocks: &mut [B],
+) {
+    let mut one = B::NULL;
+    for block in blocks {
+        for lane in 0..BLOCK {
+            one.copy_lane(0, block, lane);
+            let FrameLanes { body_a, body_b, .. } = one.frame();
+            if body_a[0] == body_b[0] {
+                continue; // An empty lane.
+            }
+            let blocks = core::slice::from_mut(&mut one);
+            dispatch_narrow(level, RunPass { pass, inv_h, rows, blocks, lanes: 1 });
+            block.copy_lane(lane, &one, 0);
+        }
+    }
 }
 
 struct RunPass<'a, B> {
@@ -205,6 +235,8 @@ struct RunPass<'a, B> {
     inv_h: f32,
     rows: SharedRows<'a>,
     blocks: &'a mut [B],
+    /// Lanes of a block that are worked on.
+    lanes: usize,
 }
 
 impl<B: JointKernel> LaneKernel for RunPass<'_, B> {
@@ -212,11 +244,11 @@ impl<B: JointKernel> LaneKernel for RunPass<'_, B> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, token: L::Token) {
-        let Self { pass, inv_h, rows, blocks } = self;
+        let Self { pass, inv_h, rows, blocks, lanes } = self;
         let h = 1.0 / inv_h;
         for block in blocks {
             let extras = block.has_extras();
-            for at in (0..BLOCK).step_by(L::WIDTH) {
+            for at in (0..lanes).step_by(L::WIDTH) {
                 let stride = Stride::<L>::new(token, at, h, inv_h);
                 match pass {
                     Pass::WarmStart => block.warm_start(&stride, rows),

@@ -15,7 +15,7 @@ use super::{CHUNK, Parameters};
 use crate::dynamics::{Bodies, ConstraintBlock, Graph, LaneBlock, Schedule, flags, is_overflow};
 use crate::footprint::footprint;
 use crate::geometry::manifold::PairClass;
-use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
+use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_narrow};
 use crate::threads::{SharedRows, SharedSlice, Team};
 use search::{Hit, Search};
 
@@ -39,6 +39,15 @@ struct Aims {
 
 impl Aims {
     const NULL: Self = Self { targets: [[0.0; BLOCK]; 2], tangent_speed: [0.0; BLOCK] };
+
+    /// A lane as the first of others that are empty.
+    fn lane(&self, lane: usize) -> Self {
+        let mut one = Self::NULL;
+        one.targets[0][0] = self.targets[0][lane];
+        one.targets[1][0] = self.targets[1][lane];
+        one.tangent_speed[0] = self.tangent_speed[lane];
+        one
+    }
 }
 
 /// The contacts of one place of the graph that bounce.
@@ -204,13 +213,36 @@ impl Batch {
         rows: SharedRows<'_>,
     ) {
         let alone = is_overflow(self.place);
-        let (level, chunk) = if alone { (SimdLevel::Scalar, usize::MAX) } else { (level, CHUNK) };
+        let chunk = if alone { usize::MAX } else { CHUNK };
         let aims = &self.aims;
         let blocks = SharedSlice::new(&mut self.blocks);
         team.for_each_chunk(aims.len(), chunk, |range| {
             let (blocks, aims) = (blocks.range(range.clone()), &aims[range]);
-            dispatch(level, Leave { parameters, rows, blocks, aims });
+            if alone {
+                leave_one_by_one(level, parameters, rows, blocks, aims);
+            } else {
+                dispatch_narrow(level, Leave { parameters, rows, blocks, aims });
+            }
         });
+    }
+}
+
+/// Lets each contact leave by itself, in the first lane of an empty block.
+fn leave_one_by_one(
+    level: SimdLevel,
+    parameters: &Parameters,
+    rows: SharedRows<'_>,
+    blocks: &mut [ConstraintBlock],
+    aims: &[Aims],
+) {
+    for (block, aims) in blocks.iter_mut().zip(aims) {
+        for lane in 0..BLOCK {
+            let mut one = ConstraintBlock::NULL;
+            one.copy_lane(0, block, lane);
+            let blocks = core::slice::from_mut(&mut one);
+            dispatch_narrow(level, Leave { parameters, rows, blocks, aims: &[aims.lane(lane)] });
+            block.copy_lane(lane, &one, 0);
+        }
     }
 }
 

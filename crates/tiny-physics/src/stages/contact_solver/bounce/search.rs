@@ -2,7 +2,7 @@
 
 use crate::dynamics::{Bucket, ConstraintBlock, Graph, Motion, Run, Schedule, Slot, flags};
 use crate::geometry::manifold::PairClass;
-use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
+use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_narrow};
 use crate::stages::contact_solver::Parameters;
 use crate::stages::contact_solver::pair::{Constants, Pair, Stride};
 use crate::threads::{SharedRows, Team};
@@ -47,7 +47,7 @@ impl Search<'_> {
         let (runs, chunk) = schedule.runs(CHUNK);
         team.map_chunks(runs.len(), chunk, hits, |range, hits| {
             hits.clear();
-            dispatch(level, Look { search: self, runs: &runs[range], hits });
+            dispatch_narrow(level, Look { search: self, runs: &runs[range], hits });
         })
     }
 

@@ -64,7 +64,7 @@ impl Rig {
         for (place, colour) in places.into_iter().zip(self.graph.colours.list_mut()) {
             colour.for_each_run(&Team::alone(), |blocks| {
                 if crate::dynamics::is_overflow(place) {
-                    run_in_order(pass, inv_h, rows, blocks);
+                    run_one_by_one(self.level, pass, inv_h, rows, blocks);
                 } else {
                     run(self.level, pass, inv_h, rows, blocks);
                 }
