@@ -39,8 +39,15 @@ impl<T> Footprint for Vec<T> {
     }
 }
 
-/// An array lies in what it belongs to.
-impl<T, const N: usize> Footprint for [T; N] {
+/// An array lies in what it belongs to; what its items hold does not.
+impl<T: Footprint, const N: usize> Footprint for [T; N] {
+    fn footprint(&self) -> MemoryUse {
+        each(self)
+    }
+}
+
+/// A number holds nothing.
+impl Footprint for usize {
     fn footprint(&self) -> MemoryUse {
         MemoryUse::default()
     }

@@ -5,7 +5,7 @@ mod common;
 use common::*;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use tiny_physics::{BodyId, BodyKind, JointDef, RigidBody, ShapeDef, Vec2, World};
+use tiny_physics::{BodyId, BodyKind, DVec2, JointDef, RigidBody, ShapeDef, Vec2, World};
 
 /// One thing a user can do. Handles are picked by a number modulo how many there are, counting those
 /// of bodies that are gone.
@@ -53,7 +53,7 @@ fn command() -> impl Strategy<Value = Command> {
             Command::AddShape { body, shape, size, offset }
         }),
         1 => which().prop_map(Command::RemoveShape),
-        3 => (which(), which(), 0..4_u8, n(), n()).prop_map(|(a, b, kind, anchor, value)| {
+        3 => (which(), which(), 0..JOINT_KINDS, n(), n()).prop_map(|(a, b, kind, anchor, value)| {
             Command::AddJoint { a, b, kind, anchor, value }
         }),
         1 => which().prop_map(Command::RemoveJoint),
@@ -214,13 +214,26 @@ fn shape_of(shape: u8, size: f32) -> ShapeDef {
     })
 }
 
+/// Kinds that [`joint_of`] knows.
+const JOINT_KINDS: u8 = 13;
+
 fn joint_of(kind: u8, anchor: f32, value: f32) -> JointDef {
     let anchors = (Vec2::new(0.1 * anchor, 0.0), Vec2::new(0.0, 0.1 * anchor));
+    let (x, up) = (Vec2::new(1.0, 0.0), DVec2::new(0.0, 9.0));
     let joint = match kind {
         0 => JointDef::distance(value),
         1 => JointDef::revolute(),
         2 => JointDef::revolute().motor(value, 100.0),
-        _ => JointDef::revolute().limits(-0.5, value).spring(value, 0.5),
+        3 => JointDef::revolute().limits(-0.5, value).spring(value, 0.5),
+        4 => JointDef::prismatic(x).limits(-1.0, value),
+        5 => JointDef::weld(),
+        6 => JointDef::wheel(x).motor(value, 50.0),
+        7 => JointDef::friction(value, 1.0),
+        8 => JointDef::mouse(DVec2::new(f64::from(value), f64::from(anchor)), 100.0),
+        9 => JointDef::pulley(up, up, value),
+        10 => JointDef::gear(value),
+        11 => JointDef::weld().break_at(value, value),
+        _ => JointDef::filter(),
     };
     joint.anchors(anchors.0, anchors.1)
 }
@@ -249,6 +262,25 @@ proptest! {
             a.play(command);
             b.play(command);
             prop_assert!(a.world.state_hash() == b.world.state_hash(), "after command {i}, {command:?}");
+        }
+    }
+
+    /// Whatever state it is in, a world comes back from its bytes, with its hash and its future.
+    #[test]
+    fn any_world_comes_back_from_bytes(commands in prop::collection::vec(command(), 1..=60)) {
+        let mut player = Player::new();
+        for (i, command) in commands.iter().enumerate() {
+            player.play(command);
+            let bytes = player.world.to_bytes();
+            let copy = World::from_bytes(&bytes);
+            prop_assert!(copy.is_ok(), "after command {i}, {command:?}: {}", copy.unwrap_err());
+            let (mut copy, mut world) = (copy.unwrap(), player.world.clone());
+            prop_assert!(copy.to_bytes() == bytes, "after command {i}, {command:?}");
+            for step in 0..4 {
+                prop_assert!(copy.state_hash() == world.state_hash(), "step {step} after {i}, {command:?}");
+                copy.step(DT);
+                world.step(DT);
+            }
         }
     }
 }

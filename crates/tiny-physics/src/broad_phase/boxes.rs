@@ -1,6 +1,7 @@
 //! The boxes of a node's children, side by side, so that all are tested at once.
 
-use crate::codec::data;
+use crate::codec::{Data, Reader, Sink};
+use crate::error::Error;
 use crate::math::{Aabb, Vec2};
 
 /// Children of a node.
@@ -16,7 +17,22 @@ pub(super) struct Boxes {
     max_y: [f32; WIDTH],
 }
 
-data!(Boxes { min_x, min_y, max_x, max_y });
+/// The lanes that have a child.
+impl Data for Boxes {
+    fn save(&self, sink: &mut Sink) {
+        let is_used = |&lane: &usize| self.get(lane) != Aabb::EMPTY;
+        sink.put([(0..WIDTH).filter(is_used).fold(0, |used: u8, lane| used | 1 << lane)]);
+        (0..WIDTH).filter(is_used).for_each(|lane| self.get(lane).save(sink));
+    }
+
+    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        let (used, mut boxes) = (u8::load(reader)?, Self::EMPTY);
+        for lane in (0..WIDTH).filter(|lane| used >> lane & 1 != 0) {
+            boxes.set(lane, Data::load(reader)?);
+        }
+        Ok(boxes)
+    }
+}
 
 const _: () = assert!(size_of::<Boxes>() == 128);
 

@@ -9,9 +9,8 @@
 
 use super::boxes::WIDTH;
 use super::{BoxCast, DynamicTree, clamped, sort_pairs};
-use crate::codec::{Data, Reader, Sink, bad, data, data_enum};
+use crate::codec::{Data, Reader, Sink, bad, data_enum, record, store};
 use crate::error::Error;
-use crate::footprint::footprint;
 use crate::math::{Aabb, Vec2};
 use crate::threads::{SharedSlice, Team};
 use core::ops::{ControlFlow, Range};
@@ -26,6 +25,15 @@ pub struct ProxyId(pub u32);
 impl ProxyId {
     /// No proxy.
     pub const NONE: Self = Self(u32::MAX);
+}
+
+impl Data for ProxyId {
+    fn save(&self, sink: &mut Sink) {
+        self.0.save(sink);
+    }
+    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        Data::load(reader).map(Self)
+    }
 }
 
 /// The kind of body that a proxy belongs to. Pairs need at least one dynamic proxy.
@@ -66,46 +74,27 @@ pub struct ProxyDef {
     pub margin: f32,
 }
 
-/// What a query looks at for each hit: a cache line.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
-struct Proxy {
-    category: u64,
-    mask: u64,
-    user: u32,
-    margin: f32,
-    /// The fat box with which partners were last asked for; [`Aabb::EMPTY`] to ask for all anew.
-    asked: Aabb,
-    /// `None` for a free entry.
-    kind: Option<ProxyKind>,
-    /// Is it in the buffer?
-    moved: bool,
+record! {
+    /// What a query looks at for each hit: a cache line.
+    #[derive(Clone, Copy, Debug)]
+    #[repr(C, align(64))]
+    struct Proxy {
+        category: u64,
+        mask: u64,
+        user: u32,
+        margin: f32,
+        /// The fat box with which partners were last asked for; [`Aabb::EMPTY`] to ask for all anew.
+        asked: Aabb,
+        /// `None` for a free entry.
+        kind: Option<ProxyKind>,
+        /// Is it in the buffer?
+        moved: bool,
+    }
 }
 
 const _: () = assert!(size_of::<Proxy>() == 64);
 
 data_enum!(ProxyKind { 0 => Static, 1 => Kinematic, 2 => Dynamic });
-data!(Proxy { category, mask, user, margin, asked, kind, moved });
-
-impl Data for BroadPhase {
-    fn save(&self, sink: &mut impl Sink) {
-        let Self { proxies, free, moved, groups: _, marks: _, trees } = self;
-        proxies.save(sink);
-        free.save(sink);
-        (moved.len() as u32).save(sink);
-        moved.iter().for_each(|id| id.0.save(sink));
-        trees.iter().for_each(|tree| tree.save(sink));
-    }
-
-    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
-        let (proxies, free) = (Data::load(reader)?, Data::load(reader)?);
-        let moved = Vec::<u32>::load(reader)?.into_iter().map(ProxyId).collect();
-        let trees = [Data::load(reader)?, Data::load(reader)?, Data::load(reader)?];
-        let loaded =
-            Self { proxies, free, moved, groups: Vec::new(), marks: Default::default(), trees };
-        loaded.check_loaded().map(|()| loaded)
-    }
-}
 
 /// A moved proxy that asks for its partners.
 #[derive(Clone, Copy)]
@@ -180,45 +169,29 @@ impl Hits {
 /// 3, too many groups were split up (half as slow again); 4 and 8 are within noise of 5.
 const COMPACT: f32 = 5.0;
 
-/// Proxies of all shapes, and which of them have to look for new partners.
-///
-/// A proxy's *fat box* is its tight box and a margin. While the tight box stays inside, nothing
-/// happens; when it leaves, the fat box is made anew and the proxy goes into the buffer of moved
-/// ones. [`BroadPhase::update_pairs`] asks for the partners of the moved ones alone, so what rests
-/// costs nothing; and a pair whose boxes overlapped when they were last asked for is not given again.
-///
-/// Pairs are of the callers' `user` numbers, smaller first, sorted, each once: the same whatever
-/// the shape of the trees and however many threads asked.
-#[derive(Debug, Default)]
-pub struct BroadPhase {
-    proxies: Vec<Proxy>,
-    free: Vec<u32>,
-    moved: Vec<ProxyId>,
-    /// Tree and node of the moved proxies, while pairs are asked for.
-    groups: Vec<(ProxyKind, u32)>,
-    /// For each node, which children moved.
-    marks: [Vec<u8>; 3],
-    /// By [`ProxyKind`].
-    trees: [DynamicTree; 3],
-}
-
-footprint!(BroadPhase { proxies, free, moved, groups } each { marks, trees });
-
-impl Clone for BroadPhase {
-    fn clone(&self) -> Self {
-        let mut copy = Self::default();
-        copy.clone_from(self);
-        copy
+store! {
+    /// Proxies of all shapes, and which of them have to look for new partners.
+    ///
+    /// A proxy's *fat box* is its tight box and a margin. While the tight box stays inside, nothing
+    /// happens; when it leaves, the fat box is made anew and the proxy goes into the buffer of moved
+    /// ones. [`BroadPhase::update_pairs`] asks for the partners of the moved ones alone, so what rests
+    /// costs nothing; and a pair whose boxes overlapped when they were last asked for is not given again.
+    ///
+    /// Pairs are of the callers' `user` numbers, smaller first, sorted, each once: the same whatever
+    /// the shape of the trees and however many threads asked.
+    #[derive(Debug, Default)]
+    pub struct BroadPhase {
+        proxies: Vec<Proxy>,
+        free: Vec<u32>,
+        moved: Vec<ProxyId>,
+        /// Tree and node of the moved proxies, while pairs are asked for.
+        groups: Vec<(ProxyKind, u32)> as derived,
+        /// For each node, which children moved.
+        marks: [Vec<u8>; 3] as derived,
+        /// By [`ProxyKind`].
+        trees: [DynamicTree; 3],
     }
-
-    fn clone_from(&mut self, source: &Self) {
-        self.proxies.clone_from(&source.proxies);
-        self.free.clone_from(&source.free);
-        self.moved.clone_from(&source.moved);
-        self.groups.clone_from(&source.groups);
-        self.marks.clone_from(&source.marks);
-        self.trees.clone_from(&source.trees);
-    }
+    load with BroadPhase::check_loaded
 }
 
 impl BroadPhase {
@@ -608,14 +581,8 @@ impl BroadPhase {
         pairs && clamped(a.1).overlaps(&clamped(b.1))
     }
 
-    /// What decides which pairs the next update finds, besides the boxes.
-    pub(crate) fn hash_lists(&self, sink: &mut impl Sink) {
-        self.free.save(sink);
-        self.moved.iter().for_each(|id| id.0.save(sink));
-    }
-
     /// Checks that nothing of what was read leads out of the lists.
-    fn check_loaded(&self) -> Result<(), Error> {
+    fn check_loaded(&mut self) -> Result<(), Error> {
         let mut seen = vec![false; self.proxies.len()];
         for &id in &self.free {
             match (self.proxies.get(id as usize), seen.get_mut(id as usize)) {

@@ -3,7 +3,8 @@
 //! A block has the same layout at every SIMD level; narrower levels walk it in strides. Lanes past
 //! the end of a bucket point to body 0 and have zero effective masses, so kernels need no tail code.
 
-use crate::codec::{Data, Sink};
+use crate::codec::{Data, Reader, Sink, record};
+use crate::error::Error;
 use crate::simd::BLOCK;
 
 /// Arrays of one value a lane.
@@ -12,6 +13,10 @@ pub(crate) trait LaneBlock: Copy {
     const NULL: Self;
     /// Copies one lane of a block into a lane of this one.
     fn copy_lane(&mut self, to: usize, source: &Self, from: usize);
+    /// Writes one lane.
+    fn save_lane(&self, lane: usize, sink: &mut Sink);
+    /// Reads one lane.
+    fn load_lane(&mut self, lane: usize, reader: &mut Reader<'_>) -> Result<(), Error>;
 }
 
 /// Copies lane `last` over lane `hole` and empties lane `last`; both by block and lane.
@@ -31,36 +36,60 @@ pub(super) fn move_lane<B: LaneBlock>(
     blocks[last.0].copy_lane(last.1, &B::NULL, 0);
 }
 
-/// Saves a list of blocks with so many slots in use. The lanes after them are saved as empty ones: what kernels leave in
-/// them means nothing, and depends on how many lanes they take at a time.
-pub(super) fn save_blocks<B: LaneBlock + Data>(blocks: &[B], slots: usize, sink: &mut impl Sink) {
-    let (full, last) = blocks.split_at(blocks.len().min(slots / BLOCK));
-    (blocks.len() as u32).save(sink);
-    sink.items(full);
-    for block in last {
-        let mut block = *block;
-        (slots % BLOCK..BLOCK).for_each(|lane| block.copy_lane(lane, &B::NULL, 0));
-        sink.items(&[block]);
-    }
+/// Saves the lanes of so many slots: those after them mean nothing, and depend on how many lanes kernels take at a time.
+pub(super) fn save_lanes<B: LaneBlock>(blocks: &[B], slots: usize, sink: &mut Sink) {
+    let slots = slots.min(blocks.len() * BLOCK);
+    (slots as u32).save(sink);
+    (0..slots).for_each(|slot| blocks[slot / BLOCK].save_lane(slot % BLOCK, sink));
 }
 
-/// Declares a block: arrays of one value a lane.
+/// Reads what [`save_lanes`] saved.
+pub(super) fn load_lanes<B: LaneBlock>(reader: &mut Reader<'_>) -> Result<Vec<B>, Error> {
+    let mut blocks = Vec::new();
+    for slot in 0..u32::load(reader)? as usize {
+        if slot.is_multiple_of(BLOCK) {
+            blocks.push(B::NULL);
+        }
+        blocks[slot / BLOCK].load_lane(slot % BLOCK, reader)?;
+    }
+    Ok(blocks)
+}
+
+/// Declares a block: arrays of one value a lane, then arrays of smaller blocks.
 macro_rules! lane_block {
     ($(#[$meta:meta])* $vis:vis struct $name:ident {
         $($(#[$field_meta:meta])* $field:ident : $type:ty = $null:expr),* $(,)?
-    }) => {
+    } $(parts { $($part:ident : $part_type:ty = $part_null:expr),* $(,)? })?) => {
         $(#[$meta])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[repr(C, align(64))]
         $vis struct $name {
             $($(#[$field_meta])* pub(crate) $field: [$type; BLOCK],)*
+            $($(pub(crate) $part: $part_type,)*)?
         }
 
         impl LaneBlock for $name {
-            const NULL: Self = Self { $($field: [$null; BLOCK],)* };
+            const NULL: Self =
+                Self { $($field: [$null; BLOCK],)* $($($part: $part_null,)*)? };
 
             fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
                 $(self.$field[to] = source.$field[from];)*
+                $($(for (part, source) in self.$part.iter_mut().zip(&source.$part) {
+                    part.copy_lane(to, source, from);
+                })*)?
+            }
+
+            fn save_lane(&self, lane: usize, sink: &mut Sink) {
+                $(self.$field[lane].save(sink);)*
+                $($(self.$part.iter().for_each(|part| part.save_lane(lane, sink));)*)?
+            }
+
+            fn load_lane(&mut self, lane: usize, reader: &mut Reader<'_>) -> Result<(), Error> {
+                $(self.$field[lane] = Data::load(reader)?;)*
+                $($(for part in &mut self.$part {
+                    part.load_lane(lane, reader)?;
+                })*)?
+                Ok(())
             }
         }
     };
@@ -106,37 +135,18 @@ lane_block! {
     }
 }
 
-/// The contact constraints of a block: all that the substeps read and write.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(64))]
-pub(crate) struct ConstraintBlock {
-    pub(crate) body_a: [u32; BLOCK],
-    pub(crate) body_b: [u32; BLOCK],
-    /// Unit normal from A to B, world.
-    pub(crate) normal_x: [f32; BLOCK],
-    pub(crate) normal_y: [f32; BLOCK],
-    pub(crate) friction: [f32; BLOCK],
-    pub(crate) points: [PointLanes; 2],
-}
-
-impl LaneBlock for ConstraintBlock {
-    const NULL: Self = Self {
-        body_a: [0; BLOCK],
-        body_b: [0; BLOCK],
-        normal_x: [0.0; BLOCK],
-        normal_y: [0.0; BLOCK],
-        friction: [0.0; BLOCK],
-        points: [PointLanes::NULL; 2],
-    };
-
-    fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
-        self.body_a[to] = source.body_a[from];
-        self.body_b[to] = source.body_b[from];
-        self.normal_x[to] = source.normal_x[from];
-        self.normal_y[to] = source.normal_y[from];
-        self.friction[to] = source.friction[from];
-        self.points[0].copy_lane(to, &source.points[0], from);
-        self.points[1].copy_lane(to, &source.points[1], from);
+lane_block! {
+    /// The contact constraints of a block: all that the substeps read and write.
+    pub(crate) struct ConstraintBlock {
+        body_a: u32 = 0,
+        body_b: u32 = 0,
+        /// Unit normal from A to B, world.
+        normal_x: f32 = 0.0,
+        normal_y: f32 = 0.0,
+        friction: f32 = 0.0,
+    }
+    parts {
+        points: [PointLanes; 2] = [PointLanes::NULL; 2],
     }
 }
 
@@ -170,17 +180,19 @@ pub(crate) mod flags {
     pub(crate) const HIT: u8 = 8;
 }
 
-/// What is known of a block as a whole.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub(crate) struct BlockHead {
-    /// Which lanes touched in the last narrow phase, as bits.
-    pub(crate) touching: u16,
-    /// What lanes use, see [`flags`].
-    pub(crate) flags: u8,
-    /// Lanes whose body A has joints, as bits, as of the last narrow phase.
-    pub(crate) jointed_a: u16,
-    /// Lanes whose body B has joints.
-    pub(crate) jointed_b: u16,
+record! {
+    /// What is known of a block as a whole.
+    #[derive(Clone, Copy, Debug, PartialEq, Default)]
+    pub(crate) struct BlockHead {
+        /// Which lanes touched in the last narrow phase, as bits.
+        pub(crate) touching: u16,
+        /// What lanes use, see [`flags`].
+        pub(crate) flags: u8,
+        /// Lanes whose body A has joints, as bits, as of the last narrow phase.
+        pub(crate) jointed_a: u16,
+        /// Lanes whose body B has joints.
+        pub(crate) jointed_b: u16,
+    }
 }
 
 impl BlockHead {

@@ -1,11 +1,9 @@
 //! Bodies: hot rows for the solver, poses, and everything else.
 
-use super::clone::{Serial, clone_by_field, keep_serial};
 use super::pace::PLAIN;
-use crate::codec::{Data, Reader, Sink};
+use crate::codec::{Serial, record, store};
 use crate::describe::{BodyKind, Locks};
 use crate::error::Error;
-use crate::footprint::footprint;
 use crate::math::{DVec2, Pose, Rot, Vec2};
 use crate::simd::Row;
 
@@ -36,54 +34,56 @@ pub(crate) struct Motion {
     pub(crate) factor: [f32; 4],
 }
 
-/// All of a body that a step does not touch in its inner loops. What it does touch once a step lies in the
-/// first cache line.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[repr(C, align(64))]
-pub(crate) struct BodyInfo {
-    pub(crate) kind: BodyKind,
-    pub(crate) alive: bool,
-    pub(crate) enabled: bool,
-    pub(crate) awake: bool,
-    pub(crate) bullet: bool,
-    pub(crate) can_sleep: bool,
-    /// Some shape of the body turns with nothing: rotation is locked for good.
-    pub(crate) never_turns: bool,
-    /// How finely its island is solved, see [`pace`](super::pace).
-    pub(crate) pace: u8,
-    pub(crate) locks: Locks,
-    pub(crate) force: Vec2,
-    pub(crate) torque: f32,
-    pub(crate) gravity_scale: f32,
-    pub(crate) linear_damping: f32,
-    pub(crate) angular_damping: f32,
-    /// Seconds below the sleep speed.
-    pub(crate) sleep_time: f32,
-    pub(crate) sleep_speed: f32,
-    /// Smallest half width of a shape: how far it may move before it could jump over something.
-    pub(crate) min_extent: f32,
-    /// Greatest distance of a point of a shape from the centre of mass.
-    pub(crate) max_extent: f32,
-    pub(crate) first_shape: u32,
-    /// First joint edge: joint index * 2 + side.
-    pub(crate) first_joint: u32,
-    /// Centre of mass in the body's frame.
-    pub(crate) local_center: Vec2,
-    pub(crate) mass: f32,
-    pub(crate) inertia: f32,
-    /// Mass given by the user, if any.
-    pub(crate) fixed_mass: Option<f32>,
-    pub(crate) generation: u32,
-    pub(crate) shape_count: u32,
-    /// First contact edge: contact index * 2 + side.
-    pub(crate) first_contact: u32,
-    /// Colours of the constraint graph that its contacts use, as bits.
-    pub(crate) contact_colours: u32,
-    /// Colours that its joints use, as bits.
-    pub(crate) joint_colours: u32,
-    /// Next body of the same sleeping island, in a ring; NULL while awake.
-    pub(crate) island_next: u32,
-    pub(crate) user_data: u64,
+record! {
+    /// All of a body that a step does not touch in its inner loops. What it does touch once a step lies in the
+    /// first cache line.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    #[repr(C, align(64))]
+    pub(crate) struct BodyInfo {
+        pub(crate) kind: BodyKind,
+        pub(crate) alive: bool,
+        pub(crate) enabled: bool,
+        pub(crate) awake: bool,
+        pub(crate) bullet: bool,
+        pub(crate) can_sleep: bool,
+        /// Some shape of the body turns with nothing: rotation is locked for good.
+        pub(crate) never_turns: bool,
+        /// How finely its island is solved, see [`pace`](super::pace).
+        pub(crate) pace: u8,
+        pub(crate) locks: Locks,
+        pub(crate) force: Vec2,
+        pub(crate) torque: f32,
+        pub(crate) gravity_scale: f32,
+        pub(crate) linear_damping: f32,
+        pub(crate) angular_damping: f32,
+        /// Seconds below the sleep speed.
+        pub(crate) sleep_time: f32,
+        pub(crate) sleep_speed: f32,
+        /// Smallest half width of a shape: how far it may move before it could jump over something.
+        pub(crate) min_extent: f32,
+        /// Greatest distance of a point of a shape from the centre of mass.
+        pub(crate) max_extent: f32,
+        pub(crate) first_shape: u32,
+        /// First joint edge: joint index * 2 + side.
+        pub(crate) first_joint: u32,
+        /// Centre of mass in the body's frame.
+        pub(crate) local_center: Vec2,
+        pub(crate) mass: f32,
+        pub(crate) inertia: f32,
+        /// Mass given by the user, if any.
+        pub(crate) fixed_mass: Option<f32>,
+        pub(crate) generation: u32 as apart,
+        pub(crate) shape_count: u32,
+        /// First contact edge: contact index * 2 + side.
+        pub(crate) first_contact: u32,
+        /// Colours of the constraint graph that its contacts use, as bits.
+        pub(crate) contact_colours: u32,
+        /// Colours that its joints use, as bits.
+        pub(crate) joint_colours: u32,
+        /// Next body of the same sleeping island, in a ring; NULL while awake.
+        pub(crate) island_next: u32,
+        pub(crate) user_data: u64,
+    }
 }
 
 const _: () = assert!(core::mem::offset_of!(BodyInfo, local_center) <= 64);
@@ -126,96 +126,45 @@ impl Default for BodyInfo {
     }
 }
 
-/// All bodies of a world, by stable index. Body 0 is always there, static and without shapes: empty
-/// lanes of constraint blocks point to it, so its row must never be written.
-#[derive(Debug, PartialEq)]
-pub(crate) struct Bodies {
-    /// Velocity, motion since the start of the step, inverse masses: see [`Slot`].
-    pub(crate) rows: Vec<Row>,
-    /// Frame of the centre of mass.
-    pub(crate) poses: Vec<Pose>,
-    /// Poses at the start of the last step, for drawing in between; the current ones of bodies that sleep
-    /// or were placed by the user.
-    pub(crate) previous: Vec<Pose>,
-    pub(crate) motions: Vec<Motion>,
-    /// Velocity before the impulses of the substep, and whether (1 or 0) those are carried into the next.
-    pub(crate) starts: Vec<[f32; 4]>,
-    pub(crate) infos: Vec<BodyInfo>,
-    /// Moving (dynamic or kinematic) bodies that are awake and enabled, ascending.
-    pub(crate) awake: Vec<u32>,
-    /// `awake` may not be ascending: it has been changed since it was last sorted.
-    pub(crate) awake_unsorted: bool,
-    /// Where in `awake` each body is, or NULL.
-    pub(super) awake_places: Vec<u32>,
-    pub(crate) free: Vec<u32>,
-    pub(crate) count: usize,
-    /// Bodies of another pace than the plain one, sleeping ones too.
-    pub(crate) refined: usize,
-    serial: Serial,
-}
-
-clone_by_field!(Bodies {
-    rows,
-    poses,
-    previous,
-    motions,
-    starts,
-    infos,
-    awake,
-    awake_unsorted,
-    awake_places,
-    free,
-    count,
-    refined,
-    serial
-});
-footprint!(Bodies { rows, poses, previous, motions, starts, infos, awake, awake_places, free } none {
-    awake_unsorted, count, refined, serial
-});
-keep_serial!(Bodies);
-
-impl Data for Bodies {
-    fn save(&self, sink: &mut impl Sink) {
-        let Self { rows, poses, previous, motions, starts, infos, .. } = self;
-        rows.save(sink);
-        poses.save(sink);
-        previous.save(sink);
-        motions.save(sink);
-        starts.save(sink);
-        infos.save(sink);
-        // Where they are in the list follows from the list.
-        let Self { awake, awake_unsorted, awake_places: _, free, count, refined, serial, .. } =
-            self;
-        awake.save(sink);
-        awake_unsorted.save(sink);
-        free.save(sink);
-        count.save(sink);
-        refined.save(sink);
-        serial.save(sink);
+store! {
+    /// All bodies of a world, by stable index. Body 0 is always there, static and without shapes: empty
+    /// lanes of constraint blocks point to it, so its row must never be written.
+    #[derive(Debug, PartialEq)]
+    pub(crate) struct Bodies {
+        /// Velocity, motion since the start of the step, inverse masses: see [`Slot`].
+        pub(crate) rows: Vec<Row>,
+        /// Frame of the centre of mass.
+        pub(crate) poses: Vec<Pose>,
+        /// Poses at the start of the last step, for drawing in between; the current ones of bodies that sleep
+        /// or were placed by the user.
+        pub(crate) previous: Vec<Pose>,
+        pub(crate) motions: Vec<Motion> as derived,
+        /// Velocity before the impulses of the substep, and whether (1 or 0) those are carried into the next.
+        pub(crate) starts: Vec<[f32; 4]> as derived,
+        pub(crate) infos: Vec<BodyInfo>,
+        /// Moving (dynamic or kinematic) bodies that are awake and enabled, ascending.
+        pub(crate) awake: Vec<u32>,
+        /// `awake` may not be ascending: it has been changed since it was last sorted.
+        pub(crate) awake_unsorted: bool,
+        /// Where in `awake` each body is, or NULL.
+        pub(super) awake_places: Vec<u32> as derived,
+        pub(crate) free: Vec<u32>,
+        pub(crate) count: usize,
+        /// Bodies of another pace than the plain one, sleeping ones too.
+        pub(crate) refined: usize,
+        serial: Serial,
     }
-
-    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
-        let mut bodies = Self {
-            rows: Data::load(reader)?,
-            poses: Data::load(reader)?,
-            previous: Data::load(reader)?,
-            motions: Data::load(reader)?,
-            starts: Data::load(reader)?,
-            infos: Data::load(reader)?,
-            awake: Data::load(reader)?,
-            awake_unsorted: Data::load(reader)?,
-            awake_places: Vec::new(),
-            free: Data::load(reader)?,
-            count: Data::load(reader)?,
-            refined: Data::load(reader)?,
-            serial: Data::load(reader)?,
-        };
-        bodies.find_awake_places()?;
-        Ok(bodies)
-    }
+    load with Bodies::settle
 }
 
 impl Bodies {
+    /// Finds out what follows from the rest, for bodies that were read.
+    fn settle(&mut self) -> Result<(), Error> {
+        self.motions.resize(self.infos.len(), Motion::default());
+        self.starts.resize(self.infos.len(), [0.0; 4]);
+        self.find_awake_places()
+    }
+
     pub(crate) fn new() -> Self {
         Self {
             rows: vec![[0.0; 8]],

@@ -13,7 +13,7 @@ use super::bodies::{Bodies, BodyInfo};
 use super::pace::PACES;
 use crate::codec::{Data, Reader, Sink, bad};
 use crate::error::Error;
-use crate::footprint::{Footprint, MemoryUse, each};
+use crate::footprint::MemoryUse;
 use crate::threads::SharedSlice;
 use core::ops::{Index, IndexMut, Range};
 
@@ -133,19 +133,13 @@ impl<B: Bucketful> Clone for Coloured<B> {
     }
 }
 
-impl<B: Footprint> Footprint for Coloured<B> {
-    fn footprint(&self) -> MemoryUse {
-        let Self { keys, buckets, spare } = self;
-        let lists = [keys.footprint(), buckets.footprint(), spare.footprint()];
-        lists.into_iter().chain([each(buckets), each(spare)]).sum()
-    }
-}
-
 impl<B: Bucketful + Data> Data for Coloured<B> {
-    fn save(&self, sink: &mut impl Sink) {
+    const HEAP: bool = true;
+
+    fn save(&self, sink: &mut Sink) {
         let Self { keys, buckets, spare: _ } = self;
         keys.save(sink);
-        sink.items(buckets);
+        buckets.iter().for_each(|bucket| bucket.save(sink));
     }
 
     fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
@@ -162,6 +156,11 @@ impl<B: Bucketful + Data> Data for Coloured<B> {
             buckets.push(bucket);
         }
         Ok(Self { keys, buckets, spare: Vec::new() })
+    }
+
+    fn memory(&self) -> MemoryUse {
+        let Self { keys, buckets, spare } = self;
+        [keys.memory(), buckets.memory(), spare.memory()].into_iter().sum()
     }
 }
 

@@ -1,21 +1,21 @@
 //! Contact records: pairs of shapes that came near, until their fat boxes part.
 
 use super::bodies::Bodies;
-use super::clone::clone_by_field;
 use super::edges::{self, edges};
 use super::pair_table::PairTable;
-use crate::codec::{Data, Reader, Sink, bad};
+use crate::codec::{bad, data_enum, record, store};
 use crate::error::Error;
-use crate::footprint::footprint;
 use crate::geometry::manifold::PairClass;
 
-/// Impulses of a contact point that is not in the graph at the moment.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct SavedPoint {
-    /// Feature id; -1 is no point.
-    pub(crate) id: f32,
-    pub(crate) normal_impulse: f32,
-    pub(crate) tangent_impulse: f32,
+record! {
+    /// Impulses of a contact point that is not in the graph at the moment.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub(crate) struct SavedPoint {
+        /// Feature id; -1 is no point.
+        pub(crate) id: f32,
+        pub(crate) normal_impulse: f32,
+        pub(crate) tangent_impulse: f32,
+    }
 }
 
 impl SavedPoint {
@@ -36,67 +36,61 @@ pub(crate) enum Place {
     Asleep,
 }
 
-/// The lasting record of a pair.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Contact {
-    pub(crate) alive: bool,
-    /// Do the shapes touch (or nearly), as of the last narrow phase?
-    pub(crate) touching: bool,
-    /// Are begin and end events sent?
-    pub(crate) events: bool,
-    /// Are hit events sent?
-    pub(crate) hit_events: bool,
-    pub(crate) class: PairClass,
-    pub(crate) place: Place,
-    pub(crate) shape_a: u32,
-    pub(crate) shape_b: u32,
-    pub(crate) body_a: u32,
-    pub(crate) body_b: u32,
-    pub(crate) friction: f32,
-    pub(crate) restitution: f32,
-    pub(crate) rolling_resistance: f32,
-    pub(crate) tangent_speed: f32,
-    /// Impulses kept while the contact has no lane.
-    pub(crate) saved: [SavedPoint; 2],
-    /// Neighbours in the contact lists of A and B: (previous, next) edges.
-    pub(crate) links: [(u32, u32); 2],
+record! {
+    /// The lasting record of a pair.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub(crate) struct Contact {
+        pub(crate) alive: bool,
+        /// Do the shapes touch (or nearly), as of the last narrow phase?
+        pub(crate) touching: bool,
+        /// Are begin and end events sent?
+        pub(crate) events: bool,
+        /// Are hit events sent?
+        pub(crate) hit_events: bool,
+        pub(crate) class: PairClass,
+        pub(crate) place: Place,
+        pub(crate) shape_a: u32,
+        pub(crate) shape_b: u32,
+        pub(crate) body_a: u32,
+        pub(crate) body_b: u32,
+        pub(crate) friction: f32,
+        pub(crate) restitution: f32,
+        pub(crate) rolling_resistance: f32,
+        pub(crate) tangent_speed: f32,
+        /// Impulses kept while the contact has no lane.
+        pub(crate) saved: [SavedPoint; 2],
+        /// Neighbours in the contact lists of A and B: (previous, next) edges.
+        pub(crate) links: [(u32, u32); 2],
+    }
 }
 
+data_enum!(Place { 0 => Asleep, 1 => Graph { colour, slot } });
 edges!(Contact, first_contact);
 
-/// All contacts of a world.
-#[derive(Debug, PartialEq, Default)]
-pub(crate) struct Contacts {
-    pub(crate) records: Vec<Contact>,
-    pub(crate) pairs: PairTable,
-    pub(crate) free: Vec<u32>,
-}
-
-clone_by_field!(Contacts { records, pairs, free });
-footprint!(Contacts { records, pairs, free });
-
-impl Data for Contacts {
-    fn save(&self, sink: &mut impl Sink) {
-        let Self { records, pairs: _, free } = self;
-        records.save(sink);
-        free.save(sink);
+store! {
+    /// All contacts of a world.
+    #[derive(Debug, PartialEq, Default)]
+    pub(crate) struct Contacts {
+        pub(crate) records: Vec<Contact>,
+        pub(crate) pairs: PairTable as derived,
+        pub(crate) free: Vec<u32>,
     }
-
-    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
-        let records: Vec<Contact> = Data::load(reader)?;
-        let free = Data::load(reader)?;
-        let mut pairs = PairTable::with_room_for(records.len());
-        for (index, contact) in records.iter().enumerate().filter(|(_, contact)| contact.alive) {
-            let (a, b) = (contact.shape_a, contact.shape_b);
-            if a == b || !pairs.insert(a, b, index as u32) {
-                return Err(bad("two contacts are of the same shapes"));
-            }
-        }
-        Ok(Self { records, pairs, free })
-    }
+    load with Contacts::note_pairs
 }
 
 impl Contacts {
+    /// Fills the pair table, for records that were read.
+    fn note_pairs(&mut self) -> Result<(), Error> {
+        self.pairs = PairTable::with_room_for(self.records.len());
+        let alive = self.records.iter().enumerate().filter(|(_, contact)| contact.alive);
+        for (index, &Contact { shape_a, shape_b, .. }) in alive {
+            if shape_a == shape_b || !self.pairs.insert(shape_a, shape_b, index as u32) {
+                return Err(bad("two contacts are of the same shapes"));
+            }
+        }
+        Ok(())
+    }
+
     /// Puts a record in: into the pair table and both bodies' lists.
     pub(crate) fn insert(&mut self, bodies: &mut Bodies, contact: Contact) -> u32 {
         let (shape_a, shape_b) = (contact.shape_a, contact.shape_b);

@@ -5,16 +5,16 @@
 //! kind.
 
 use super::blocks::{
-    BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, SurfaceBlock, flags, move_lane,
+    BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, SurfaceBlock, flags, load_lanes,
+    move_lane, save_lanes,
 };
 use super::bodies::Bodies;
-use super::clone::clone_by_field;
 use super::coloured::{Bucketful, Coloured, IDLE, give_colour_back, place_of, take_colour};
 use super::contacts::{Contact, Contacts, Place, SavedPoint};
 use super::schedule::Stage;
-use crate::codec::{Data, Reader, Sink};
+use crate::codec::{Data, Reader, Sink, clone_by_field, store};
 use crate::error::Error;
-use crate::footprint::{MemoryUse, each, footprint};
+use crate::footprint::{Footprint, MemoryUse, each, footprint};
 use crate::geometry::manifold::PairClass;
 use crate::simd::BLOCK;
 use crate::threads::{SharedSlice, Team};
@@ -136,12 +136,6 @@ impl Bucket {
         }
     }
 
-    /// The impulses of all slots, in order; nothing for contacts that do not touch.
-    pub(crate) fn saved_points(&self) -> impl Iterator<Item = [SavedPoint; 2]> + '_ {
-        let count = if self.constraints.is_empty() { 0 } else { self.contacts.len() };
-        (0..count as u32).map(|slot| self.saved(slot))
-    }
-
     /// The impulses of a slot, to be kept while the contact is elsewhere.
     fn saved(&self, slot: u32) -> [SavedPoint; 2] {
         let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
@@ -224,42 +218,56 @@ pub(super) fn place_at(key: usize) -> usize {
     key / PairClass::COUNT
 }
 
-/// All contacts of bodies that are awake.
-#[derive(Debug, PartialEq, Default)]
-pub(crate) struct Graph {
-    /// By place and class: see [`key`].
-    pub(crate) buckets: Coloured<Bucket>,
-    touching: usize,
-    /// Blocks that got a touching contact since the last narrow phase.
-    fresh: Vec<BlockAddress>,
-    /// A contact has come in that joins bodies of different paces.
-    pub(crate) mixed: bool,
-    /// Contacts between dynamic bodies that have come in since the paces were last assigned.
-    pub(crate) news: u32,
+store! {
+    /// All contacts of bodies that are awake.
+    #[derive(Debug, PartialEq, Default)]
+    pub(crate) struct Graph {
+        /// By place and class: see [`key`].
+        pub(crate) buckets: Coloured<Bucket>,
+        touching: usize as derived,
+        /// Blocks that got a touching contact since the last narrow phase: those of the step at work.
+        fresh: Vec<BlockAddress> as derived,
+        /// A contact has come in that joins bodies of different paces.
+        pub(crate) mixed: bool,
+        /// Contacts between dynamic bodies that have come in since the paces were last assigned.
+        pub(crate) news: u32,
+    }
+    load with Graph::count_touching
 }
 
-clone_by_field!(Graph { buckets, touching, fresh, mixed, news });
-footprint!(Graph { buckets, fresh } none { touching, mixed, news });
+impl Data for Bucket {
+    const HEAP: bool = true;
 
-impl Data for Graph {
-    fn save(&self, sink: &mut impl Sink) {
-        // Fresh blocks are those of the step at work.
-        let Self { buckets, touching: _, fresh: _, mixed, news } = self;
-        buckets.save(sink);
-        mixed.save(sink);
-        news.save(sink);
+    fn save(&self, sink: &mut Sink) {
+        let Self { contacts, manifolds, constraints, surfaces, heads } = self;
+        contacts.save(sink);
+        save_lanes(manifolds, contacts.len(), sink);
+        save_lanes(constraints, contacts.len(), sink);
+        save_lanes(surfaces, contacts.len(), sink);
+        heads.save(sink);
     }
 
     fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
-        let mut graph = Self { buckets: Data::load(reader)?, ..Self::default() };
-        graph.mixed = Data::load(reader)?;
-        graph.news = Data::load(reader)?;
-        graph.touching = graph.touching_buckets().map(|(_, bucket)| bucket.contacts.len()).sum();
-        Ok(graph)
+        Ok(Self {
+            contacts: Data::load(reader)?,
+            manifolds: load_lanes(reader)?,
+            constraints: load_lanes(reader)?,
+            surfaces: load_lanes(reader)?,
+            heads: Data::load(reader)?,
+        })
+    }
+
+    fn memory(&self) -> MemoryUse {
+        self.footprint()
     }
 }
 
 impl Graph {
+    fn count_touching(&mut self) -> Result<(), Error> {
+        self.touching = self.touching_buckets().map(|(_, bucket)| bucket.contacts.len()).sum();
+        Ok(())
+    }
+
     /// All buckets, each with its place and class.
     pub(crate) fn all(&self) -> impl Iterator<Item = (usize, PairClass, &Bucket)> {
         let keys = self.buckets.keys().map(|key| (place_at(key), key % PairClass::COUNT));
@@ -270,11 +278,6 @@ impl Graph {
     /// The buckets of contacts that touch, each with its place.
     pub(crate) fn touching_buckets(&self) -> impl Iterator<Item = (usize, &Bucket)> {
         self.all().map(|(place, _, bucket)| (place, bucket)).take_while(|&(place, _)| place != IDLE)
-    }
-
-    /// The bucket of a place and class, if that has contacts.
-    pub(crate) fn find(&self, place: usize, class: PairClass) -> Option<&Bucket> {
-        self.buckets.get(key(place, class))
     }
 
     /// The bucket of a place and class that has contacts.

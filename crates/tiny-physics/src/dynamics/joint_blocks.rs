@@ -9,7 +9,9 @@
 //! accumulated impulses (which live on, and move to the record while the joint sleeps).
 
 use super::blocks::LaneBlock;
+use crate::codec::{Data, Reader, Sink};
 use crate::describe::JointKind;
+use crate::error::Error;
 use crate::simd::BLOCK;
 
 /// Most impulses that a joint accumulates.
@@ -87,6 +89,17 @@ macro_rules! joint_lanes {
                 $(self.$field[to] = source.$field[from];)*
                 $($(self.$impulse[to] = source.$impulse[from];)*)?
             }
+
+            fn save_lane(&self, lane: usize, sink: &mut Sink) {
+                $(self.$field[lane].save(sink);)*
+                $($(self.$impulse[lane].save(sink);)*)?
+            }
+
+            fn load_lane(&mut self, lane: usize, reader: &mut Reader<'_>) -> Result<(), Error> {
+                $(self.$field[lane] = Data::load(reader)?;)*
+                $($(self.$impulse[lane] = Data::load(reader)?;)*)?
+                Ok(())
+            }
         }
 
         #[allow(unused_variables, unused_mut, unused_assignments, reason = "parts without impulses")]
@@ -122,6 +135,17 @@ macro_rules! joint_block {
             fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
                 self.frame.copy_lane(to, &source.frame, from);
                 $(self.$part.copy_lane(to, &source.$part, from);)*
+            }
+
+            fn save_lane(&self, lane: usize, sink: &mut Sink) {
+                self.frame.save_lane(lane, sink);
+                $(self.$part.save_lane(lane, sink);)*
+            }
+
+            fn load_lane(&mut self, lane: usize, reader: &mut Reader<'_>) -> Result<(), Error> {
+                self.frame.load_lane(lane, reader)?;
+                $(self.$part.load_lane(lane, reader)?;)*
+                Ok(())
             }
         }
 

@@ -11,15 +11,14 @@
 //! have changed since.
 
 use super::bodies::{Bodies, NULL};
-use super::clone::clone_by_field;
 use super::coloured::{TREES, colour_at, place_of};
 use super::disjoint_sets::DisjointSets;
 use super::joint_blocks::{AxisLanes, JointClass};
 use super::joints::{JointPlace, Joints};
-use crate::codec::{Data, Reader, Sink};
+use crate::codec::{Data, Reader, Sink, clone_by_field};
 use crate::describe::{JointDef, JointKind};
 use crate::error::Error;
-use crate::footprint::footprint;
+use crate::footprint::{Footprint, MemoryUse, footprint};
 
 /// Fewer joints than these are solved in lanes.
 const LEAST_LINKS: usize = 2;
@@ -191,9 +190,12 @@ impl PartialEq for JointForest {
 }
 
 impl Data for JointForest {
-    fn save(&self, _: &mut impl Sink) {}
+    fn save(&self, _: &mut Sink) {}
     fn load(_: &mut Reader<'_>) -> Result<Self, Error> {
         Ok(Self { all_dirty: true, ..Self::default() })
+    }
+    fn memory(&self) -> MemoryUse {
+        self.footprint()
     }
 }
 

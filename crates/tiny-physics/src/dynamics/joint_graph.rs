@@ -3,9 +3,8 @@
 //! A joint keeps its colour while its bodies are awake. Joints of the [forest](super::joint_forest) have lanes of their
 //! own, which keep their numbers between steps.
 
-use super::blocks::move_lane;
+use super::blocks::{load_lanes, move_lane, save_lanes};
 use super::bodies::Bodies;
-use super::clone::{clone_by_field, cloned_data};
 use super::coloured::{
     Bucketful, COLOURS, Coloured, TREES, colour_at, give_colour_back, pace_at, place_of,
     take_colour,
@@ -17,7 +16,9 @@ use super::joint_blocks::{
 use super::joint_forest::{JointForest, JointTree, is_rigid};
 use super::joints::{JointPlace, JointRecord, Joints};
 use super::pace::PLAIN;
-use crate::footprint::footprint;
+use crate::codec::{Data, Reader, Sink, clone_by_field, store};
+use crate::error::Error;
+use crate::footprint::{Footprint, MemoryUse, footprint};
 use crate::simd::BLOCK;
 use crate::threads::Team;
 
@@ -33,6 +34,31 @@ pub(crate) struct JointBucket<B> {
 
 clone_by_field!(JointBucket<B: Copy> { joints, blocks, stale });
 footprint!(JointBucket<B> { joints, blocks, stale });
+
+impl<B: JointLanes> Data for JointBucket<B> {
+    const HEAP: bool = true;
+
+    fn save(&self, sink: &mut Sink) {
+        let Self { joints, blocks, stale } = self;
+        joints.save(sink);
+        if !joints.is_empty() {
+            save_lanes(blocks, joints.len(), sink);
+            stale.save(sink);
+        }
+    }
+
+    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        let joints: Vec<u32> = Data::load(reader)?;
+        if joints.is_empty() {
+            return Ok(Self::default());
+        }
+        Ok(Self { joints, blocks: load_lanes(reader)?, stale: Data::load(reader)? })
+    }
+
+    fn memory(&self) -> MemoryUse {
+        self.footprint()
+    }
+}
 
 impl<B> Default for JointBucket<B> {
     fn default() -> Self {
@@ -85,21 +111,20 @@ impl<B: JointLanes> JointBucket<B> {
     }
 }
 
-/// All joints of one colour.
-#[derive(Debug, PartialEq, Default)]
-pub(crate) struct JointColour {
-    pub(crate) distance: JointBucket<DistanceBlock>,
-    pub(crate) revolute: JointBucket<RevoluteBlock>,
-    pub(crate) prismatic: JointBucket<PrismaticBlock>,
-    pub(crate) weld: JointBucket<WeldBlock>,
-    pub(crate) wheel: JointBucket<WheelBlock>,
-    pub(crate) drive: JointBucket<DriveBlock>,
-    pub(crate) pulley: JointBucket<PulleyBlock>,
-    pub(crate) gear: JointBucket<GearBlock>,
+store! {
+    /// All joints of one colour.
+    #[derive(Debug, PartialEq, Default)]
+    pub(crate) struct JointColour {
+        pub(crate) distance: JointBucket<DistanceBlock>,
+        pub(crate) revolute: JointBucket<RevoluteBlock>,
+        pub(crate) prismatic: JointBucket<PrismaticBlock>,
+        pub(crate) weld: JointBucket<WeldBlock>,
+        pub(crate) wheel: JointBucket<WheelBlock>,
+        pub(crate) drive: JointBucket<DriveBlock>,
+        pub(crate) pulley: JointBucket<PulleyBlock>,
+        pub(crate) gear: JointBucket<GearBlock>,
+    }
 }
-
-clone_by_field!(JointColour { distance, revolute, prismatic, weld, wheel, drive, pulley, gear });
-footprint!(JointColour { distance, revolute, prismatic, weld, wheel, drive, pulley, gear });
 
 /// Does something with the bucket of a class.
 macro_rules! with_bucket {
@@ -201,23 +226,22 @@ impl JointColour {
     }
 }
 
-/// All colours, the overflow and the trees.
-#[derive(Debug, PartialEq, Default)]
-pub(crate) struct JointGraph {
-    /// By place.
-    pub(crate) colours: Coloured<JointColour>,
-    /// Plain substep length that the lanes were described for, seconds.
-    pub(crate) described_h: f32,
-    /// Some block is stale.
-    pub(crate) any_stale: bool,
-    pub(crate) count: usize,
-    /// A joint has come in that joins bodies of different paces.
-    pub(crate) mixed: bool,
-    pub(crate) forest: JointForest,
+store! {
+    /// All colours, the overflow and the trees.
+    #[derive(Debug, PartialEq, Default)]
+    pub(crate) struct JointGraph {
+        /// By place.
+        pub(crate) colours: Coloured<JointColour>,
+        /// Plain substep length that the lanes were described for, seconds.
+        pub(crate) described_h: f32,
+        /// Some block is stale.
+        pub(crate) any_stale: bool,
+        pub(crate) count: usize,
+        /// A joint has come in that joins bodies of different paces.
+        pub(crate) mixed: bool,
+        pub(crate) forest: JointForest,
+    }
 }
-
-cloned_data!(JointGraph { colours, described_h, any_stale, count, mixed, forest });
-footprint!(JointGraph { colours, forest } none { described_h, any_stale, count, mixed });
 
 impl JointGraph {
     /// The joints of a pace that are solved in lanes, in that order, and whether they are its overflow, in which they
@@ -341,16 +365,6 @@ impl JointGraph {
         for index in moves.into_lanes {
             self.take(bodies, joints, index);
             self.put_in_lanes(bodies, joints, index);
-        }
-    }
-
-    /// The impulses of a joint, wherever they are kept.
-    pub(crate) fn impulses(&self, record: &JointRecord) -> Impulses {
-        match (record.place, record.class()) {
-            (JointPlace::Graph { colour, slot }, Some(class)) => {
-                with_bucket!([&] self.colours[usize::from(colour)], class, bucket => bucket.saved(slot))
-            }
-            _ => record.saved,
         }
     }
 

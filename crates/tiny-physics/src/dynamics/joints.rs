@@ -1,9 +1,9 @@
 //! Joint records: what the user asked for, and where the solver's copy of it is.
 
 use super::bodies::{Bodies, NULL};
-use super::clone::{Serial, cloned_data, keep_serial};
 use super::edges::{self, edges};
 use super::joint_blocks::{Impulses, JointClass};
+use crate::codec::{Serial, data_enum, record, store};
 use crate::describe::JointDef;
 use crate::math::Vec2;
 
@@ -21,19 +21,21 @@ pub(crate) enum JointPlace {
     Asleep,
 }
 
-/// The lasting record of a joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct JointRecord {
-    pub(crate) alive: bool,
-    pub(crate) generation: u32,
-    pub(crate) body_a: u32,
-    pub(crate) body_b: u32,
-    pub(crate) def: JointDef,
-    pub(crate) place: JointPlace,
-    /// Impulses kept while the joint has no lane.
-    pub(crate) saved: Impulses,
-    /// Neighbours in the joint lists of A and B: (previous, next) edges.
-    pub(crate) links: [(u32, u32); 2],
+record! {
+    /// The lasting record of a joint.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub(crate) struct JointRecord {
+        pub(crate) alive: bool,
+        pub(crate) generation: u32 as apart,
+        pub(crate) body_a: u32,
+        pub(crate) body_b: u32,
+        pub(crate) def: JointDef,
+        pub(crate) place: JointPlace,
+        /// Impulses kept while the joint has no lane.
+        pub(crate) saved: Impulses,
+        /// Neighbours in the joint lists of A and B: (previous, next) edges.
+        pub(crate) links: [(u32, u32); 2],
+    }
 }
 
 impl JointRecord {
@@ -57,6 +59,7 @@ impl JointRecord {
     }
 }
 
+data_enum!(JointPlace { 0 => Asleep, 1 => Graph { colour, slot } });
 edges!(JointRecord, first_joint);
 
 /// What a joint does to body B, as of the last substep: the opposite acts on body A.
@@ -68,20 +71,18 @@ pub(crate) struct JointLoad {
     pub(crate) torque: f32,
 }
 
-/// All joints of a world, by stable index.
-#[derive(Debug, PartialEq, Default)]
-pub(crate) struct Joints {
-    pub(crate) records: Vec<JointRecord>,
-    /// Joints that can break, ascending.
-    pub(crate) breakable: Vec<u32>,
-    pub(crate) free: Vec<u32>,
-    pub(crate) count: usize,
-    serial: Serial,
+store! {
+    /// All joints of a world, by stable index.
+    #[derive(Debug, PartialEq, Default)]
+    pub(crate) struct Joints {
+        pub(crate) records: Vec<JointRecord>,
+        /// Joints that can break, ascending.
+        pub(crate) breakable: Vec<u32>,
+        pub(crate) free: Vec<u32>,
+        pub(crate) count: usize,
+        serial: Serial,
+    }
 }
-
-cloned_data!(Joints { records, breakable, free, count, serial });
-crate::footprint::footprint!(Joints { records, breakable, free } none { count, serial });
-keep_serial!(Joints);
 
 impl Joints {
     /// Joints alive.

@@ -6,10 +6,8 @@
 mod awake;
 mod blocks;
 mod bodies;
-mod clone;
 mod coloured;
 mod contacts;
-mod data;
 mod disjoint_sets;
 mod edges;
 mod graph;
@@ -31,7 +29,6 @@ pub(crate) use blocks::{
     BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags,
 };
 pub(crate) use bodies::{Bodies, BodyInfo, Motion, NULL, Slot};
-pub(crate) use clone::{Serial, clone_by_field, cloned_data, keep_serial};
 pub(crate) use coloured::{COLOURS, IDLE, colour_at, is_overflow, pace_at};
 pub(crate) use contacts::{Contact, Contacts, Place, SavedPoint};
 pub(crate) use disjoint_sets::DisjointSets;

@@ -10,7 +10,7 @@ pub(crate) struct PairTable {
     len: usize,
 }
 
-super::clone::clone_by_field!(PairTable { places, len });
+crate::codec::clone_by_field!(PairTable { places, len });
 crate::footprint::footprint!(PairTable { places } none { len });
 
 const EMPTY: u64 = u64::MAX;

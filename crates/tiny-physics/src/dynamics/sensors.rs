@@ -1,35 +1,33 @@
 //! What sensors saw in the last step.
 
-use super::clone::cloned_data;
-use crate::codec::data;
+use crate::codec::{record, store};
 
-/// A sensor and a shape that overlaps it, with the generations of both: a shape that took the place of
-/// another is not the same visitor.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
-pub(crate) struct Overlap {
-    pub(crate) sensor: u32,
-    pub(crate) sensor_generation: u32,
-    pub(crate) visitor: u32,
-    pub(crate) visitor_generation: u32,
+record! {
+    /// A sensor and a shape that overlaps it, with the generations of both: a shape that took the place of
+    /// another is not the same visitor.
+    #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
+    pub(crate) struct Overlap {
+        pub(crate) sensor: u32,
+        pub(crate) sensor_generation: u32 as apart,
+        pub(crate) visitor: u32,
+        pub(crate) visitor_generation: u32 as apart,
+    }
 }
 
-data!(Overlap { sensor, visitor } apart { sensor_generation, visitor_generation });
-
-/// All sensors of a world and what they see.
-#[derive(Debug, Default)]
-pub(crate) struct Sensors {
-    /// Shapes that are sensors, ascending.
-    pub(crate) shapes: Vec<u32>,
-    /// Ascending, as of the last step.
-    pub(crate) overlaps: Vec<Overlap>,
-    /// Shapes that were placed or changed from outside since the last step, by index.
-    pub(crate) changed: Vec<bool>,
-    /// Must `changed` be cleared?
-    pub(crate) any_changed: bool,
+store! {
+    /// All sensors of a world and what they see.
+    #[derive(Debug, Default)]
+    pub(crate) struct Sensors {
+        /// Shapes that are sensors, ascending.
+        pub(crate) shapes: Vec<u32>,
+        /// Ascending, as of the last step.
+        pub(crate) overlaps: Vec<Overlap>,
+        /// Shapes that were placed or changed from outside since the last step, by index.
+        pub(crate) changed: Vec<bool>,
+        /// Must `changed` be cleared?
+        pub(crate) any_changed: bool,
+    }
 }
-
-cloned_data!(Sensors { shapes, overlaps, changed, any_changed });
-crate::footprint::footprint!(Sensors { shapes, overlaps, changed } none { any_changed });
 
 impl Sensors {
     /// Notes that a shape has become a sensor.

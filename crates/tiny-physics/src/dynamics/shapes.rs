@@ -1,44 +1,45 @@
 //! Shapes: what hangs on bodies.
 
 use super::bodies::NULL;
-use super::clone::{Serial, cloned_data, keep_serial};
 use crate::broad_phase::ProxyId;
+use crate::codec::{Serial, record, store};
 use crate::describe::{ChainLink, Filter, Material};
-use crate::footprint::footprint;
 use crate::geometry::Shape;
 use crate::geometry::manifold::ShapeClass;
 use crate::math::{Aabb, Transform, Vec2};
 use crate::simd::Row;
 use crate::work;
 
-/// One shape of a body. What a step touches lies in the first cache line.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[repr(C, align(64))]
-pub(crate) struct ShapeRecord {
-    pub(crate) body: u32,
-    /// Next shape of the body.
-    pub(crate) next: u32,
-    /// Leaf in the broad phase; NULL while the body is disabled.
-    pub(crate) proxy: u32,
-    pub(crate) class: ShapeClass,
-    pub(crate) alive: bool,
-    pub(crate) sensor: bool,
-    pub(crate) contact_events: bool,
-    pub(crate) hit_events: bool,
-    pub(crate) filter: Filter,
-    pub(crate) generation: u32,
-    pub(crate) material: Material,
-    /// Shape's frame in the body's frame.
-    pub(crate) local: Transform,
-    /// Shape's frame in the frame of the body's centre of mass.
-    pub(crate) central: Transform,
-    /// Frame of the shape as a rounded box (see [`Shapes::rows`]) in the shape's frame.
-    pub(crate) box_frame: Transform,
-    pub(crate) one_way: Option<Vec2>,
-    pub(crate) link: Option<ChainLink>,
-    pub(crate) user_data: u64,
-    /// Geometry in the shape's frame.
-    pub(crate) shape: Shape,
+record! {
+    /// One shape of a body. What a step touches lies in the first cache line.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    #[repr(C, align(64))]
+    pub(crate) struct ShapeRecord {
+        pub(crate) body: u32,
+        /// Next shape of the body.
+        pub(crate) next: u32,
+        /// Leaf in the broad phase; NULL while the body is disabled.
+        pub(crate) proxy: u32,
+        pub(crate) class: ShapeClass,
+        pub(crate) alive: bool,
+        pub(crate) sensor: bool,
+        pub(crate) contact_events: bool,
+        pub(crate) hit_events: bool,
+        pub(crate) filter: Filter,
+        pub(crate) generation: u32 as apart,
+        pub(crate) material: Material,
+        /// Shape's frame in the body's frame.
+        pub(crate) local: Transform,
+        /// Shape's frame in the frame of the body's centre of mass.
+        pub(crate) central: Transform,
+        /// Frame of the shape as a rounded box (see [`Shapes::rows`]) in the shape's frame.
+        pub(crate) box_frame: Transform,
+        pub(crate) one_way: Option<Vec2>,
+        pub(crate) link: Option<ChainLink>,
+        pub(crate) user_data: u64,
+        /// Geometry in the shape's frame.
+        pub(crate) shape: Shape,
+    }
 }
 
 const _: () = assert!(core::mem::offset_of!(ShapeRecord, material) <= 64);
@@ -90,31 +91,29 @@ pub(crate) mod guard {
     }
 }
 
-/// All shapes of a world, by stable index.
-#[derive(Debug, PartialEq, Default)]
-pub(crate) struct Shapes {
-    pub(crate) records: Vec<ShapeRecord>,
-    /// The shape as a rounded box in the frame of the body's centre of mass, for the lane kernels:
-    /// place x, y, rotation c, s, half extents x, y, radius, and 1 where this is all there is to the
-    /// shape (0 for general polygons, whose row is their own frame and a bounding circle), plus 2
-    /// where it has guards.
-    pub(crate) rows: Vec<Row>,
-    /// The boxes of the shapes as they are.
-    pub(crate) tight: Vec<Aabb>,
-    /// The fat boxes that the broad phase has, for a quick look.
-    pub(crate) fat: Vec<Aabb>,
-    /// Which contacts are looked at again: see [`guard`].
-    pub(crate) guards: Vec<u32>,
-    /// Boxes in which static or kinematic shapes came, went or were moved since guards were last found.
-    pub(crate) changed_ground: Vec<Aabb>,
-    pub(crate) free: Vec<u32>,
-    pub(crate) count: usize,
-    serial: Serial,
+store! {
+    /// All shapes of a world, by stable index.
+    #[derive(Debug, PartialEq, Default)]
+    pub(crate) struct Shapes {
+        pub(crate) records: Vec<ShapeRecord>,
+        /// The shape as a rounded box in the frame of the body's centre of mass, for the lane kernels:
+        /// place x, y, rotation c, s, half extents x, y, radius, and 1 where this is all there is to the
+        /// shape (0 for general polygons, whose row is their own frame and a bounding circle), plus 2
+        /// where it has guards.
+        pub(crate) rows: Vec<Row>,
+        /// The boxes of the shapes as they are.
+        pub(crate) tight: Vec<Aabb>,
+        /// The fat boxes that the broad phase has, for a quick look.
+        pub(crate) fat: Vec<Aabb>,
+        /// Which contacts are looked at again: see [`guard`].
+        pub(crate) guards: Vec<u32>,
+        /// Boxes in which static or kinematic shapes came, went or were moved since guards were last found.
+        pub(crate) changed_ground: Vec<Aabb>,
+        pub(crate) free: Vec<u32>,
+        pub(crate) count: usize,
+        serial: Serial,
+    }
 }
-
-cloned_data!(Shapes { records, rows, tight, fat, guards, changed_ground, free, count, serial });
-footprint!(Shapes { records, rows, tight, fat, guards, changed_ground, free } none { count, serial });
-keep_serial!(Shapes);
 
 impl Shapes {
     /// Shapes alive.

@@ -8,28 +8,28 @@ use crate::geometry::manifold::{PairClass, ShapeClass};
 use crate::math::Vec2;
 
 impl Data for Shape {
-    fn save(&self, sink: &mut impl Sink) {
+    fn save(&self, sink: &mut Sink) {
         match self {
             Self::Circle { radius } => {
-                sink.u8(0);
+                sink.put([0]);
                 radius.save(sink);
             }
             Self::Aabb { half_extents } => {
-                sink.u8(1);
+                sink.put([1]);
                 half_extents.save(sink);
             }
             Self::Capsule { a, b, radius } => {
-                sink.u8(2);
+                sink.put([2]);
                 (*a, (*b, *radius)).save(sink);
             }
             Self::Segment { a, b } => {
-                sink.u8(3);
+                sink.put([3]);
                 (*a, *b).save(sink);
             }
             Self::Polygon(polygon) => {
-                sink.u8(4);
-                sink.u8(polygon.vertices().len() as u8);
-                sink.items(polygon.vertices());
+                sink.put([4]);
+                sink.put([polygon.vertices().len() as u8]);
+                polygon.vertices().iter().for_each(|vertex| vertex.save(sink));
                 polygon.radius().save(sink);
             }
         }
@@ -65,10 +65,8 @@ impl Data for Shape {
 }
 
 impl Data for ShapeClass {
-    const SIZE: Option<usize> = Some(1);
-
-    fn save(&self, sink: &mut impl Sink) {
-        sink.u8(*self as u8);
+    fn save(&self, sink: &mut Sink) {
+        sink.put([*self as u8]);
     }
     fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
         let all = [Self::Circle, Self::Capsule, Self::Box, Self::General];
@@ -78,10 +76,8 @@ impl Data for ShapeClass {
 }
 
 impl Data for PairClass {
-    const SIZE: Option<usize> = Some(1);
-
-    fn save(&self, sink: &mut impl Sink) {
-        sink.u8(*self as u8);
+    fn save(&self, sink: &mut Sink) {
+        sink.put([*self as u8]);
     }
     fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
         let number = usize::from(u8::load(reader)?);

@@ -8,7 +8,7 @@ use crate::world::{Explosion, ForceZone, MoverInput, Water, Wind, ZoneForce};
 
 /// Commands are rare: what a part is made of is compiled once, not into every command.
 #[inline(never)]
-fn keep(part: &impl Data, sink: &mut impl Sink) {
+fn keep(part: &impl Data, sink: &mut Sink) {
     part.save(sink);
 }
 
@@ -23,10 +23,10 @@ macro_rules! variants {
         $($tag:literal => $name:ident $(($($part:ident),*))? $({$($field:ident),*})?,)*
     }) => {
         impl Data for $type {
-            fn save(&self, sink: &mut impl Sink) {
+            fn save(&self, sink: &mut Sink) {
                 match self {
                     $(Self::$name $(($($part),*))? $({$($field),*})? => {
-                        sink.u8($tag);
+                        sink.put([$tag]);
                         $($(keep($part, sink);)*)?
                         $($(keep($field, sink);)*)?
                     })*

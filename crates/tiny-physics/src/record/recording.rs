@@ -1,14 +1,15 @@
 //! The recorded run: a value, and bytes.
 
 use super::Command;
-use crate::codec::{Data, Reader, Writer, bad, data};
+use crate::codec::{Data, Reader, Sink, bad, data};
 use crate::error::Error;
 use crate::world::World;
 
 /// The first bytes of a recording; its version follows.
 const MAGIC: [u8; 3] = *b"tpr";
-/// Goes up whenever the bytes of a recording change their meaning. Version 1 had fewer commands.
-const VERSION: u8 = b'2';
+/// Goes up whenever the bytes of a recording change their meaning. Version 1 had fewer commands, version 2 padded
+/// options.
+const VERSION: u8 = b'3';
 
 /// One step of a recording.
 #[derive(Clone, PartialEq, Debug)]
@@ -77,10 +78,12 @@ impl Recording {
 
     /// As bytes for a file.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let mut writer = Writer([&MAGIC[..], &[VERSION]].concat());
-        self.first.save(&mut writer);
-        self.steps.save(&mut writer);
-        writer.0
+        let mut sink = Sink::new();
+        sink.put(MAGIC);
+        sink.put([VERSION]);
+        self.first.save(&mut sink);
+        self.steps.save(&mut sink);
+        sink.bytes()
     }
 
     /// The recording of [`Recording::to_bytes`].

@@ -1,8 +1,7 @@
 //! What happened in the last step, to be read after it.
 
 use super::ids::{BodyId, JointId, ShapeId};
-use crate::codec::data;
-use crate::dynamics::cloned_data;
+use crate::codec::{data, store};
 use crate::math::{DVec2, Vec2};
 
 /// Two shapes began to touch.
@@ -69,78 +68,54 @@ pub struct JointBreak {
     pub user_data: u64,
 }
 
-/// The events of one step, each list in a fixed order that threads do not change. Contacts have begin, end and
-/// hit events only where a shape asks for them (see [`ShapeDef`](crate::ShapeDef)).
-///
-/// The lists stay as they are until the next step, whatever is changed or removed in between: what comes about
-/// by such changes (a contact ends because a body was removed, a body wakes because it was pushed) is part of
-/// the next step's events.
-///
-/// ```
-/// use tiny_physics::{RigidBody, Shape, ShapeDef, Vec2, World};
-/// # fn main() -> Result<(), tiny_physics::Error> {
-/// let mut world = World::new(Vec2::new(0.0, -10.0));
-/// let gate = world.add_body(RigidBody::fixed().shape(ShapeDef::new(Shape::rect(2.0, 0.5)?).sensor()))?;
-/// let ball = world.add_body(RigidBody::dynamic().position(Vec2::new(0.0, 3.0)).shape(Shape::circle(0.2)?))?;
-/// let (mut entered, mut left) = (0, 0);
-/// for _ in 0..120 {
-///     world.step(1.0 / 60.0);
-///     entered += world.events().sensor_begin().len();
-///     left += world.events().sensor_end().len();
-/// }
-/// assert_eq!((entered, left), (1, 1));
-/// # let _ = (gate, ball);
-/// # Ok(())
-/// # }
-/// ```
-#[derive(PartialEq, Debug, Default)]
-pub struct Events {
-    pub(crate) contact_begin: Vec<ContactBegin>,
-    pub(crate) contact_end: Vec<ContactEnd>,
-    pub(crate) hits: Vec<Hit>,
-    pub(crate) sensor_begin: Vec<SensorBegin>,
-    pub(crate) sensor_end: Vec<SensorEnd>,
-    pub(crate) joint_breaks: Vec<JointBreak>,
-    pub(crate) woke: Vec<BodyId>,
-    pub(crate) fell_asleep: Vec<BodyId>,
-    /// What came about since the last step: part of the next step's events.
-    pub(crate) pending_end: Vec<ContactEnd>,
-    pub(crate) pending_woke: Vec<BodyId>,
-    pub(crate) pending_asleep: Vec<BodyId>,
+store! {
+    /// The events of one step, each list in a fixed order that threads do not change. Contacts have begin, end and
+    /// hit events only where a shape asks for them (see [`ShapeDef`](crate::ShapeDef)).
+    ///
+    /// The lists stay as they are until the next step, whatever is changed or removed in between: what comes about
+    /// by such changes (a contact ends because a body was removed, a body wakes because it was pushed) is part of
+    /// the next step's events.
+    ///
+    /// ```
+    /// use tiny_physics::{RigidBody, Shape, ShapeDef, Vec2, World};
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let mut world = World::new(Vec2::new(0.0, -10.0));
+    /// let gate = world.add_body(RigidBody::fixed().shape(ShapeDef::new(Shape::rect(2.0, 0.5)?).sensor()))?;
+    /// let ball = world.add_body(RigidBody::dynamic().position(Vec2::new(0.0, 3.0)).shape(Shape::circle(0.2)?))?;
+    /// let (mut entered, mut left) = (0, 0);
+    /// for _ in 0..120 {
+    ///     world.step(1.0 / 60.0);
+    ///     entered += world.events().sensor_begin().len();
+    ///     left += world.events().sensor_end().len();
+    /// }
+    /// assert_eq!((entered, left), (1, 1));
+    /// # let _ = (gate, ball);
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[derive(PartialEq, Debug, Default)]
+    pub struct Events {
+        pub(crate) contact_begin: Vec<ContactBegin>,
+        pub(crate) contact_end: Vec<ContactEnd>,
+        pub(crate) hits: Vec<Hit>,
+        pub(crate) sensor_begin: Vec<SensorBegin>,
+        pub(crate) sensor_end: Vec<SensorEnd>,
+        pub(crate) joint_breaks: Vec<JointBreak>,
+        pub(crate) woke: Vec<BodyId>,
+        pub(crate) fell_asleep: Vec<BodyId>,
+        /// What came about since the last step: part of the next step's events.
+        pub(crate) pending_end: Vec<ContactEnd>,
+        pub(crate) pending_woke: Vec<BodyId>,
+        pub(crate) pending_asleep: Vec<BodyId>,
+    }
 }
 
-crate::footprint::footprint!(Events {
-    contact_begin,
-    contact_end,
-    hits,
-    sensor_begin,
-    sensor_end,
-    joint_breaks,
-    woke,
-    fell_asleep,
-    pending_end,
-    pending_woke,
-    pending_asleep
-});
 data!(ContactBegin { shape_a, shape_b });
 data!(ContactEnd { shape_a, shape_b });
 data!(SensorBegin { sensor, visitor });
 data!(SensorEnd { sensor, visitor });
 data!(Hit { shape_a, shape_b, position, normal, speed });
 data!(JointBreak { joint, force, torque, user_data });
-cloned_data!(Events {
-    contact_begin,
-    contact_end,
-    hits,
-    sensor_begin,
-    sensor_end,
-    joint_breaks,
-    woke,
-    fell_asleep,
-    pending_end,
-    pending_woke,
-    pending_asleep
-});
 
 impl Events {
     /// Contacts that began.

@@ -1,6 +1,8 @@
 //! How much memory a world holds, and what for.
 
+use super::state::State;
 use super::{Scratch, World};
+use crate::codec::Data;
 pub use crate::footprint::MemoryUse;
 use crate::footprint::{Footprint, footprint};
 
@@ -79,24 +81,20 @@ impl World {
     /// # }
     /// ```
     pub fn memory(&self) -> Memory {
+        let State { bodies, shapes, contacts, waiting, graph, joints, joint_graph, .. } =
+            &self.state;
+        let State { broad_phase, tiles, sensors, events, step_count: _, inv_h: _, .. } =
+            &self.state;
         let moved: MemoryUse = self.moved.get().into_iter().map(Footprint::footprint).sum();
-        let other = [
-            self.state.sensors.footprint(),
-            self.state.tiles.footprint(),
-            self.state.events.footprint(),
-            moved,
-        ];
-        let contacts = [self.state.contacts.footprint(), self.state.waiting.footprint()];
+        let other = [sensors.memory(), tiles.memory(), events.memory(), moved];
         Memory {
-            bodies: self.state.bodies.footprint(),
-            shapes: self.state.shapes.footprint(),
-            broad_phase: self.state.broad_phase.footprint(),
-            contacts: contacts.into_iter().sum(),
-            graph: self.state.graph.footprint(),
-            constraints: self.state.graph.constraints_footprint(),
-            joints: [self.state.joints.footprint(), self.state.joint_graph.footprint()]
-                .into_iter()
-                .sum(),
+            bodies: bodies.memory(),
+            shapes: shapes.memory(),
+            broad_phase: broad_phase.memory(),
+            contacts: [contacts.memory(), waiting.memory()].into_iter().sum(),
+            graph: graph.memory(),
+            constraints: graph.constraints_footprint(),
+            joints: [joints.memory(), joint_graph.memory()].into_iter().sum(),
             other: other.into_iter().sum(),
             scratch: self.scratch.footprint(),
         }

@@ -11,7 +11,6 @@ mod events;
 mod forces;
 mod frame;
 mod freeze;
-mod hash;
 mod hooks;
 mod ids;
 mod joints;

@@ -3,49 +3,33 @@
 use super::events::Events;
 use super::tiles::TileGrids;
 use crate::broad_phase::BroadPhase;
-use crate::dynamics::{
-    Bodies, Contacts, Graph, JointGraph, Joints, Sensors, Shapes, Waiting, cloned_data,
-};
+use crate::codec::store;
+use crate::dynamics::{Bodies, Contacts, Graph, JointGraph, Joints, Sensors, Shapes, Waiting};
 use crate::math::Vec2;
 use crate::stages::islands::Stores;
 
-/// The stores of a world.
-#[derive(Debug)]
-pub(super) struct State {
-    pub(super) bodies: Bodies,
-    pub(super) shapes: Shapes,
-    pub(super) contacts: Contacts,
-    pub(super) waiting: Waiting,
-    pub(super) graph: Graph,
-    pub(super) joints: Joints,
-    pub(super) joint_graph: JointGraph,
-    pub(super) broad_phase: BroadPhase,
-    pub(super) tiles: TileGrids,
-    pub(super) sensors: Sensors,
-    pub(super) events: Events,
-    pub(super) step_count: u64,
-    /// The world's gravity in the last step.
-    pub(super) gravity: Option<Vec2>,
-    /// 1 / substep length of the last step, at the plain pace.
-    pub(super) inv_h: f32,
+store! {
+    /// The stores of a world.
+    #[derive(Debug)]
+    pub(super) struct State {
+        pub(super) bodies: Bodies,
+        pub(super) shapes: Shapes,
+        pub(super) contacts: Contacts,
+        pub(super) waiting: Waiting,
+        pub(super) graph: Graph,
+        pub(super) joints: Joints,
+        pub(super) joint_graph: JointGraph,
+        pub(super) broad_phase: BroadPhase,
+        pub(super) tiles: TileGrids,
+        pub(super) sensors: Sensors,
+        pub(super) events: Events,
+        pub(super) step_count: u64,
+        /// The world's gravity in the last step.
+        pub(super) gravity: Option<Vec2>,
+        /// 1 / substep length of the last step, at the plain pace.
+        pub(super) inv_h: f32,
+    }
 }
-
-cloned_data!(State {
-    bodies,
-    shapes,
-    contacts,
-    waiting,
-    graph,
-    joints,
-    joint_graph,
-    broad_phase,
-    tiles,
-    sensors,
-    events,
-    step_count,
-    gravity,
-    inv_h
-});
 
 impl State {
     /// Of an empty world.

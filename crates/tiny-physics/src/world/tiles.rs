@@ -3,27 +3,22 @@
 use super::World;
 use super::build::{check_body, check_shape};
 use super::ids::{BodyId, ShapeId, TileGridId};
-use crate::codec::{Data, Reader, Sink, bad, data};
+use crate::codec::{Data, Reader, Serial, Sink, bad, store};
 use crate::describe::{BLOCK_CELLS, Piece, ShapeDef, TileGrid};
-use crate::dynamics::{Serial, clone_by_field, keep_serial};
 use crate::error::Error;
-use crate::footprint::{Footprint, MemoryUse, each, footprint};
+use crate::footprint::MemoryUse;
 use crate::geometry::Shape;
 
-/// All tile grids of a world.
-#[derive(Debug, Default)]
-pub(super) struct TileGrids {
-    slots: Vec<Slot>,
-    /// The slot of every block's body, ascending by body.
-    owners: Vec<(BodyId, u32)>,
-    serial: Serial,
+store! {
+    /// All tile grids of a world.
+    #[derive(Debug, Default)]
+    pub(super) struct TileGrids {
+        slots: Vec<Slot>,
+        /// The slot of every block's body, ascending by body.
+        owners: Vec<(BodyId, u32)>,
+        serial: Serial,
+    }
 }
-
-clone_by_field!(TileGrids { slots, owners, serial });
-data!(TileGrids { slots, owners, serial });
-keep_serial!(TileGrids);
-
-footprint!(TileGrids { owners } each { slots } none { serial });
 
 impl TileGrids {
     fn place_of(&self, body: BodyId) -> Result<usize, usize> {
@@ -41,14 +36,13 @@ impl TileGrids {
     }
 }
 
-#[derive(Debug)]
-struct Slot {
-    generation: u32,
-    grid: Option<Placed>,
+store! {
+    #[derive(Debug)]
+    struct Slot {
+        generation: u32 as apart,
+        grid: Option<Placed>,
+    }
 }
-
-clone_by_field!(Slot { generation, grid });
-data!(Slot { grid } apart { generation });
 
 /// A grid and the bodies of its blocks.
 #[derive(Debug)]
@@ -74,7 +68,9 @@ impl Clone for Placed {
 }
 
 impl Data for Placed {
-    fn save(&self, sink: &mut impl Sink) {
+    const HEAP: bool = true;
+
+    fn save(&self, sink: &mut Sink) {
         self.grid.save(sink);
         self.blocks.save(sink);
     }
@@ -88,29 +84,18 @@ impl Data for Placed {
         }
         Ok(Self { grid, blocks })
     }
+
+    fn memory(&self) -> MemoryUse {
+        [self.grid.memory(), self.blocks.memory()].into_iter().sum()
+    }
 }
 
-/// The body of a block, and the shapes of its pieces.
-#[derive(Debug, Default)]
-struct BlockBody {
-    body: Option<BodyId>,
-    shapes: Vec<(Piece, ShapeId)>,
-}
-
-clone_by_field!(BlockBody { body, shapes });
-data!(BlockBody { body, shapes });
-
-footprint!(BlockBody { shapes } none { body });
-
-impl Footprint for Slot {
-    fn footprint(&self) -> MemoryUse {
-        let placed = self.grid.iter();
-        placed
-            .map(|Placed { grid, blocks }| {
-                let lists = [grid.palette.footprint(), grid.cells.footprint(), blocks.footprint()];
-                lists.into_iter().chain([each(blocks)]).sum()
-            })
-            .sum()
+store! {
+    /// The body of a block, and the shapes of its pieces.
+    #[derive(Debug, Default)]
+    struct BlockBody {
+        body: Option<BodyId>,
+        shapes: Vec<(Piece, ShapeId)>,
     }
 }
 

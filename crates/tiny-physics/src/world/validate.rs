@@ -4,7 +4,7 @@ use super::World;
 use super::build::proxy_kind;
 use super::state::State;
 use crate::describe::BodyKind;
-use crate::dynamics::{COLOURS, IDLE, JointPlace, JointRecord, NULL, PLAIN, Place, colour_at};
+use crate::dynamics::{COLOURS, IDLE, JointPlace, JointRecord, NULL, Place, colour_at};
 use crate::stages::{boxes, pairs};
 
 impl World {
@@ -15,8 +15,8 @@ impl World {
     /// Says which invariant is broken and where.
     pub fn validate(&self) -> Result<(), String> {
         self.state.broad_phase.validate()?;
-        self.validate_body_lists()?;
-        self.validate_contact_lists()?;
+        self.check_links()?;
+        self.validate_derived()?;
         self.validate_state()
     }
 
@@ -30,69 +30,18 @@ impl World {
         self.validate_colours()
     }
 
-    fn validate_body_lists(&self) -> Result<(), String> {
-        if !self.state.bodies.knows_awake_places() {
+    /// What is no part of a frame, because it follows from the rest.
+    fn validate_derived(&self) -> Result<(), String> {
+        let State { bodies, contacts, .. } = &self.state;
+        if !bodies.knows_awake_places() {
             return Err("a body is elsewhere in the list of those that are awake".into());
         }
-        let mut listed = vec![false; self.state.bodies.infos.len()];
-        self.state.bodies.awake.iter().for_each(|&index| listed[index as usize] = true);
-        for index in self.state.bodies.indices() {
-            let info = &self.state.bodies.infos[index as usize];
-            let listed = listed[index as usize];
-            if info.awake != listed {
-                return Err(format!(
-                    "body {index}: awake is {} but listed is {listed}",
-                    info.awake
-                ));
-            }
-            let shapes = self.state.shapes.of_body(info.first_shape).count();
-            if shapes != info.shape_count as usize {
-                return Err(format!(
-                    "body {index}: {shapes} shapes linked, {} counted",
-                    info.shape_count
-                ));
-            }
-        }
-        Ok(())
-    }
-
-    fn validate_contact_lists(&self) -> Result<(), String> {
-        let mut links = 0;
-        for index in 0..self.state.bodies.infos.len() as u32 {
-            let first = self.state.bodies.infos[index as usize].first_contact;
-            for (contact, side) in self.state.contacts.of_body(first) {
-                links += 1;
-                let record = &self.state.contacts.records[contact as usize];
-                let body = if side == 0 { record.body_a } else { record.body_b };
-                if !record.alive || body != index {
-                    return Err(format!(
-                        "contact {contact} in the list of body {index} is not its"
-                    ));
-                }
-            }
-        }
-        let mut alive = 0;
-        for (index, contact) in
-            self.state.contacts.records.iter().enumerate().filter(|(_, c)| c.alive)
-        {
-            alive += 1;
-            if let Place::Graph { colour, slot } = contact.place {
-                let bucket = self.state.graph.find(colour.into(), contact.class);
-                let found = bucket.and_then(|bucket| bucket.contacts.get(slot as usize));
-                if found != Some(&(index as u32)) {
-                    return Err(format!("contact {index} is not in its slot"));
-                }
-            }
-            if self.state.contacts.pairs.get(contact.shape_a, contact.shape_b) != Some(index as u32)
-            {
-                return Err(format!("contact {index} is not in the pair table"));
-            }
-        }
-        if links != 2 * alive || self.state.contacts.pairs.len() != alive {
-            return Err(format!(
-                "{alive} contacts, {links} links, {} pairs",
-                self.state.contacts.pairs.len()
-            ));
+        let alive = || contacts.records.iter().zip(0..).filter(|(contact, _)| contact.alive);
+        let known = alive().all(|(contact, index)| {
+            contacts.pairs.get(contact.shape_a, contact.shape_b) == Some(index)
+        });
+        if !known || contacts.pairs.len() != alive().count() {
+            return Err("the pair table is not that of the contacts".into());
         }
         Ok(())
     }
@@ -102,16 +51,11 @@ impl World {
         if bodies.rows[0] != [0.0; 8] {
             return Err("row 0 has been written".into());
         }
-        let mut refined = 0;
         for index in bodies.indices() {
             let i = index as usize;
-            refined += usize::from(usize::from(bodies.infos[i].pace) != PLAIN);
             if !bodies.poses[i].is_finite() || bodies.rows[i].iter().any(|v| !v.is_finite()) {
                 return Err(format!("body {index} is not finite"));
             }
-        }
-        if refined != bodies.refined {
-            return Err(format!("{refined} bodies are refined, {} counted", bodies.refined));
         }
         Ok(())
     }

@@ -16,9 +16,9 @@ mod join;
 use super::boxes::{Boxes, WIDTH};
 use super::stack::Stack;
 use super::{BoxCast, NONE, clamped};
-use crate::codec::{Data, Reader, Sink, data};
+use crate::codec::{Data, Reader, Sink, store};
 use crate::error::Error;
-use crate::footprint::{Footprint, MemoryUse, footprint};
+use crate::footprint::{Footprint, MemoryUse};
 use crate::math::Aabb;
 use core::ops::ControlFlow;
 
@@ -47,10 +47,6 @@ impl Node {
     }
 }
 
-data!(Node { category, child, parent, lane, level, count });
-footprint!(DynamicTree { boxes, nodes, places, spare } none { root, free, count, changes, built_cost });
-data!(DynamicTree { boxes, nodes, places, root, free, count, changes, built_cost, spare });
-
 /// A child with its box: what is moved about when nodes are cut and built.
 #[derive(Clone, Copy, Debug)]
 struct Branch {
@@ -59,38 +55,40 @@ struct Branch {
     child: u32,
 }
 
-/// A map from small ids to boxes, with fast queries by area.
-///
-/// Ids are the caller's: dense numbers, because a table over all ids up to the largest is kept. A
-/// box with NaN in it overlaps nothing; coordinates beyond [`LIMIT`](super::LIMIT) count as that
-/// limit.
-///
-/// ```
-/// use tiny_physics::{Aabb, Vec2, broad_phase::DynamicTree};
-/// use std::ops::ControlFlow;
-/// let mut tree = DynamicTree::new();
-/// tree.insert(7, Aabb::from_center(Vec2::ZERO, Vec2::splat(1.0)), 1);
-/// let mut found = Vec::new();
-/// tree.query(&Aabb::from_center(Vec2::X, Vec2::splat(0.5)), u64::MAX, |id| {
-///     found.push(id);
-///     ControlFlow::Continue(())
-/// });
-/// assert_eq!(found, [7]);
-/// ```
-#[derive(Debug)]
-pub struct DynamicTree {
-    boxes: Vec<Boxes>,
-    nodes: Vec<Node>,
-    /// Node and lane of each id as `node * WIDTH + lane`, or `NONE`.
-    places: Vec<u32>,
-    root: u32,
-    free: u32,
-    count: usize,
-    /// How much has changed since the last look at the quality, in boxes.
-    changes: usize,
-    /// [`cost`](Self::cost) after the last rebuild.
-    built_cost: f32,
-    spare: Spare,
+store! {
+    /// A map from small ids to boxes, with fast queries by area.
+    ///
+    /// Ids are the caller's: dense numbers, because a table over all ids up to the largest is kept. A
+    /// box with NaN in it overlaps nothing; coordinates beyond [`LIMIT`](super::LIMIT) count as that
+    /// limit.
+    ///
+    /// ```
+    /// use tiny_physics::{Aabb, Vec2, broad_phase::DynamicTree};
+    /// use std::ops::ControlFlow;
+    /// let mut tree = DynamicTree::new();
+    /// tree.insert(7, Aabb::from_center(Vec2::ZERO, Vec2::splat(1.0)), 1);
+    /// let mut found = Vec::new();
+    /// tree.query(&Aabb::from_center(Vec2::X, Vec2::splat(0.5)), u64::MAX, |id| {
+    ///     found.push(id);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// assert_eq!(found, [7]);
+    /// ```
+    #[derive(Debug)]
+    pub struct DynamicTree {
+        boxes: Vec<Boxes>,
+        nodes: Vec<Node>,
+        /// Node and lane of each id as `node * WIDTH + lane`, or `NONE`.
+        places: Vec<u32>,
+        root: u32,
+        free: u32,
+        count: usize,
+        /// How much has changed since the last look at the quality, in boxes.
+        changes: usize,
+        /// [`cost`](Self::cost) after the last rebuild.
+        built_cost: f32,
+        spare: Spare as derived,
+    }
 }
 
 /// Memory for rebuilding; empty otherwise, and no part of what a tree is.
@@ -103,37 +101,53 @@ impl Footprint for Spare {
     }
 }
 
-impl Data for Spare {
-    fn save(&self, _: &mut impl Sink) {}
+impl Clone for Spare {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
 
-    fn load(_: &mut Reader<'_>) -> Result<Self, Error> {
-        Ok(Self::default())
+    fn clone_from(&mut self, _: &Self) {}
+}
+
+impl Data for Node {
+    fn save(&self, sink: &mut Sink) {
+        let Self { category, child, parent, lane, level, count } = self;
+        parent.save(sink);
+        sink.put([*lane, *level, *count]);
+        let used = (0..WIDTH).fold(0, |used, k| used | u8::from(child[k] != NONE) << k);
+        sink.put([used]);
+        (0..WIDTH).filter(|k| used >> k & 1 != 0).for_each(|k| (child[k], category[k]).save(sink));
+    }
+
+    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        let parent = Data::load(reader)?;
+        let [lane, level, count, used] = Data::load(reader)?;
+        let mut node = Self { parent, lane, count, ..Self::new(level) };
+        for k in (0..WIDTH).filter(|k| used >> k & 1 != 0) {
+            (node.child[k], node.category[k]) = Data::load(reader)?;
+        }
+        Ok(node)
+    }
+}
+
+/// A tree for each kind of body.
+impl Data for [DynamicTree; 3] {
+    fn save(&self, sink: &mut Sink) {
+        self.iter().for_each(|tree| tree.save(sink));
+    }
+
+    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        Ok([Data::load(reader)?, Data::load(reader)?, Data::load(reader)?])
+    }
+
+    fn memory(&self) -> MemoryUse {
+        self.iter().map(Data::memory).sum()
     }
 }
 
 impl Default for DynamicTree {
     fn default() -> Self {
         Self::new()
-    }
-}
-
-impl Clone for DynamicTree {
-    fn clone(&self) -> Self {
-        Self {
-            boxes: self.boxes.clone(),
-            nodes: self.nodes.clone(),
-            places: self.places.clone(),
-            spare: Spare::default(),
-            ..*self
-        }
-    }
-
-    fn clone_from(&mut self, source: &Self) {
-        self.boxes.clone_from(&source.boxes);
-        self.nodes.clone_from(&source.nodes);
-        self.places.clone_from(&source.places);
-        (self.root, self.free, self.count) = (source.root, source.free, source.count);
-        (self.changes, self.built_cost) = (source.changes, source.built_cost);
     }
 }
 
