@@ -280,6 +280,11 @@ impl Graph {
         self.all().map(|(place, _, bucket)| (place, bucket)).take_while(|&(place, _)| place != IDLE)
     }
 
+    /// The bucket of a place and class, if that has contacts.
+    pub(crate) fn find(&self, place: usize, class: PairClass) -> Option<&Bucket> {
+        self.buckets.get(key(place, class))
+    }
+
     /// The bucket of a place and class that has contacts.
     pub(crate) fn bucket(&self, place: usize, class: PairClass) -> &Bucket {
         &self.buckets[key(place, class)]
