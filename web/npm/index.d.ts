@@ -391,7 +391,7 @@ export declare class World {
   save(): Uint8Array;
   /** Goes back to a frame of {@link World.save} in place. */
   restore(frame: Uint8Array): void;
-  /** What differs from an earlier frame: about 100 bytes a moving body. */
+  /** What differs from an earlier frame: 80 to 250 bytes a moving body. */
   deltaFrom(frame: Uint8Array): Uint8Array;
   restoreDelta(frame: Uint8Array, delta: Uint8Array): void;
   /** From now on everything that is done is recorded. */
