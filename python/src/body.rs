@@ -5,7 +5,7 @@ use crate::joint::Joint;
 use crate::shape::Shape;
 use crate::world::World;
 use pyo3::prelude::*;
-use tiny_physics::{self as engine, BodyKind, DVec2, ShapeDef};
+use tiny_physics::{self as engine, BodyKind, DVec2, ShapeDef, Vec2};
 
 /// A body of a world: a handle. It is equal to every other handle of the same body.
 #[pyclass(module = "tiny_physics", frozen, eq, hash)]
@@ -45,7 +45,7 @@ impl Body {
 
     /// Where a force acts: the given point, else the centre of mass.
     fn point(&self, py: Python<'_>, point: Option<Pair>) -> PyResult<DVec2> {
-        point.map_or_else(|| self.get(py, |body| body.center()), |point| Ok(point.into()))
+        point.map_or_else(|| self.get(py, |body| body.center()), |point| Ok(DVec2::from(point)))
     }
 }
 
@@ -117,7 +117,7 @@ impl Body {
 
     #[setter]
     fn set_velocity(&self, py: Python<'_>, value: Pair) -> PyResult<()> {
-        self.set(py, |mut body| body.set_velocity(value.into()))
+        self.set(py, |mut body| body.set_velocity(Vec2::from(value)))
     }
 
     /// Radians a second, anticlockwise.
@@ -246,19 +246,19 @@ impl Body {
 
     /// A point of its frame in the world. Both metres.
     fn to_world(&self, py: Python<'_>, point: Pair) -> PyResult<(f64, f64)> {
-        self.get(py, |body| place(body.pose().apply(point.into())))
+        self.get(py, |body| place(body.pose().apply(Vec2::from(point))))
     }
 
     /// A point of the world in its frame. Both metres.
     fn to_local(&self, py: Python<'_>, point: Pair) -> PyResult<(f32, f32)> {
-        self.get(py, |body| tuple(body.pose().unapply(point.into())))
+        self.get(py, |body| tuple(body.pose().unapply(DVec2::from(point))))
     }
 
     /// A force for the next step, newtons. `point`: world, metres; the centre of mass where it is left out.
     #[pyo3(signature = (force, point=None))]
     fn apply_force(&self, py: Python<'_>, force: Pair, point: Option<Pair>) -> PyResult<()> {
         let point = self.point(py, point)?;
-        self.set(py, |mut body| body.apply_force(force.into(), point))
+        self.set(py, |mut body| body.apply_force(Vec2::from(force), point))
     }
 
     /// A torque for the next step, newton metres.
@@ -270,7 +270,7 @@ impl Body {
     #[pyo3(signature = (impulse, point=None))]
     fn apply_impulse(&self, py: Python<'_>, impulse: Pair, point: Option<Pair>) -> PyResult<()> {
         let point = self.point(py, point)?;
-        self.set(py, |mut body| body.apply_impulse(impulse.into(), point))
+        self.set(py, |mut body| body.apply_impulse(Vec2::from(impulse), point))
     }
 
     /// An angular impulse, newton metre seconds.

@@ -54,7 +54,7 @@ impl World {
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
         let filter = filter(mask, exclude, sensors);
         let world = slf.borrow();
-        let found = world.inner.ray_cast(DVec2::from(origin), translation.into(), &filter);
+        let found = world.inner.ray_cast(DVec2::from(origin), Vec2::from(translation), &filter);
         found.map(|h| hit(slf, (h.shape, h.body), (h.point, h.normal, h.fraction))).transpose()
     }
 
@@ -70,7 +70,7 @@ impl World {
     ) -> PyResult<Vec<Bound<'py, PyDict>>> {
         let filter = filter(mask, exclude, sensors);
         let world = slf.borrow();
-        let found = world.inner.ray_cast_all(DVec2::from(origin), translation.into(), &filter);
+        let found = world.inner.ray_cast_all(DVec2::from(origin), Vec2::from(translation), &filter);
         found
             .into_iter()
             .map(|h| hit(slf, (h.shape, h.body), (h.point, h.normal, h.fraction)))
@@ -112,10 +112,10 @@ impl World {
         exclude: Option<&Body>,
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
         let geometry: engine::Shape = read(geometry)?;
-        let pose = Pose::new(position.into(), Rot::from_angle(angle));
+        let pose = Pose::new(DVec2::from(position), Rot::from_angle(angle));
         let filter = filter(mask, exclude, false);
         let world = slf.borrow();
-        let found = world.inner.cast_shape(&geometry, pose, translation.into(), &filter);
+        let found = world.inner.cast_shape(&geometry, pose, Vec2::from(translation), &filter);
         found.map(|h| hit(slf, (h.shape, h.body), (h.point, h.normal, h.fraction))).transpose()
     }
 
@@ -131,7 +131,7 @@ impl World {
         sensors: bool,
     ) -> PyResult<Vec<Shape>> {
         let geometry: engine::Shape = read(geometry)?;
-        let pose = Pose::new(position.into(), Rot::from_angle(angle));
+        let pose = Pose::new(DVec2::from(position), Rot::from_angle(angle));
         let filter = filter(mask, exclude, sensors);
         let found = slf.borrow().inner.overlap_shape(&geometry, pose, &filter);
         Ok(shapes(slf, found))
@@ -148,7 +148,7 @@ impl World {
         sensors: bool,
     ) -> Vec<Shape> {
         let filter = filter(mask, exclude, sensors);
-        let area = Aabb::new(lower.into(), upper.into());
+        let area = Aabb::new(Vec2::from(lower), Vec2::from(upper));
         let found = slf.borrow().inner.overlap_aabb(area, &filter);
         shapes(slf, found)
     }

@@ -48,7 +48,7 @@ impl World {
     fn new(gravity: Pair, settings: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let settings: Settings = settings.map_or_else(|| Ok(Settings::default()), read)?;
         settings.validate().map_err(error)?;
-        Ok(Self { inner: engine::World::with_settings(gravity.into(), settings) })
+        Ok(Self { inner: engine::World::with_settings(Vec2::from(gravity), settings) })
     }
 
     /// A world as a scene file says, before its first step; what a script does to it is left out.
@@ -81,7 +81,7 @@ impl World {
 
     #[setter]
     fn set_gravity(&mut self, value: Pair) {
-        self.inner.gravity = value.into();
+        self.inner.gravity = Vec2::from(value);
     }
 
     /// Substeps, thresholds and so on, as a dictionary. Set it with what is to differ from the defaults.
