@@ -36,4 +36,7 @@ pub use ray::{Ray, RayHit};
 pub use rounded_core::Core;
 pub use shape::{MAX_EXTENT, MIN_EXTENT, Shape};
 pub use sweep::Sweep;
-pub use toi::{LINEAR_SLOP, Toi, ToiState, time_of_impact, time_of_impact_to, toi_target};
+pub use toi::{
+    LINEAR_SLOP, Toi, ToiState, time_of_impact, time_of_impact_to, time_of_impact_within,
+    toi_target,
+};

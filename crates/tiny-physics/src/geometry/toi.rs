@@ -23,8 +23,8 @@ use crate::math::Vec2;
 const MAX_ITERATIONS: u32 = 128;
 /// Overlap that resting contacts keep, metres.
 pub const LINEAR_SLOP: f32 = 0.005;
-/// Closer to the target than this is a hit, metres.
-const TOLERANCE: f32 = 0.1 * LINEAR_SLOP;
+/// Closer to the target than this part of the slop is a hit.
+const TOLERANCE: f32 = 0.1;
 
 /// How a search for an impact ended.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -71,8 +71,20 @@ pub fn time_of_impact(
     sweep_b: &Sweep,
     max_fraction: f32,
 ) -> Toi {
-    let target = toi_target(a, b, LINEAR_SLOP);
-    time_of_impact_to(a, sweep_a, b, sweep_b, max_fraction, target)
+    time_of_impact_within(a, sweep_a, b, sweep_b, max_fraction, LINEAR_SLOP)
+}
+
+/// The same in another unit of length: with the target of [`toi_target`] for this slop, to a tenth of it.
+pub fn time_of_impact_within(
+    a: &Shape,
+    sweep_a: &Sweep,
+    b: &Shape,
+    sweep_b: &Sweep,
+    max_fraction: f32,
+    slop: f32,
+) -> Toi {
+    let goal = Goal { max_fraction, target: toi_target(a, b, slop), tolerance: TOLERANCE * slop };
+    search(&Moving::new(a, sweep_a), &Moving::new(b, sweep_b), goal)
 }
 
 /// When two moving shapes come within `target` metres (separation, negative is overlap), up to
@@ -87,9 +99,23 @@ pub fn time_of_impact_to(
     max_fraction: f32,
     target: f32,
 ) -> Toi {
-    let (a, b) = (Moving::new(a, sweep_a), Moving::new(b, sweep_b));
-    let finite = sweep_a.is_finite() && sweep_b.is_finite() && target.is_finite();
-    let touch = target + TOLERANCE + a.rounding() + b.rounding();
+    let goal = Goal { max_fraction, target, tolerance: TOLERANCE * LINEAR_SLOP };
+    search(&Moving::new(a, sweep_a), &Moving::new(b, sweep_b), goal)
+}
+
+/// What is looked for: the first time, up to a fraction, at which a separation is the target's or closer to it than
+/// the tolerance.
+#[derive(Clone, Copy)]
+struct Goal {
+    max_fraction: f32,
+    target: f32,
+    tolerance: f32,
+}
+
+fn search(a: &Moving<'_>, b: &Moving<'_>, goal: Goal) -> Toi {
+    let Goal { max_fraction, target, tolerance } = goal;
+    let finite = a.sweep.is_finite() && b.sweep.is_finite() && target.is_finite();
+    let touch = target + tolerance + a.rounding() + b.rounding();
     let mut fraction = 0.0;
     for iteration in 1..=MAX_ITERATIONS {
         let (core_a, core_b) = (a.at(fraction), b.at(fraction));
@@ -327,7 +353,7 @@ mod tests {
             if toi.state == ToiState::Hit {
                 let (fa, fb) = (sweep_a.at(toi.fraction), sweep_b.at(toi.fraction));
                 let gap = distance(&a, &b, fb.relative_to(fa)).separation;
-                prop_assert!((gap - target).abs() < 2.0 * TOLERANCE, "{gap} {toi:?}");
+                prop_assert!((gap - target).abs() < 2.0 * TOLERANCE * LINEAR_SLOP, "{gap} {toi:?}");
             }
             if toi.state == ToiState::Limit {
                 prop_assert!(least_gap(pair, toi.fraction, 300) < 0.02, "{toi:?}");

@@ -14,10 +14,13 @@ use crate::dynamics::{Bodies, Overlap, Sensors, ShapeRecord, Shapes};
 use crate::geometry::{Sweep, ToiState, distance, time_of_impact};
 use crate::math::{Aabb, Pose, Transform, Vec2};
 use crate::threads::Team;
+use crate::work;
 use core::ops::ControlFlow;
 
 /// Sensors that one member of the team looks after at a time.
 const CHUNK: usize = 8;
+/// So many sensors are looked at one by one, where a fast body might have gone through one.
+const FEW: usize = 16;
 
 /// What sensors look at.
 #[derive(Clone, Copy)]
@@ -150,12 +153,27 @@ impl Scene<'_> {
         for shape in self.shapes.of_body(info.first_shape) {
             let record = &self.shapes.records[shape as usize];
             let moving = sweep.child(record.central);
+            let mut meet = |other: u32| {
+                work::note();
+                overlaps.extend(self.on_the_way(fast, (shape, &moving), other));
+            };
+            if !record.sensor && self.sensors.shapes.len() <= FEW {
+                // These are looked at themselves, not all that is near.
+                let sensors = self.sensors.shapes.iter().copied();
+                sensors.filter(|&sensor| self.is_near(sensor, &path)).for_each(meet);
+                continue;
+            }
             self.broad_phase.query(&path, self.tree_mask(record), |other| {
-                let overlap = self.on_the_way(fast, (shape, &moving), other);
-                overlaps.extend(overlap);
+                meet(other);
                 ControlFlow::Continue(())
             });
         }
+    }
+
+    /// Does the fat box of a shape overlap a box?
+    fn is_near(&self, shape: u32, bounds: &Aabb) -> bool {
+        let fat = self.broad_phase.fat_aabb(self.shapes.proxy(shape));
+        fat.is_some_and(|fat| fat.overlaps(bounds))
     }
 
     /// The overlap of a swept shape with another, if one of them is a sensor that sees the other and they

@@ -48,7 +48,7 @@ impl World {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{JointDef, RigidBody, Shape};
+    use crate::{JointDef, RigidBody, Shape, SimdLevel};
 
     /// Poison in one box of a heap: the step reports it, nothing is NaN afterwards, what is far away has
     /// not noticed, and the heap comes to rest again.
@@ -90,5 +90,72 @@ mod tests {
                 assert!(body.position().y < 8.0 && body.velocity().length() < 0.5);
             }
         }
+    }
+
+    /// A world of absurd masses, speeds, joints and forces after some steps.
+    fn blown_up(seed: u32, level: SimdLevel, threads: usize) -> (World, u64) {
+        let mut state = seed.wrapping_mul(747_796_405).wrapping_add(1);
+        let mut random = |low: f32, high: f32| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            low + (high - low) * ((state >> 8) as f32 / (1 << 24) as f32)
+        };
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        world.set_simd(level).unwrap();
+        world.set_threads(threads);
+        let floor = RigidBody::fixed().position(Vec2::new(0.0, -1.0));
+        world.add_body(floor.shape(Shape::rect(20.0, 1.0).unwrap())).unwrap();
+        let masses = [1.0e-9, 1.0e-6, 1.0e-3, 1.0, 1.0e3, 1.0e9, 1.0e12];
+        let mut bodies: Vec<crate::BodyId> = Vec::new();
+        for i in 0..40 {
+            let place = Vec2::new(random(-5.0, 5.0), random(0.0, 6.0));
+            let shape = match i % 3 {
+                0 => Shape::rect(0.5, 0.3).unwrap(),
+                1 => Shape::circle(0.4).unwrap(),
+                _ => Shape::from(crate::Polygon::regular(5, 0.4).unwrap()),
+            };
+            let mass = masses[random(0.0, 6.99) as usize];
+            let body = RigidBody::dynamic().position(place).shape(shape).mass(mass);
+            let fast = Vec2::new(random(-1.0e18, 1.0e18), random(-1.0e18, 1.0e18));
+            let body = if i % 5 == 0 { body.velocity(fast).angular_velocity(1.0e18) } else { body };
+            let id = world.add_body(body).unwrap();
+            if let (Some(&other), 0) = (bodies.last(), i % 2) {
+                let anchor = Vec2::new(random(-9.0, 9.0), random(-9.0, 9.0));
+                let def = match i % 8 {
+                    0 => JointDef::revolute().motor(1.0e9, 1.0e30),
+                    2 => JointDef::distance(1.0e6).spring(1.0e6, 1.0e6),
+                    4 => JointDef::weld(),
+                    _ => JointDef::prismatic(Vec2::X).motor(-1.0e12, 1.0e30),
+                };
+                world.add_joint(other, id, def.anchors(anchor, Vec2::ZERO)).unwrap();
+            }
+            bodies.push(id);
+        }
+        let mut frozen = 0;
+        for step in 0..120 {
+            let mut body = world.body_mut(bodies[step % 40]).unwrap();
+            body.apply_force_to_center(Vec2::new(1.0e15, -1.0e15));
+            body.apply_torque(1.0e15);
+            world.step(1.0 / 60.0);
+            frozen += world.stats().frozen_bodies as u64;
+        }
+        (world, frozen)
+    }
+
+    #[test]
+    fn blown_up_worlds_have_the_same_bits() {
+        let mut frozen = 0;
+        for seed in 0..12 {
+            let (expected, count) = blown_up(seed, SimdLevel::detect(), 1);
+            expected.validate().unwrap();
+            frozen += count;
+            let others = SimdLevel::available().map(|level| (level, 1));
+            for (level, threads) in others.chain([(SimdLevel::detect(), 3)]) {
+                let (world, _) = blown_up(seed, level, threads);
+                let same = world.state_hash() == expected.state_hash();
+                assert!(same, "seed {seed}: {level} on {threads} threads differs");
+                assert!(world.to_bytes() == expected.to_bytes(), "seed {seed}: bytes of {level}");
+            }
+        }
+        assert!(frozen > 100, "{frozen} bodies were frozen: these worlds do not blow up");
     }
 }

@@ -285,7 +285,7 @@ pub(crate) fn load(graph: &JointGraph, joints: &Joints, index: u32, inv_h: f32) 
 }
 
 /// Notes the joints of a pace whose load in this substep is beyond what they bear; of several substeps the greatest
-/// force and the greatest torque stay.
+/// force and the greatest torque stay. What was found is ascending.
 pub(crate) fn note_broken(
     graph: &JointGraph,
     joints: &Joints,
@@ -293,6 +293,7 @@ pub(crate) fn note_broken(
     inv_h: f32,
     found: &mut Vec<(u32, JointLoad)>,
 ) {
+    let known = found.len();
     for &index in &joints.breakable {
         let record = &joints.records[index as usize];
         let Some(limit) = record.def.break_at.filter(|_| graph.pace_of(record) == pace) else {
@@ -302,9 +303,10 @@ pub(crate) fn note_broken(
         if load.force.length() <= limit.force && load.torque.abs() <= limit.torque {
             continue;
         }
-        match found.iter_mut().find(|(known, _)| *known == index) {
-            None => found.push((index, load)),
-            Some((_, most)) => {
+        match found[..known].binary_search_by_key(&index, |&(index, _)| index) {
+            Err(_) => found.push((index, load)),
+            Ok(at) => {
+                let most = &mut found[at].1;
                 if load.force.length_sq() > most.force.length_sq() {
                     most.force = load.force;
                 }
@@ -313,5 +315,8 @@ pub(crate) fn note_broken(
                 }
             }
         }
+    }
+    if found.len() > known {
+        found.sort_unstable_by_key(|&(index, _)| index);
     }
 }

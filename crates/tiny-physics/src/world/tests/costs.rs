@@ -117,3 +117,24 @@ fn a_moving_ring_of_many_pieces() {
         counted(|| world.step(DT))
     });
 }
+
+/// One sensor far away does not make a fast body look at all that it flies past.
+#[test]
+fn a_fast_body_and_a_sensor_elsewhere() {
+    stays_equal("shapes on the way", |count| {
+        let mut world = World::new(Vec2::ZERO);
+        let fly = RigidBody::dynamic().shape(circle(0.5)).velocity(Vec2::new(300.0, 0.0));
+        world.add_body(fly).unwrap();
+        for i in 0..count {
+            let x = 5.0 * i as f32 / count as f32;
+            world
+                .add_body(RigidBody::fixed().position(Vec2::new(x, 0.7)).shape(circle(0.15)))
+                .unwrap();
+        }
+        let sensor = RigidBody::fixed().position(Vec2::new(1000.0, 0.0));
+        world.add_body(sensor.shape(circle(1.0).sensor())).unwrap();
+        world.step(DT);
+        world.body_mut(world.body_ids().next().unwrap()).unwrap().set_position(Vec2::ZERO);
+        counted(|| world.step(DT))
+    });
+}
