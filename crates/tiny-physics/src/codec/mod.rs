@@ -53,7 +53,19 @@ macro_rules! number {
     };
 }
 
-number!(u8, u32, u64, f32, f64);
+number!(u8, u32, u64, f64);
+
+/// Which NaN comes of a sum depends on the instruction set, and means nothing: all are saved as one.
+impl Data for f32 {
+    #[inline]
+    fn save(&self, sink: &mut Sink) {
+        sink.put(if self.is_nan() { Self::NAN } else { *self }.to_le_bytes());
+    }
+    #[inline]
+    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        reader.take().map(Self::from_le_bytes)
+    }
+}
 
 /// Implements [`Data`] through another type.
 macro_rules! data_as {
