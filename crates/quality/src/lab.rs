@@ -187,6 +187,7 @@ impl Trial {
     }
 
     /// Bodies, all kinds together: they go by 0 up to this.
+    #[allow(clippy::len_without_is_empty, reason = "a scene is never empty")]
     pub fn len(&self) -> usize {
         self.bodies.len()
     }

@@ -280,6 +280,22 @@ impl Graph {
         self.all().map(|(place, _, bucket)| (place, bucket)).take_while(|&(place, _)| place != IDLE)
     }
 
+    /// The buckets of contacts that touch at a pace.
+    pub(crate) fn of_pace(&self, pace: usize) -> &[Bucket] {
+        &self.buckets.list()[self.range_of_pace(pace)]
+    }
+
+    /// The same, to work on.
+    pub(crate) fn of_pace_mut(&mut self, pace: usize) -> &mut [Bucket] {
+        let range = self.range_of_pace(pace);
+        &mut self.buckets.list_mut()[range]
+    }
+
+    fn range_of_pace(&self, pace: usize) -> Range<usize> {
+        let [start, end] = [pace, pace + 1].map(|pace| key(place_of(pace, 0), PairClass::ALL[0]));
+        self.buckets.range(start..end)
+    }
+
     /// The bucket of a place and class, if that has contacts.
     pub(crate) fn find(&self, place: usize, class: PairClass) -> Option<&Bucket> {
         self.buckets.get(key(place, class))

@@ -60,16 +60,19 @@ pub(crate) trait LaneData: LaneBlock {
     const IMPULSES: usize;
     /// The impulses of a lane, into the first places of a slice.
     fn save(&self, lane: usize, impulses: &mut [f32]);
+    /// Multiplies the impulses of a lane.
+    fn scale(&mut self, lane: usize, factor: f32);
     /// The other way round.
     fn restore(&mut self, lane: usize, impulses: &[f32]);
 }
 
 /// Declares a part: one array for each value of a joint; those after `impulses` are accumulated
-/// impulses.
+/// impulses, those after `kept` are no impulses but live on like them.
 macro_rules! joint_lanes {
     ($(#[$meta:meta])* $name:ident {
         $($(#[$field_meta:meta])* $field:ident : $type:ty = $null:expr,)*
         $(; impulses $($(#[$impulse_meta:meta])* $impulse:ident,)*)?
+        $(; kept $($(#[$kept_meta:meta])* $kept:ident,)*)?
     }) => {
         $(#[$meta])*
         #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,17 +80,20 @@ macro_rules! joint_lanes {
         pub(crate) struct $name {
             $($(#[$field_meta])* pub(crate) $field: [$type; BLOCK],)*
             $($($(#[$impulse_meta])* pub(crate) $impulse: [f32; BLOCK],)*)?
+            $($($(#[$kept_meta])* pub(crate) $kept: [f32; BLOCK],)*)?
         }
 
         impl LaneBlock for $name {
             const NULL: Self = Self {
                 $($field: [$null; BLOCK],)*
                 $($($impulse: [0.0; BLOCK],)*)?
+                $($($kept: [0.0; BLOCK],)*)?
             };
 
             fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
                 $(self.$field[to] = source.$field[from];)*
                 $($(self.$impulse[to] = source.$impulse[from];)*)?
+                $($(self.$kept[to] = source.$kept[from];)*)?
             }
 
             fn save_lane(&self, lane: usize, sink: &mut Sink) {
@@ -104,15 +110,20 @@ macro_rules! joint_lanes {
 
         #[allow(unused_variables, unused_mut, unused_assignments, reason = "parts without impulses")]
         impl LaneData for $name {
-            const IMPULSES: usize = 0 $($(+ { let _ = stringify!($impulse); 1 })*)?;
+            const IMPULSES: usize = 0 $($(+ { let _ = stringify!($impulse); 1 })*)? $($(+ { let _ = stringify!($kept); 1 })*)?;
 
             fn save(&self, lane: usize, impulses: &mut [f32]) {
                 let mut places = impulses.iter_mut();
                 $($(if let Some(place) = places.next() { *place = self.$impulse[lane]; })*)?
+                $($(if let Some(place) = places.next() { *place = self.$kept[lane]; })*)?
+            }
+            fn scale(&mut self, lane: usize, factor: f32) {
+                $($(self.$impulse[lane] *= factor;)*)?
             }
             fn restore(&mut self, lane: usize, impulses: &[f32]) {
                 let mut places = impulses.iter();
                 $($(if let Some(place) = places.next() { self.$impulse[lane] = *place; })*)?
+                $($(if let Some(place) = places.next() { self.$kept[lane] = *place; })*)?
             }
         }
     };
@@ -157,6 +168,9 @@ macro_rules! joint_block {
                 let mut at = 0;
                 $(self.$part.save(lane, &mut impulses[at..at + <$type>::IMPULSES]);
                 at += <$type>::IMPULSES;)*
+            }
+            fn scale(&mut self, lane: usize, factor: f32) {
+                $(self.$part.scale(lane, factor);)*
             }
             #[allow(unused_assignments, reason = "after the last part")]
             fn restore(&mut self, lane: usize, impulses: &[f32]) {
@@ -413,7 +427,8 @@ joint_lanes! {
         spin_b: f32 = 0.0,
         ; impulses
         impulse,
-        /// Not an impulse, but kept like one: sum of both changes since the joint was added.
+        ; kept
+        /// Sum of both changes since the joint was added.
         error,
     }
 }

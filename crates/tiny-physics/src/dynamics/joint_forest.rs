@@ -13,7 +13,7 @@
 use super::bodies::{Bodies, NULL};
 use super::coloured::{TREES, colour_at, place_of};
 use super::disjoint_sets::DisjointSets;
-use super::joint_blocks::{AxisLanes, JointClass};
+use super::joint_blocks::{AxisLanes, JointClass, LaneData};
 use super::joints::{JointPlace, Joints};
 use crate::codec::{Data, Reader, Sink, clone_by_field};
 use crate::describe::{JointDef, JointKind};
@@ -22,19 +22,21 @@ use crate::footprint::{Footprint, MemoryUse, footprint};
 
 /// Fewer joints than these are solved in lanes.
 const LEAST_LINKS: usize = 2;
-/// Joints in a row from which on a component needs a direct solution.
+
+/// Joints in a row from which on a component needs a direct solution, and one that hangs from something fixed:
+/// lanes let a double pendulum gain a fifth of its energy in a minute.
 const LEAST_DEPTH: usize = 8;
+const LEAST_ANCHORED_DEPTH: usize = 2;
 /// So it does where masses differ by this factor.
 const LEAST_MASS_RATIO: f32 = 10.0;
 /// A component is a tree if at most one joint in this many is cut.
 const LINKS_PER_CUT: usize = 8;
 
-/// A row of a joint's Jacobian: `dir . (vB - vA) + arm_b wB - arm_a wA`.
+/// A row of a joint's Jacobian.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct TreeRow {
-    pub(crate) dir: [f64; 2],
-    pub(crate) arm_a: f64,
-    pub(crate) arm_b: f64,
+    /// On body A and on body B: x, y, angular.
+    pub(crate) on: [[f64; 3]; 2],
     /// Lever arms along the direction: how the force turns a body further when that has turned.
     pub(crate) reach_a: f64,
     pub(crate) reach_b: f64,
@@ -54,6 +56,10 @@ pub(crate) struct TreeNode {
     /// Motion since the start of the step, and its turn as cosine and sine.
     pub(crate) d: [f64; 3],
     pub(crate) turn: [f64; 2],
+    /// What a substep adds to its velocity by half, where the tree is kicked so.
+    pub(crate) half_gain: [f64; 3],
+    /// Inverse moment of inertia of its own.
+    pub(crate) own_inv_inertia: f64,
     /// Inverse mass and inverse moment of inertia; the latter with geometric stiffness once the rows are there.
     pub(crate) inv_mass: f64,
     pub(crate) inv_inertia: f64,
@@ -83,10 +89,12 @@ pub(crate) struct TreeLink {
     pub(crate) anchor_a: [f64; 2],
     pub(crate) anchor_b: [f64; 2],
     pub(crate) between: [f64; 2],
-    /// Direction of sliders, angle, and length of rods, at the start of the step.
+    /// Direction of sliders, angle (or what a gear has slipped), and length of rods, at the start of the step.
     pub(crate) direction: [f64; 2],
     pub(crate) angle: f64,
     pub(crate) length: f64,
+    /// Of a gear: how both bodies slide and spin.
+    pub(crate) mesh: [[f64; 3]; 2],
     /// What acts along the free coordinate: index among the tree's axes, or NULL.
     pub(crate) axis: u32,
     /// Motor of a wheel: speed, greatest impulse, impulse.
@@ -129,6 +137,7 @@ impl TreeLink {
             direction: [0.0; 2],
             angle: 0.0,
             length: 0.0,
+            mesh: [[0.0; 3]; 2],
             axis: NULL,
             motor: [0.0; 3],
             rigid: 0,
@@ -155,14 +164,29 @@ pub(crate) struct JointTree {
     pub(crate) axes: Vec<AxisLanes>,
     /// That of all its bodies.
     pub(crate) pace: usize,
+    /// The rows have been worked out in this step.
+    pub(crate) begun: bool,
     /// The rows are those of the bodies' places now.
     pub(crate) fresh: bool,
+    /// The bodies are about to move, or have moved since.
+    pub(crate) moved: bool,
     /// The factorisation is of the rows now.
     pub(crate) factored: bool,
 }
 
-clone_by_field!(JointTree { nodes, dynamic, links, axes, pace, fresh, factored });
-footprint!(JointTree { nodes, links, axes } none { dynamic, pace, fresh, factored });
+clone_by_field!(JointTree { nodes, dynamic, links, axes, pace, begun, fresh, moved, factored });
+footprint!(JointTree { nodes, links, axes } none { dynamic, pace, begun, fresh, moved, factored });
+
+impl JointTree {
+    /// Multiplies all impulses.
+    pub(crate) fn scale_impulses(&mut self, factor: f32) {
+        for link in &mut self.links {
+            link.impulses.iter_mut().for_each(|impulse| *impulse *= f64::from(factor));
+            link.motor[2] *= factor;
+        }
+        self.axes.iter_mut().for_each(|axis| axis.scale(0, factor));
+    }
+}
 
 /// All trees of a world.
 #[derive(Debug, Default)]
@@ -203,9 +227,10 @@ impl Data for JointForest {
 pub(super) fn is_rigid(def: &JointDef) -> bool {
     def.softness.is_none()
         && match def.kind {
-            JointKind::Revolute { .. } | JointKind::Prismatic { .. } | JointKind::Wheel { .. } => {
-                true
-            }
+            JointKind::Revolute { .. }
+            | JointKind::Prismatic { .. }
+            | JointKind::Wheel { .. }
+            | JointKind::Gear { .. } => true,
             JointKind::Weld { linear, angular } => linear.is_none() && angular.is_none(),
             JointKind::Distance { spring, limits, motor, .. } => {
                 spring.is_none() && limits.is_none() && motor.is_none()
@@ -392,14 +417,17 @@ fn plant(
 ) -> Option<JointTree> {
     let count = component.joints.len();
     let uneven = is_uneven(bodies, component);
-    if count < LEAST_LINKS || !uneven && count < LEAST_DEPTH {
-        return None;
-    }
-    let inner = |&&joint: &&u32| {
+    let inner = |&joint: &u32| {
         let record = &joints.records[joint as usize];
         bodies.is_dynamic(record.body_a) && bodies.is_dynamic(record.body_b)
     };
-    let cuts = component.joints.iter().filter(inner).count() + 1 - component.bodies.len();
+    let inner_count = component.joints.iter().filter(|joint| inner(joint)).count();
+    let anchored = inner_count < count;
+    let least_depth = if anchored { LEAST_ANCHORED_DEPTH } else { LEAST_DEPTH };
+    if count < LEAST_LINKS || !uneven && count < least_depth {
+        return None;
+    }
+    let cuts = inner_count + 1 - component.bodies.len();
     if cuts * LINKS_PER_CUT > count || count - cuts < LEAST_LINKS {
         return None;
     }
@@ -407,7 +435,7 @@ fn plant(
     sets.reset(component.bodies.len());
     let (mut spanning, mut anchors) = (Vec::new(), Vec::new());
     for joint in &component.joints {
-        if inner(&joint) {
+        if inner(joint) {
             let record = &joints.records[*joint as usize];
             if sets.join(places[record.body_a as usize], places[record.body_b as usize]) {
                 spanning.push(*joint);
@@ -420,7 +448,9 @@ fn plant(
     let tree = JointTree::default();
     let mut planter = Planter { bodies, joints, places, nodes, tree, depth: Vec::new() };
     planter.plant(&spanning, &anchors);
-    (uneven || planter.is_deep()).then_some(planter.tree)
+    let deep =
+        planter.depth.last().is_some_and(|&depth| depth + usize::from(anchored) >= least_depth);
+    (uneven || deep).then_some(planter.tree)
 }
 
 /// A tree in the making.
@@ -484,10 +514,6 @@ impl Planter<'_> {
             let body = if a { record.body_a } else { record.body_b };
             self.add_anchor(joint, self.node_of(body), false);
         }
-    }
-
-    fn is_deep(&self) -> bool {
-        self.depth.last().is_some_and(|&depth| depth >= LEAST_DEPTH)
     }
 
     /// The node of a dynamic body of the component, or NULL.

@@ -53,6 +53,12 @@ impl JointRecord {
         }
     }
 
+    /// Multiplies the impulses that are kept. What a gear has slipped is none.
+    pub(crate) fn scale_saved(&mut self, factor: f32) {
+        let count = if self.class() == Some(JointClass::Gear) { 1 } else { self.saved.len() };
+        self.saved[..count].iter_mut().for_each(|impulse| *impulse *= factor);
+    }
+
     /// Which kernel solves it; `None` where there is nothing to solve.
     pub(crate) fn class(&self) -> Option<JointClass> {
         JointClass::of(&self.def.kind)

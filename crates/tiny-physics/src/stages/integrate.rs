@@ -85,6 +85,23 @@ fn gain(row: &mut Row, start: &mut [f32; 4], motion: &Motion, first: bool) {
     row[..4].copy_from_slice(&[next[0], next[1], next[2], now[3]]);
 }
 
+/// Cuts what the last relaxation left too fast.
+pub(crate) fn bound(team: &Team, listed: &[u32], bodies: &mut Bodies, max_speed: f32) {
+    let rows = SharedRows::new(&mut bodies.rows);
+    team.for_each_chunk(listed.len(), CHUNK, |range| {
+        for &index in &listed[range] {
+            rows.update(index, |row| {
+                let speed_sq = row[Slot::VX] * row[Slot::VX] + row[Slot::VY] * row[Slot::VY];
+                if speed_sq > max_speed * max_speed {
+                    let scale = max_speed / speed_sq.sqrt();
+                    row[Slot::VX] *= scale;
+                    row[Slot::VY] *= scale;
+                }
+            });
+        }
+    });
+}
+
 /// Moves the bodies on by a substep; speeds above the limits are cut.
 pub(crate) fn positions(team: &Team, listed: &[u32], bodies: &mut Bodies, h: f32, max_speed: f32) {
     let Bodies { rows, motions, .. } = bodies;

@@ -18,4 +18,5 @@ pub(crate) mod sensors;
 pub(crate) mod sleep;
 pub(crate) mod solve;
 pub(crate) mod surfaces;
+pub(crate) mod temper;
 pub(crate) mod touching;

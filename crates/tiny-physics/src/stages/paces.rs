@@ -11,8 +11,8 @@
 use super::islands::{Islands, Stores};
 use crate::describe::BodyKind;
 use crate::dynamics::{
-    Bodies, Bucket, Graph, JointPlace, NULL, PACES, PLAIN, Place, PointLanes, REFINEMENT,
-    next_edge, pace_at,
+    Bodies, Bucket, Graph, JOINTED, JointPlace, NULL, PLAIN, Place, PointLanes, REFINEMENT, ROUNDS,
+    TreeNode, next_edge, pace_at,
 };
 use crate::math::Vec2;
 use crate::simd::BLOCK;
@@ -23,7 +23,7 @@ const INTERVAL: u64 = 8;
 const MANY_NEWS: usize = 16;
 /// Sink at the plain pace from which an island gets each pace, metres a length unit; from [`LARGE`] bodies on the second.
 /// Twice the substeps hold towers of 20 and arches; what leans on many others, as in pyramids, spreads where it sinks.
-const VISIBLE: [[f32; PACES]; 2] = [[0.0, 0.0008, 0.008, 0.02], [0.0, 0.0008, 0.0024, 0.02]];
+const VISIBLE: [[f32; JOINTED]; 2] = [[0.0, 0.0008, 0.008, 0.02], [0.0, 0.0008, 0.0024, 0.02]];
 /// Bodies from which on an island is large.
 const LARGE: usize = 128;
 /// Bodies thinner than this tip and pass where others only sink a little: for them the same part of their thickness
@@ -136,7 +136,11 @@ fn is_due(stores: &Stores<'_>, rules: Rules) -> bool {
     graph.mixed
         || joint_graph.mixed
         || many
-        || look && (news > 0 || bodies.any_refined() || is_any_strained(bodies, graph, rules))
+        || look
+            && (joint_graph.forest.count() > 0
+                || news > 0
+                || bodies.any_refined()
+                || is_any_strained(bodies, graph, rules))
 }
 
 /// Would a point between two moving bodies of the plain pace sink visibly?
@@ -168,19 +172,31 @@ struct Island {
     strain: f32,
     /// Do two of its bodies that touch pass each other so fast that loads say nothing?
     lively: bool,
+    /// Has it joints?
+    joints: bool,
+    /// Does a tree of joints touch something?
+    touched: bool,
 }
 
 impl Island {
     /// Chooses the pace: the finest that the strain calls for and the bounds allow.
     fn grant(&mut self, rules: Rules, budget: &mut usize) {
         let visible = VISIBLE[usize::from(self.bodies >= LARGE)];
-        let wanted = (1..PACES).rev().find(|&pace| {
+        let wanted = (1..JOINTED).rev().find(|&pace| {
             let keeps = pace <= usize::from(self.pace);
             let least = if keeps { 0.5 } else { 1.0 } * visible[pace] * rules.length_unit;
             self.strain > least && (keeps || !self.lively)
         });
+        if self.touched || self.joints && wanted.is_some() {
+            let cost = self.bodies * (ROUNDS[JOINTED] as usize - 1);
+            if self.bodies <= rules.most_bodies && cost <= *budget {
+                *budget -= cost;
+                self.pace = JOINTED as u8;
+                return;
+            }
+        }
         let finest = rules.most_bodies.min(MOST_AT_FINEST);
-        let most = |pace| if pace == PACES - 1 { finest } else { rules.most_bodies };
+        let most = |pace| if pace == JOINTED - 1 { finest } else { rules.most_bodies };
         let cost = |pace: usize| self.bodies * (REFINEMENT[pace] as usize - 1);
         let allowed = (1..=wanted.unwrap_or(PLAIN))
             .rev()
@@ -193,7 +209,7 @@ impl Island {
 
 /// Counts and strains of all islands.
 fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
-    let Stores { bodies, graph, .. } = stores;
+    let Stores { bodies, contacts, graph, joints, joint_graph } = stores;
     let Memory { islands, found, .. } = memory;
     found.clear();
     found.resize(bodies.infos.len(), Island::default());
@@ -201,6 +217,20 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         let island = &mut found[islands.root(body) as usize];
         island.bodies += 1;
         island.pace = island.pace.max(bodies.infos[body as usize].pace);
+    }
+    for (a, b) in joints.pairs() {
+        for body in [a, b].into_iter().filter(|&body| bodies.is_dynamic(body)) {
+            found[islands.root(body) as usize].joints = true;
+        }
+    }
+    for tree in joint_graph.forest.trees.iter().filter(|tree| !tree.links.is_empty()) {
+        let touches = |node: &TreeNode| {
+            let mut of_body = contacts.of_body(bodies.infos[node.body as usize].first_contact);
+            of_body.any(|(index, _)| contacts.records[index as usize].touching)
+        };
+        if tree.nodes[..tree.dynamic].iter().any(touches) {
+            found[islands.root(tree.nodes[0].body) as usize].touched = true;
+        }
     }
     for (place, bucket) in graph.touching_buckets() {
         let refinement = REFINEMENT[pace_at(place)] as f32;
@@ -326,7 +356,7 @@ fn change(stores: &mut Stores<'_>, memory: &mut Memory) {
     for &(index, old) in moved_joints.iter() {
         let record = &mut joints.records[index as usize];
         let scale = rescale(old, bodies.common_pace(record.body_a, record.body_b));
-        record.saved.iter_mut().for_each(|impulse| *impulse *= scale);
+        record.scale_saved(scale);
         joint_graph.insert(bodies, joints, index);
     }
 }

@@ -5,9 +5,10 @@
 
 use super::contact_solver::{self, BounceMemory, Parameters, Pass, Softness};
 use super::islands::Stores;
-use super::{integrate, joint_solver, paces};
+use super::joint_solver::Substep;
+use super::{integrate, joint_solver, paces, temper};
 use crate::describe::Settings;
-use crate::dynamics::{JointLoad, PACES, PLAIN, REFINEMENT, Schedule};
+use crate::dynamics::{JOINTED, JointLoad, PACES, PLAIN, REFINEMENT, ROUNDS, Schedule};
 use crate::footprint::footprint;
 use crate::math::Vec2;
 use crate::simd::SimdLevel;
@@ -34,6 +35,8 @@ pub(crate) struct Lengths {
     pub(crate) h: f32,
     pub(crate) substeps: u32,
     pub(crate) iterations: u32,
+    /// Iterations without bias.
+    pub(crate) relaxations: u32,
 }
 
 impl Lengths {
@@ -41,13 +44,19 @@ impl Lengths {
     pub(crate) fn new(dt: f32, settings: &Settings) -> Self {
         let substeps = settings.substeps.clamp(1, 1000);
         let iterations = settings.iterations.clamp(1, 1000);
-        Self { dt, h: dt / substeps as f32, substeps, iterations }
+        Self { dt, h: dt / substeps as f32, substeps, iterations, relaxations: 1 }
     }
 
     /// The same at a pace.
     fn refined(self, pace: usize) -> Self {
         let refinement = REFINEMENT[pace];
-        Self { h: self.h / refinement as f32, substeps: self.substeps * refinement, ..self }
+        Self {
+            h: self.h / refinement as f32,
+            substeps: self.substeps * refinement,
+            iterations: self.iterations * ROUNDS[pace],
+            relaxations: ROUNDS[pace],
+            ..self
+        }
     }
 }
 
@@ -101,12 +110,13 @@ impl Rules<'_> {
 pub(crate) struct Solver {
     schedule: Schedule,
     bounces: BounceMemory,
+    temper: temper::Memory,
     listed: Vec<u32>,
     /// Joints that bore more than they can in the last step, ascending, and how much.
     pub(crate) broken: Vec<(u32, JointLoad)>,
 }
 
-footprint!(Solver { schedule, bounces, listed, broken });
+footprint!(Solver { schedule, bounces, temper, listed, broken });
 
 impl Solver {
     /// Solves the islands pace by pace, the plain one last.
@@ -147,19 +157,25 @@ impl Solver {
         pace: usize,
         listed: &[u32],
     ) {
-        let Self { schedule, bounces, broken, .. } = self;
+        let Self { schedule, bounces, temper, broken, .. } = self;
         let Rules { settings, gravity, level, lengths } = rules;
         let h = lengths.h;
+        let joint_substep = Substep::new(h, settings.length_unit);
         let parameters = rules.contact_parameters();
         schedule.fill_pace(stores.graph, pace, contact_solver::CHUNK);
-        prepare_joints(team, stores, level, pace, h);
         integrate::prepare(team, listed, stores.bodies, gravity, h);
+        prepare_joints(team, stores, level, pace, joint_substep);
+        if pace == JOINTED {
+            temper.find(pace, stores);
+        }
         let Stores { bodies, graph, .. } = stores;
         contact_solver::run_bounces(team, level, &parameters, bodies, graph, schedule, bounces);
         let max_speed = settings.max_speed * settings.length_unit;
         let inv_h_plain = (1.0 / h) / REFINEMENT[pace] as f32;
 
-        let joints = |stores: &mut Stores<'_>, pass| run_joints(team, stores, level, pace, pass, h);
+        let joints = |stores: &mut Stores<'_>, pass| {
+            run_joints(team, stores, level, pace, pass, joint_substep)
+        };
         let contacts = |stores: &mut Stores<'_>, pass| {
             let rows = SharedRows::new(&mut stores.bodies.rows);
             contact_solver::run(team, level, pass, &parameters, rows, stores.graph, schedule);
@@ -173,29 +189,41 @@ impl Solver {
             } else if stores.joint_graph.count() > 0 {
                 contacts(stores, Pass::WarmStartJointed);
             }
+            if pace == JOINTED {
+                temper.run(pace, listed, stores);
+            }
             for _ in 0..lengths.iterations {
                 joints(stores, joint_solver::Pass::Solve);
                 contacts(stores, Pass::Solve);
             }
             integrate::positions(team, listed, stores.bodies, h, max_speed);
-            joints(stores, joint_solver::Pass::Relax);
-            contacts(stores, Pass::Relax);
+            for _ in 0..lengths.relaxations {
+                joints(stores, joint_solver::Pass::Relax);
+                contacts(stores, Pass::Relax);
+            }
             joint_solver::note_broken(stores.joint_graph, stores.joints, pace, inv_h_plain, broken);
         }
         joints(stores, joint_solver::Pass::Finish);
+        integrate::bound(team, listed, stores.bodies, max_speed);
     }
 }
 
 /// Brings the joints' lanes in line with the poses.
-fn prepare_joints(team: &Team, stores: &mut Stores<'_>, level: SimdLevel, pace: usize, h: f32) {
+fn prepare_joints(
+    team: &Team,
+    stores: &mut Stores<'_>,
+    level: SimdLevel,
+    pace: usize,
+    substep: Substep,
+) {
     let Stores { joint_graph, joints, bodies, .. } = stores;
     let poses = &bodies.poses;
     for (_, lanes) in joint_graph.in_lanes(pace) {
-        lanes.for_each_run(team, |blocks| joint_solver::prepare(level, poses, h, blocks));
+        lanes.for_each_run(team, |blocks| joint_solver::prepare(level, poses, substep, blocks));
     }
     if let Some((lanes, trees)) = joint_graph.trees_of_pace(pace) {
-        lanes.for_each_run(team, |blocks| joint_solver::prepare(level, poses, h, blocks));
-        joint_solver::trees::prepare(team, pace, lanes, trees, joints);
+        lanes.for_each_run(team, |blocks| joint_solver::prepare(level, poses, substep, blocks));
+        joint_solver::trees::prepare(team, pace, lanes, trees, joints, &bodies.motions);
     }
 }
 
@@ -206,25 +234,25 @@ fn run_joints(
     level: SimdLevel,
     pace: usize,
     pass: joint_solver::Pass,
-    h: f32,
+    substep: Substep,
 ) {
     let Stores { joint_graph, joints, bodies, .. } = stores;
     if joint_graph.count() == 0 {
         return;
     }
     let rows = SharedRows::new(&mut bodies.rows);
-    let inv_h = 1.0 / h;
     for (in_order, lanes) in joint_graph.in_lanes(pace) {
         if in_order {
             lanes.for_each_run(&Team::alone(), |blocks| {
-                joint_solver::run_one_by_one(level, pass, inv_h, rows, blocks);
+                joint_solver::run_one_by_one(level, pass, substep, rows, blocks);
             });
         } else {
-            lanes.for_each_run(team, |blocks| joint_solver::run(level, pass, inv_h, rows, blocks));
+            lanes
+                .for_each_run(team, |blocks| joint_solver::run(level, pass, substep, rows, blocks));
         }
     }
     let Some((lanes, trees)) = joint_graph.trees_of_pace(pace) else { return };
-    joint_solver::trees::run(team, pace, pass, inv_h, rows, trees);
+    joint_solver::trees::run(team, pace, pass, substep, rows, trees);
     // Loads are read from the lanes: after the step, and in each substep where joints can break.
     let breakable = !joints.breakable.is_empty();
     if pass == joint_solver::Pass::Finish || breakable && pass == joint_solver::Pass::Relax {

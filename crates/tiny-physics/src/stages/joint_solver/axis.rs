@@ -69,12 +69,13 @@ impl AxisLanes {
         self.spring[lane] + self.motor[lane] + self.lower_impulse[lane] - self.upper_impulse[lane]
     }
 
-    /// The impulse to be added along the coordinate. `soft` is that of limits.
+    /// The impulse to be added along the coordinate. `soft` is that of limits, which push back as `give` says.
     #[inline(always)]
     pub(super) fn solve<L: Lanes, const BIAS: bool>(
         &mut self,
         stride: &Stride<L>,
         soft: &Soft<L>,
+        give: Give<L>,
         mut coordinate: Coordinate<L>,
     ) -> L {
         let total = self.drive::<L, BIAS>(stride, &mut coordinate);
@@ -82,14 +83,26 @@ impl AxisLanes {
         let mass = stride.invert(inv_mass);
 
         let room = value - stride.load(&self.lower);
-        let change =
-            solve_limit::<L, BIAS>(stride, soft, &mut self.lower_impulse, room, velocity, mass);
+        let change = solve_limit::<L, BIAS>(
+            stride,
+            soft,
+            give,
+            &mut self.lower_impulse,
+            room,
+            [velocity, mass, inv_mass],
+        );
         velocity = velocity + inv_mass * change;
         let total = total + change;
 
         let room = stride.load(&self.upper) - value;
-        let change =
-            solve_limit::<L, BIAS>(stride, soft, &mut self.upper_impulse, room, -velocity, mass);
+        let change = solve_limit::<L, BIAS>(
+            stride,
+            soft,
+            give,
+            &mut self.upper_impulse,
+            room,
+            [-velocity, mass, inv_mass],
+        );
         total - change
     }
 
@@ -108,6 +121,7 @@ impl AxisLanes {
                 push: stride.load(&self.push),
                 mass_scale: stride.load(&self.mass_scale),
                 impulse_scale: stride.load(&self.impulse_scale),
+                held: stride.zero,
             };
             let old = stride.load(&self.spring);
             let demand = spring.demand(velocity, value - stride.load(&self.rest));
@@ -116,11 +130,14 @@ impl AxisLanes {
             velocity = velocity + inv_mass * change;
             total = total + change;
         }
-        let change = self.solve_motor(stride, velocity, mass);
+        let held = stride.load(&self.lower_impulse) - stride.load(&self.upper_impulse);
+        let change = self.solve_motor(stride, velocity - inv_mass * held, mass);
         coordinate.velocity = velocity + inv_mass * change;
         total + change
     }
 
+    /// The motor's change of impulse. `velocity` is what it would be without the limits: against one that holds a
+    /// motor gives no more than it needs to be held, and the two do not wind each other up.
     #[inline(always)]
     fn solve_motor<L: Lanes>(&mut self, stride: &Stride<L>, velocity: L, mass: L) -> L {
         let max = stride.load(&self.motor_max);
@@ -136,30 +153,58 @@ impl AxisLanes {
 /// limits alone let a ragdoll that is hit at 50 m/s bend its joints 9.5 degrees too far; with firm ones alone
 /// ragdolls that lay on each other never came to rest.
 pub(super) const SOFT_OVERRUN: f32 = 0.005;
-/// Factor on a firm push, of which neighbours take a part back: 1 leaves that ragdoll 2.3 degrees beyond, 1.5 1.8.
-const FIRMNESS: f32 = 1.5;
+
+/// How limits give way.
+#[derive(Clone, Copy)]
+pub(super) struct Give<L> {
+    /// Speed at which an overrun is taken back, besides that with which it comes and what the limit stops already: a
+    /// ragdoll that is hit needs more than one that lies in a heap.
+    snap: L,
+    /// Overrun beyond which it is pushed back firmly.
+    overrun: L,
+}
+
+impl<L: Lanes> Give<L> {
+    /// Limits of angles.
+    #[inline(always)]
+    pub(super) fn turning(stride: &Stride<L>) -> Self {
+        Self { snap: stride.snap_turn, overrun: stride.splat(SOFT_OVERRUN) }
+    }
+
+    /// Limits of places.
+    #[inline(always)]
+    pub(super) fn sliding(stride: &Stride<L>) -> Self {
+        Self { snap: stride.snap, overrun: stride.unit * stride.splat(SOFT_OVERRUN) }
+    }
+
+    /// Ropes, never firm: a net of 900 whips itself to 26 m/s with firm ones. In time they have to follow a net that
+    /// swings: with a snap of once the usual its fastest knot has 0.3 m/s after half a minute, with four times 0.08.
+    #[inline(always)]
+    pub(super) fn rope(stride: &Stride<L>) -> Self {
+        Self { snap: stride.snap * stride.splat(4.0), overrun: stride.splat(f32::MAX) }
+    }
+}
 
 /// One limit: it pushes only, and stops within the substep what would run over it.
 #[inline(always)]
 pub(super) fn solve_limit<L: Lanes, const BIAS: bool>(
     stride: &Stride<L>,
     soft: &Soft<L>,
+    give: Give<L>,
     accumulated: &mut [f32; crate::simd::BLOCK],
     room: L,
-    velocity: L,
-    mass: L,
+    [velocity, mass, inv_mass]: [L; 3],
 ) -> L {
     let old = stride.load(accumulated);
     let apart = room.gt(stride.zero);
     let impulse = if BIAS {
-        let (soft_push, firm_push) =
-            (soft.push * room, (room + stride.splat(SOFT_OVERRUN)) * stride.inv_h);
+        let (soft_push, firm_push) = (soft.push * room, (room + give.overrun) * stride.inv_h);
         let is_firm = firm_push.lt(soft_push);
-        let push = L::select(is_firm, firm_push, soft_push);
+        let least = velocity.min(stride.zero) - inv_mass * old - give.snap;
+        let push = L::select(is_firm, firm_push, soft_push).max(least);
         // Only a soft push takes part of the velocity, and of what was pushed before.
         let share = L::select(is_firm, stride.one, soft.mass_scale);
         let decay = L::select(is_firm, stride.zero, soft.impulse_scale * old);
-        let mass = mass * L::select(is_firm, stride.splat(FIRMNESS), stride.one);
         let bias = L::select(apart, room * stride.inv_h, push);
         let velocity = L::select(apart, velocity, share * velocity);
         old - mass * (velocity + bias) - L::select(apart, stride.zero, decay)

@@ -7,7 +7,7 @@
 //! A rod holds C = 0; otherwise spring, motor and limits act along the length.
 
 use super::JointKernel;
-use super::axis::{AxisDef, Coordinate};
+use super::axis::{AxisDef, Coordinate, Give};
 use super::parts::{Pair, Row, Soft, Start, Stride, cross, dot, scale, slow_turn};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
@@ -95,12 +95,13 @@ impl JointKernel for DistanceBlock {
         }
         let mut change = stride.zero;
         if extras {
-            change =
-                self.axis.solve::<L, BIAS>(stride, &soft, Coordinate { value, velocity, inv_mass });
+            let coordinate = Coordinate { value, velocity, inv_mass };
+            change = self.axis.solve::<L, BIAS>(stride, &soft, Give::rope(stride), coordinate);
             velocity = velocity + inv_mass * change;
         }
         let old = stride.load(&self.rod.impulse);
-        let demand = soft.demand(velocity, value - stride.load(&self.length.length));
+        let demand =
+            soft.hold(stride, velocity, value - stride.load(&self.length.length), stride.snap);
         let rod = -(stride.invert(inv_mass) * rigid * demand) - soft.impulse_scale * old;
         stride.store(old + rod, &mut self.rod.impulse);
         pair.apply_along(&row, change + rod);

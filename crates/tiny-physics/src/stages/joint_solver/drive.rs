@@ -90,7 +90,8 @@ impl DriveBlock {
     ) -> [L; 2] {
         let soft = Soft::load::<true>(stride, &self.linear);
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
-        let demand = soft.demand2(pair.anchor_velocity(), pair.gap(stride, &self.frame));
+        let (velocity, gap) = (pair.anchor_velocity(), pair.gap(stride, &self.frame));
+        let demand = [soft.demand(velocity[0], gap[0]), soft.demand(velocity[1], gap[1])];
         let kept = sub(old, scale(old, soft.impulse_scale));
         let impulse = sub(kept, inverse.apply(demand));
         let impulse = shorten(stride, impulse, stride.load(&self.drive.spring_max));

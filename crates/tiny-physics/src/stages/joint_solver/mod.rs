@@ -48,6 +48,7 @@ use crate::dynamics::{
 use crate::math::{Pose, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_baseline, dispatch_narrow};
 use crate::threads::SharedRows;
+pub(crate) use parts::Substep;
 use parts::{Start, Stride};
 use spring::Rates;
 
@@ -156,15 +157,14 @@ fn describe_bucket<B: JointKernel>(
     }
 }
 
-/// Writes what follows from the poses (of the centres of mass) at the start of the step. `h` is the
-/// substep length, seconds.
-pub(crate) fn prepare(level: SimdLevel, poses: &[Pose], h: f32, blocks: JointBlocks<'_>) {
-    with_blocks!(blocks, blocks => dispatch_baseline(level, Prepare { poses, h, blocks }));
+/// Writes what follows from the poses (of the centres of mass) at the start of the step.
+pub(crate) fn prepare(level: SimdLevel, poses: &[Pose], substep: Substep, blocks: JointBlocks<'_>) {
+    with_blocks!(blocks, blocks => dispatch_baseline(level, Prepare { poses, substep, blocks }));
 }
 
 struct Prepare<'a, B> {
     poses: &'a [Pose],
-    h: f32,
+    substep: Substep,
     blocks: &'a mut [B],
 }
 
@@ -173,10 +173,10 @@ impl<B: JointKernel> LaneKernel for Prepare<'_, B> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, token: L::Token) {
-        let Self { poses, h, blocks } = self;
+        let Self { poses, substep, blocks } = self;
         for block in blocks {
             for at in (0..BLOCK).step_by(L::WIDTH) {
-                let stride = Stride::<L>::new(token, at, h, 1.0 / h);
+                let stride = Stride::<L>::new(token, at, substep);
                 let start = Start::prepare(&stride, block.frame(), poses);
                 block.prepare(&stride, &start, poses);
             }
@@ -184,16 +184,16 @@ impl<B: JointKernel> LaneKernel for Prepare<'_, B> {
     }
 }
 
-/// Runs a pass over blocks of one colour, in lanes. `inv_h` is 1 / substep length.
+/// Runs a pass over blocks of one colour, in lanes.
 pub(crate) fn run(
     level: SimdLevel,
     pass: Pass,
-    inv_h: f32,
+    substep: Substep,
     rows: SharedRows<'_>,
     blocks: JointBlocks<'_>,
 ) {
     with_blocks!(blocks, blocks => {
-        dispatch_narrow(level, RunPass { pass, inv_h, rows, blocks, lanes: BLOCK });
+        dispatch_narrow(level, RunPass { pass, substep, rows, blocks, lanes: BLOCK });
     });
 }
 
@@ -201,17 +201,17 @@ pub(crate) fn run(
 pub(crate) fn run_one_by_one(
     level: SimdLevel,
     pass: Pass,
-    inv_h: f32,
+    substep: Substep,
     rows: SharedRows<'_>,
     blocks: JointBlocks<'_>,
 ) {
-    with_blocks!(blocks, blocks => one_by_one(level, pass, inv_h, rows, blocks));
+    with_blocks!(blocks, blocks => one_by_one(level, pass, substep, rows, blocks));
 }
 
 fn one_by_one<B: JointKernel>(
     level: SimdLevel,
     pass: Pass,
-    inv_h: f32,
+    substep: Substep,
     rows: SharedRows<'_>,
     blocks: &mut [B],
 ) {
@@ -224,7 +224,7 @@ fn one_by_one<B: JointKernel>(
                 continue; // An empty lane.
             }
             let blocks = core::slice::from_mut(&mut one);
-            dispatch_narrow(level, RunPass { pass, inv_h, rows, blocks, lanes: 1 });
+            dispatch_narrow(level, RunPass { pass, substep, rows, blocks, lanes: 1 });
             block.copy_lane(lane, &one, 0);
         }
     }
@@ -232,7 +232,7 @@ fn one_by_one<B: JointKernel>(
 
 struct RunPass<'a, B> {
     pass: Pass,
-    inv_h: f32,
+    substep: Substep,
     rows: SharedRows<'a>,
     blocks: &'a mut [B],
     /// Lanes of a block that are worked on.
@@ -244,12 +244,11 @@ impl<B: JointKernel> LaneKernel for RunPass<'_, B> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, token: L::Token) {
-        let Self { pass, inv_h, rows, blocks, lanes } = self;
-        let h = 1.0 / inv_h;
+        let Self { pass, substep, rows, blocks, lanes } = self;
         for block in blocks {
             let extras = block.has_extras();
             for at in (0..lanes).step_by(L::WIDTH) {
-                let stride = Stride::<L>::new(token, at, h, inv_h);
+                let stride = Stride::<L>::new(token, at, substep);
                 match pass {
                     Pass::WarmStart => block.warm_start(&stride, rows),
                     Pass::Solve => block.solve::<L, true>(&stride, rows, extras),

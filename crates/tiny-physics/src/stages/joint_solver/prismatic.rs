@@ -10,7 +10,7 @@
 //! [`revolute`](super::revolute).
 
 use super::JointKernel;
-use super::axis::{AxisDef, Coordinate};
+use super::axis::{AxisDef, Coordinate, Give};
 use super::parts::{
     LEAST_COMPLEMENT, Pair, Row, Soft, Start, Stride, Symmetric, add, dot, perp, rotate, scale, sub,
 };
@@ -129,7 +129,10 @@ impl JointKernel for PrismaticBlock {
         let inverse = jacobians.rigid_mass(stride, &pair);
         let velocity = [pair.velocity_along(&jacobians.across), pair.spin()];
         let angle = stride.load(&self.angle.start) + pair.turned();
-        let demand = soft.demand2(velocity, [dot(gap, jacobians.across.direction), angle]);
+        let demand = [
+            soft.hold(stride, velocity[0], dot(gap, jacobians.across.direction), stride.snap),
+            soft.hold(stride, velocity[1], angle, stride.snap_turn),
+        ];
         let mut change = scale(inverse.apply(demand), -stride.one);
         let mut along = stride.zero;
         if extras {
@@ -144,7 +147,7 @@ impl JointKernel for PrismaticBlock {
                 velocity: pair.velocity_along(&jacobians.along) + dot(coupling, alone),
                 inv_mass: (free - dot(coupling, per_along)).max(least),
             };
-            along = self.axis.solve::<L, BIAS>(stride, &soft, coordinate);
+            along = self.axis.solve::<L, BIAS>(stride, &soft, Give::sliding(stride), coordinate);
             change = sub(alone, scale(per_along, along));
         } else {
             change = sub(change, scale(old, soft.impulse_scale));

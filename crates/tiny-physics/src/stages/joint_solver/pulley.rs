@@ -6,7 +6,7 @@
 //! ```
 
 use super::JointKernel;
-use super::axis::solve_limit;
+use super::axis::{Give, solve_limit};
 use super::distance::length_and_direction;
 use super::parts::{Pair, Soft, Start, Stride, add, cross, dot, scale};
 use super::spring::Rates;
@@ -145,10 +145,18 @@ impl JointKernel for PulleyBlock {
         let mut pair = Pair::load(stride, rows, &self.frame);
         let soft = Soft::load::<BIAS>(stride, &self.soft);
         let rope = self.rope(stride, &pair);
-        let mass = stride.invert(rope.inv_mass(&pair));
+        let inv_mass = rope.inv_mass(&pair);
+        let mass = stride.invert(inv_mass);
         let velocity = rope.velocity(&pair);
         let tension = &mut self.rod.impulse;
-        let change = solve_limit::<L, BIAS>(stride, &soft, tension, rope.room, velocity, mass);
+        let change = solve_limit::<L, BIAS>(
+            stride,
+            &soft,
+            Give::rope(stride),
+            tension,
+            rope.room,
+            [velocity, mass, inv_mass],
+        );
         rope.apply(&mut pair, change);
         pair.store(stride, rows, &self.frame);
         if !BIAS {

@@ -12,7 +12,7 @@
 //! of 3 m sagged by 3.9 mm instead of 0.07 mm.
 
 use super::JointKernel;
-use super::axis::{AxisDef, Coordinate};
+use super::axis::{AxisDef, Coordinate, Give};
 use super::parts::{
     LEAST_COMPLEMENT, Pair, Soft, Start, Stride, Symmetric, add, dot, scale, sub, wrap,
 };
@@ -115,8 +115,11 @@ impl JointKernel for RevoluteBlock {
         let soft = Soft::load::<BIAS>(stride, &self.soft);
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         let inverse = pair.point_mass(stride);
-        let demand =
-            soft.demand2(pair.anchor_velocity_in::<BIAS>(stride), pair.gap(stride, &self.frame));
+        let demand = soft.hold2(
+            stride,
+            pair.anchor_velocity_in::<BIAS>(stride),
+            pair.gap(stride, &self.frame),
+        );
         let mut change = scale(inverse.apply(demand), -stride.one);
         let mut angular = stride.zero;
         if extras {
@@ -128,7 +131,7 @@ impl JointKernel for RevoluteBlock {
                 velocity: pair.spin() + dot(tie.twist, alone),
                 inv_mass: tie.inv_mass,
             };
-            angular = self.axis.solve::<L, BIAS>(stride, &soft, coordinate);
+            angular = self.axis.solve::<L, BIAS>(stride, &soft, Give::turning(stride), coordinate);
             change = sub(alone, scale(tie.per_angular, angular));
         } else {
             change = sub(change, scale(old, soft.impulse_scale));

@@ -11,10 +11,6 @@ pub(super) type Coefficients = [f32; 3];
 const RIGID_HERTZ: f32 = 60.0;
 /// Its damping ratio.
 const RIGID_DAMPING_RATIO: f32 = 2.0;
-/// Factor on the decay of their impulses, by which chains stretch. Measured on 30 links with a ball of
-/// 1, 10, 100, 1000 times the weight at the end, 4 substeps: 1 gives 0.4, 1.5, 7, 80 % stretch, 0.7 gives
-/// 0.1, 1.1, 7, 73 %, 0.5 gives 0, 0.8, 4.5, 64 %; at 0.25 a slack bridge of 100 links whips itself apart.
-const RIGID_DECAY: f32 = 0.5;
 /// Springs and rigid parts act as if at most this fraction of the substep rate.
 const MAX_RATE_FRACTION: f32 = 0.25;
 /// What joints hold rigid to a body that does not move, as a fraction of the substep rate.
@@ -37,8 +33,7 @@ impl Rates {
             hertz: least(RIGID_HERTZ, MAX_RATE_FRACTION / h),
             damping_ratio: RIGID_DAMPING_RATIO,
         };
-        let [push, mass_scale, impulse_scale] = softness(spring, h);
-        Self { h, rigid: [push, mass_scale, RIGID_DECAY * impulse_scale] }
+        Self { h, rigid: softness(spring, h) }
     }
 
     /// The same for joints of which one body does not move: no other joint can be in their way at that
@@ -46,8 +41,7 @@ impl Rates {
     pub(super) fn anchored(h: f32) -> Self {
         let spring =
             Spring { hertz: ANCHORED_RATE_FRACTION / h, damping_ratio: RIGID_DAMPING_RATIO };
-        let [push, mass_scale, impulse_scale] = softness(spring, h);
-        Self { h, rigid: [push, mass_scale, RIGID_DECAY * impulse_scale] }
+        Self { h, rigid: softness(spring, h) }
     }
 
     /// Of what a joint holds rigid.

@@ -52,8 +52,11 @@ impl JointKernel for WeldBlock {
         let inverse = pair.point_mass(stride);
 
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
-        let demand =
-            linear.demand2(pair.anchor_velocity_in::<BIAS>(stride), pair.gap(stride, &self.frame));
+        let demand = linear.hold2(
+            stride,
+            pair.anchor_velocity_in::<BIAS>(stride),
+            pair.gap(stride, &self.frame),
+        );
         let alone = scale(inverse.apply(demand), -stride.one);
         let tie = Tie::new(stride, &pair, &inverse, stride.load(&self.linear.rigid));
 
@@ -62,7 +65,8 @@ impl JointKernel for WeldBlock {
         // A rigid angle takes away all of the spin that the point's correction makes, a spring its part.
         let rigid = stride.load(&self.angular.rigid);
         let part = rigid + (stride.one - rigid) * angular.mass_scale;
-        let demand = angular.demand(pair.spin(), angle) + part * dot(tie.twist, alone);
+        let demand = angular.hold(stride, pair.spin(), angle, stride.snap_turn)
+            + part * dot(tie.twist, alone);
         let twist = -(stride.invert(tie.inv_mass) * demand) - angular.impulse_scale * old_twist;
         let carried = add(old, scale(tie.per_angular, old_twist));
         let change =

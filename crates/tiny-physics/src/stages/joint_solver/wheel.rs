@@ -4,7 +4,7 @@
 //! coordinate with spring and limits. The motor is a row of its own, solved first.
 
 use super::JointKernel;
-use super::axis::{AxisDef, Coordinate};
+use super::axis::{AxisDef, Coordinate, Give};
 use super::parts::{LEAST_COMPLEMENT, Pair, Row, Soft, Start, Stride, add, dot, perp, scale};
 use super::prismatic::{describe_direction, prepare_direction};
 use super::spring::Rates;
@@ -87,7 +87,12 @@ impl JointKernel for WheelBlock {
         let along = pair.row_on_a(direction, gap);
         let old = stride.load(&self.rod.impulse);
         let mass = stride.invert(pair.inv_mass_along(&across));
-        let demand = soft.demand(pair.velocity_along(&across), dot(gap, across.direction));
+        let demand = soft.hold(
+            stride,
+            pair.velocity_along(&across),
+            dot(gap, across.direction),
+            stride.snap,
+        );
         let mut change = -(mass * demand);
         let mut slide = stride.zero;
         if extras {
@@ -103,7 +108,7 @@ impl JointKernel for WheelBlock {
                 velocity: pair.velocity_along(&along) + coupling * change,
                 inv_mass: (free - coupling * per_slide).max(least),
             };
-            slide = self.axis.solve::<L, BIAS>(stride, &soft, coordinate);
+            slide = self.axis.solve::<L, BIAS>(stride, &soft, Give::sliding(stride), coordinate);
             change = change - per_slide * slide;
         } else {
             change = change - soft.impulse_scale * old;

@@ -58,15 +58,15 @@ impl Rig {
     }
 
     pub(super) fn pass(&mut self, pass: Pass) {
-        let inv_h = self.inv_h();
+        let substep = Substep::new(1.0 / self.inv_h(), 1.0);
         let rows = SharedRows::new(&mut self.bodies.rows);
         let places: Vec<usize> = self.graph.colours.keys().collect();
         for (place, colour) in places.into_iter().zip(self.graph.colours.list_mut()) {
             colour.for_each_run(&Team::alone(), |blocks| {
                 if crate::dynamics::is_overflow(place) {
-                    run_one_by_one(self.level, pass, inv_h, rows, blocks);
+                    run_one_by_one(self.level, pass, substep, rows, blocks);
                 } else {
-                    run(self.level, pass, inv_h, rows, blocks);
+                    run(self.level, pass, substep, rows, blocks);
                 }
             });
         }
@@ -80,7 +80,7 @@ impl Rig {
         describe(&mut self.graph, &self.joints, &self.bodies.infos, h);
         for colour in self.graph.colours.list_mut() {
             colour.for_each_run(&team, |blocks| {
-                prepare(self.level, &self.bodies.poses, h, blocks);
+                prepare(self.level, &self.bodies.poses, Substep::new(h, 1.0), blocks);
             });
         }
         for _ in 0..self.substeps {

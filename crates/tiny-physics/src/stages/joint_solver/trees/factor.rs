@@ -31,7 +31,7 @@ fn row_count(link: &TreeLink) -> usize {
 /// Jacobian of a row on body B, or on body A.
 #[inline(always)]
 pub(super) fn jacobian(row: &TreeRow, on_b: bool) -> [f64; 3] {
-    if on_b { [row.dir[0], row.dir[1], row.arm_b] } else { [-row.dir[0], -row.dir[1], -row.arm_a] }
+    row.on[usize::from(on_b)]
 }
 
 /// Jacobian of row `i` of a link, the limit among them.
@@ -102,6 +102,13 @@ fn heavy(nodes: &[TreeNode]) -> f64 {
         least = if inv > 0.0 && inv < least { inv } else { least };
     }
     if least < f64::MAX { MORE / least } else { 1.0 }
+}
+
+/// Factors the matrix of a tree, unless that is done.
+pub(super) fn refactor(tree: &mut JointTree) {
+    if !core::mem::replace(&mut tree.factored, true) {
+        factor(tree);
+    }
 }
 
 /// Factors the matrix of a tree.

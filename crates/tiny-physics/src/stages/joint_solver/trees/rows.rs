@@ -4,8 +4,8 @@
 
 use super::factor::{dot3, jacobian};
 use crate::dynamics::{
-    AngleLanes, AxisLanes, DirectionLanes, FrameLanes, JointClass, JointColour, JointPlace,
-    JointTree, Joints, LaneBlock, NULL, Slot, TreeLink, TreeNode, TreeRow,
+    AngleLanes, AxisLanes, DirectionLanes, FrameLanes, JOINTED, JointClass, JointColour,
+    JointPlace, JointTree, Joints, LaneBlock, NULL, Slot, TreeLink, TreeNode, TreeRow,
 };
 use crate::math::Rot;
 use crate::simd::BLOCK;
@@ -18,9 +18,9 @@ const COMPLIANCE: f64 = 3.0e-5;
 
 /// Takes over what the lanes hold: places at the start of the step, impulses.
 pub(super) fn prepare(tree: &mut JointTree, lanes: &JointColour, joints: &Joints) {
-    let JointTree { links, axes, fresh, factored, .. } = tree;
+    let JointTree { links, axes, begun, fresh, factored, .. } = tree;
     axes.clear();
-    (*fresh, *factored) = (false, false);
+    (*begun, *fresh, *factored) = (false, false, false);
     for link in links {
         let JointPlace::Graph { slot, .. } = joints.records[link.joint as usize].place else {
             debug_assert!(false, "a joint of a tree has no lanes");
@@ -73,6 +73,17 @@ fn read(link: &mut TreeLink, axes: &mut Vec<AxisLanes>, lanes: &JointColour) {
             link.motor = [motor.speed[lane], motor.max[lane], motor.impulse[lane]];
             link.rigid = 1;
         }
+        JointClass::Gear => {
+            let block = &lanes.gear.blocks[at];
+            read_frame(link, &block.frame, lane);
+            let gear = &block.gear;
+            let a = [gear.slide_a_x[lane], gear.slide_a_y[lane], gear.spin_a[lane]];
+            let b = [gear.slide_b_x[lane], gear.slide_b_y[lane], gear.spin_b[lane]];
+            link.mesh = [a.map(f64::from), b.map(f64::from)];
+            link.angle = f64::from(gear.error[lane]);
+            link.impulses[0] = f64::from(gear.impulse[lane]);
+            link.rigid = 1;
+        }
         _ => {
             let block = &lanes.revolute.blocks[at];
             read_frame(link, &block.frame, lane);
@@ -120,7 +131,8 @@ pub(super) fn finish(tree: &JointTree, lanes: &mut JointColour) {
                 target.copy_lane(lane, axis, 0);
             }
         };
-        let dir = link.rows[0].dir.map(|x| x as f32);
+        let [x, y, _] = link.rows[0].on[1].map(|x| x as f32);
+        let dir = [x, y];
         match link.class {
             JointClass::Distance => {
                 let block = &mut lanes.distance.blocks[at];
@@ -146,6 +158,11 @@ pub(super) fn finish(tree: &JointTree, lanes: &mut JointColour) {
                 block.rod.impulse[lane] = impulses[0];
                 block.motor.impulse[lane] = link.motor[2];
                 write_direction(&mut block.direction, lane, dir);
+            }
+            JointClass::Gear => {
+                let gear = &mut lanes.gear.blocks[at].gear;
+                gear.impulse[lane] = impulses[0];
+                gear.error[lane] = link.rows[0].error as f32;
             }
             _ => {
                 let block = &mut lanes.revolute.blocks[at];
@@ -187,14 +204,17 @@ pub(super) fn store(tree: &JointTree, rows: SharedRows<'_>) {
 
 /// Works the rows out for where the bodies are now. `h` is the substep length.
 pub(super) fn refresh(tree: &mut JointTree, rows: SharedRows<'_>, h: f64) {
-    let JointTree { nodes, links, fresh, factored, .. } = tree;
+    let JointTree { nodes, links, pace, begun, fresh, factored, .. } = tree;
     for node in nodes.iter_mut() {
         let row = rows.read(node.body);
+        if !*begun {
+            node.own_inv_inertia = f64::from(row[Slot::INV_INERTIA]);
+        }
         node.d = [Slot::DX, Slot::DY, Slot::DA].map(|slot| f64::from(row[slot]));
         let turn = Rot::IDENTITY.integrate(row[Slot::DA]);
         node.turn = [f64::from(turn.c), f64::from(turn.s)];
         node.inv_mass = f64::from(row[Slot::INV_MASS]);
-        node.inv_inertia = f64::from(row[Slot::INV_INERTIA]);
+        node.inv_inertia = node.own_inv_inertia;
         node.g = [0.0; 3];
     }
     for link in links.iter_mut() {
@@ -207,7 +227,35 @@ pub(super) fn refresh(tree: &mut JointTree, rows: SharedRows<'_>, h: f64) {
             node.inv_inertia = 1.0 / least;
         }
     }
-    (*fresh, *factored) = (true, false);
+    (*begun, *fresh, *factored) = (true, true, false);
+    if *pace == JOINTED {
+        nodes.iter().for_each(|node| give_inertia(rows, node.body, node.inv_inertia));
+    }
+}
+
+/// Gives the bodies their own moments of inertia back.
+pub(super) fn restore(tree: &JointTree, rows: SharedRows<'_>) {
+    if tree.begun {
+        tree.nodes.iter().for_each(|node| give_inertia(rows, node.body, node.own_inv_inertia));
+    }
+}
+
+fn give_inertia(rows: SharedRows<'_>, body: u32, inverse: f64) {
+    rows.update(body, |row| {
+        if row[Slot::INV_INERTIA] > 0.0 {
+            row[Slot::INV_INERTIA] = inverse as f32;
+        }
+    });
+}
+
+/// The other half of backward Euler: what is stiff against turning keeps its angular momentum with the greater
+/// inertia, and so turns more slowly.
+pub(super) fn damp(tree: &mut JointTree) {
+    for node in &mut tree.nodes {
+        if node.inv_inertia < node.own_inv_inertia {
+            node.v[2] *= node.inv_inertia / node.own_inv_inertia;
+        }
+    }
 }
 
 /// Sums up (in `g`) what the joint's force adds to the stiffness of its bodies against turning.
@@ -240,9 +288,7 @@ fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
 /// The row of a direction with lever arms from both centres of mass.
 fn linear(dir: [f64; 2], from_a: [f64; 2], from_b: [f64; 2], error: f64) -> TreeRow {
     TreeRow {
-        dir,
-        arm_a: cross(from_a, dir),
-        arm_b: cross(from_b, dir),
+        on: [[-dir[0], -dir[1], -cross(from_a, dir)], [dir[0], dir[1], cross(from_b, dir)]],
         reach_a: dot(from_a, dir),
         reach_b: dot(from_b, dir),
         error,
@@ -252,7 +298,7 @@ fn linear(dir: [f64; 2], from_a: [f64; 2], from_b: [f64; 2], error: f64) -> Tree
 
 /// The row of the angle.
 fn angular(error: f64) -> TreeRow {
-    TreeRow { arm_a: 1.0, arm_b: 1.0, error, ..TreeRow::default() }
+    TreeRow { on: [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]], error, ..TreeRow::default() }
 }
 
 fn write_rows(link: &mut TreeLink, nodes: &[TreeNode]) {
@@ -277,6 +323,17 @@ fn write_rows(link: &mut TreeLink, nodes: &[TreeNode]) {
             link.coordinate = linear(along, from_a, rb, 0.0);
             link.value = dot(gap, along);
         }
+        JointClass::Gear => {
+            let mut error = link.angle;
+            let bodies = [(a, ra, link.anchor_a), (b, rb, link.anchor_b)];
+            for (side, (node, arm, start)) in bodies.into_iter().enumerate() {
+                let [x, y, spin] = link.mesh[side];
+                let moved = [node.d[0] + arm[0] - start[0], node.d[1] + arm[1] - start[1]];
+                error += dot([x, y], moved) + spin * node.d[2];
+                link.rows[0].on[side] = [x, y, cross(arm, [x, y]) + spin];
+            }
+            link.rows[0].error = error;
+        }
         _ => {
             link.rows[0] = linear([1.0, 0.0], ra, rb, gap[0]);
             link.rows[1] = linear([0.0, 1.0], ra, rb, gap[1]);
@@ -295,9 +352,12 @@ fn write_rows(link: &mut TreeLink, nodes: &[TreeNode]) {
 
 /// Inverse mass of the two bodies against an impulse on one row, by the second.
 pub(super) fn response(first: &TreeRow, second: &TreeRow, a: &TreeNode, b: &TreeNode) -> f64 {
-    (a.inv_mass + b.inv_mass) * dot(first.dir, second.dir)
-        + a.inv_inertia * first.arm_a * second.arm_a
-        + b.inv_inertia * first.arm_b * second.arm_b
+    let of = |side: usize, node: &TreeNode| {
+        let (first, second) = (&first.on[side], &second.on[side]);
+        node.inv_mass * (first[0] * second[0] + first[1] * second[1])
+            + node.inv_inertia * first[2] * second[2]
+    };
+    of(0, a) + of(1, b)
 }
 
 /// Inverse mass of the two bodies along a row.

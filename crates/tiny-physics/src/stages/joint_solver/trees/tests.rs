@@ -24,12 +24,8 @@ impl Random {
 
     fn row(&mut self) -> TreeRow {
         let mut number = || self.between(-1.0, 1.0);
-        TreeRow {
-            dir: [number(), number()],
-            arm_a: number(),
-            arm_b: number(),
-            ..TreeRow::default()
-        }
+        let [x, y, arm_a, arm_b] = [(); 4].map(|()| number());
+        TreeRow { on: [[-x, -y, -arm_a], [x, y, arm_b]], ..TreeRow::default() }
     }
 }
 

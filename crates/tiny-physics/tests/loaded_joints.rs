@@ -1,0 +1,187 @@
+//! Joints that bear something: what only touches them, motors against limits, gears, errors of those who made them.
+
+use tiny_physics::{BodyId, Filter, JointDef, Polygon, RigidBody, Shape, ShapeDef, Vec2, World};
+
+const DT: f32 = 1.0 / 60.0;
+
+fn rect(x: f32, y: f32) -> Shape {
+    Polygon::rect(x, y).expect("positive").into()
+}
+
+fn world() -> World {
+    World::new(Vec2::new(0.0, -10.0))
+}
+
+/// A shape that collides with nothing.
+fn ghost(shape: Shape) -> ShapeDef {
+    ShapeDef::new(shape).filter(Filter { mask: 0, ..Filter::default() })
+}
+
+/// Hinged planks of 0.5 m between two posts, straight at y = 0.
+fn bridge(world: &mut World, planks: u32) -> Vec<BodyId> {
+    let half = 0.25;
+    let end = planks as f32 * half;
+    let posts = world.add_body(RigidBody::fixed()).unwrap();
+    let (mut last, mut anchor) = (posts, Vec2::new(-end, 0.0));
+    let mut ids = Vec::new();
+    for i in 0..planks {
+        let place = Vec2::new((2 * i + 1) as f32 * half - end, 0.0);
+        let plank = RigidBody::dynamic().position(place).shape(rect(half, 0.06));
+        let plank = world.add_body(plank).unwrap();
+        let hinge = JointDef::revolute().anchors(anchor, Vec2::new(-half, 0.0));
+        world.add_joint(last, plank, hinge).unwrap();
+        (last, anchor) = (plank, Vec2::new(half, 0.0));
+        ids.push(plank);
+    }
+    let hinge = JointDef::revolute().anchors(anchor, Vec2::new(end, 0.0));
+    world.add_joint(last, posts, hinge).unwrap();
+    ids
+}
+
+#[test]
+fn a_bridge_bears_a_load_of_a_hundred_planks_and_sleeps() {
+    for (planks, ratio) in [(40, 30.0), (40, 100.0), (25, 60.0)] {
+        let mut world = world();
+        let ids = bridge(&mut world, planks);
+        let mass = world.body(ids[0]).unwrap().mass();
+        let load = RigidBody::dynamic().position(Vec2::new(0.0, 0.56)).shape(rect(0.4, 0.4));
+        let load = world.add_body(load.mass(ratio * mass)).unwrap();
+        for _ in 0..1800 {
+            world.step(DT);
+        }
+        let y = world.body(load).unwrap().position().y;
+        assert!(y > 0.0, "a load of {ratio} planks is at {y}");
+        assert_eq!(world.awake_body_count(), 0, "a load of {ratio} planks on {planks}");
+    }
+}
+
+#[test]
+fn twenty_crates_stay_on_a_bridge() {
+    let mut world = world();
+    bridge(&mut world, 40);
+    let crates: Vec<BodyId> = (0..20)
+        .map(|i| {
+            let place = Vec2::new(-8.0 + 0.85 * i as f32, 0.4);
+            let body = RigidBody::dynamic().position(place).shape(rect(0.25, 0.25)).mass(1.0);
+            world.add_body(body).unwrap()
+        })
+        .collect();
+    for _ in 0..600 {
+        world.step(DT);
+    }
+    let lowest = crates.iter().map(|&id| world.body(id).unwrap().position().y).fold(9.0, f32::min);
+    assert!(lowest > -3.0, "the lowest crate is at {lowest}");
+}
+
+#[test]
+fn a_motor_does_not_rattle_at_its_limit() {
+    let mut world = world();
+    let ground = world.add_body(RigidBody::fixed()).unwrap();
+    let bar = RigidBody::dynamic().position(Vec2::new(0.5, 0.0)).shape(ghost(rect(0.5, 0.05)));
+    let bar = world.add_body(bar.mass(0.4)).unwrap();
+    let hinge = JointDef::revolute()
+        .anchors(Vec2::ZERO, Vec2::new(-0.5, 0.0))
+        .limits(-0.5, 0.7)
+        .motor(3.0, 1.0e6);
+    world.add_joint(ground, bar, hinge).unwrap();
+    for step in 0..300 {
+        world.step(DT);
+        if step > 60 {
+            let body = world.body(bar).unwrap();
+            assert!(body.angular_velocity().abs() < 1e-4, "{}", body.angular_velocity());
+            assert!((body.angle() - 0.7).abs() < 1e-3, "{}", body.angle());
+        }
+    }
+}
+
+#[test]
+fn gears_do_not_slip() {
+    let mut world = world();
+    let ground = world.add_body(RigidBody::fixed()).unwrap();
+    let wheels: Vec<BodyId> = (0..4)
+        .map(|i| {
+            let place = Vec2::new(1.2 * i as f32, 0.0);
+            let wheel = RigidBody::dynamic().position(place);
+            let wheel = wheel.shape(ghost(Shape::Circle { radius: 0.5 }));
+            let wheel = world.add_body(wheel).unwrap();
+            let hinge = JointDef::revolute().anchors(place, Vec2::ZERO);
+            world.add_joint(ground, wheel, hinge).unwrap();
+            wheel
+        })
+        .collect();
+    for pair in wheels.windows(2) {
+        world.add_joint(pair[0], pair[1], JointDef::gear(1.0)).unwrap();
+    }
+    let (mut first, mut last) = (0.0, 0.0);
+    for step in 0..240 {
+        let torque = if step / 30 % 2 == 0 { 5000.0 } else { -5000.0 };
+        world.body_mut(wheels[0]).unwrap().apply_torque(torque);
+        world.body_mut(wheels[3]).unwrap().apply_torque(0.9 * torque);
+        world.step(DT);
+        first += DT * world.body(wheels[0]).unwrap().angular_velocity();
+        last += DT * world.body(wheels[3]).unwrap().angular_velocity();
+        assert!((first + last).abs() < 0.01, "step {step}: {first} against {last}");
+    }
+    assert!(first.abs() > 1.0, "they turn: {first}");
+}
+
+#[test]
+fn a_double_pendulum_keeps_its_energy() {
+    let mut world = world();
+    let ground = world.add_body(RigidBody::fixed()).unwrap();
+    let mut last = ground;
+    let mut ids = Vec::new();
+    for i in 1..=2 {
+        let ball = RigidBody::dynamic().position(Vec2::new(i as f32, 0.0));
+        let ball = ball.shape(ghost(Shape::Circle { radius: 0.1 })).mass(1.0);
+        let ball = world.add_body(ball).unwrap();
+        let hinge = JointDef::revolute().anchors(Vec2::ZERO, Vec2::new(-1.0, 0.0));
+        world.add_joint(last, ball, hinge).unwrap();
+        last = ball;
+        ids.push(ball);
+    }
+    let energy = |world: &World| -> f64 {
+        let height: f32 = ids.iter().map(|&id| world.body(id).unwrap().position().y).sum();
+        world.kinetic_energy() + 10.0 * f64::from(height)
+    };
+    // 30 J from the lowest place up.
+    for _ in 0..1800 {
+        world.step(DT);
+        let lost = -energy(&world) / 30.0;
+        assert!((-0.005..0.05).contains(&lost), "lost {lost} of it");
+    }
+}
+
+#[test]
+fn joints_made_out_of_place_hurl_nothing() {
+    let mut seed = 7_u32;
+    let mut random = || {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (seed >> 8) as f32 / (1 << 24) as f32 - 0.5
+    };
+    for kind in 0..200 {
+        let mut world = World::new(Vec2::ZERO);
+        let bodies = [0, 1].map(|_| {
+            let place = Vec2::new(4.0 * random(), 4.0 * random());
+            let shape = rect(0.3 + 0.4 * random(), 0.3 + 0.4 * random());
+            world.add_body(RigidBody::dynamic().position(place).angle(6.0 * random()).shape(shape))
+        });
+        let [a, b] = bodies.map(Result::unwrap);
+        let direction = Vec2::new(random(), random());
+        let def = match kind % 4 {
+            0 => JointDef::prismatic(direction).limits(-0.2, 0.3),
+            1 => JointDef::wheel(direction),
+            2 => JointDef::weld(),
+            _ => JointDef::revolute(),
+        };
+        let anchors = [0, 1].map(|_| Vec2::new(2.0 * random(), 2.0 * random()));
+        world.add_joint(a, b, def.anchors(anchors[0], anchors[1])).unwrap();
+        for _ in 0..120 {
+            world.step(DT);
+            for id in [a, b] {
+                let speed = world.body(id).unwrap().velocity().length();
+                assert!(speed < 20.0, "joint {kind}: {speed} m/s");
+            }
+        }
+    }
+}
