@@ -154,6 +154,12 @@ impl AxisLanes {
 /// ragdolls that lay on each other never came to rest.
 pub(super) const SOFT_OVERRUN: f32 = 0.005;
 
+/// Factor on a firm push, of which neighbours take a part back: 1 leaves that ragdoll 2.3 degrees beyond, 1.5 1.8.
+const FIRMNESS: f32 = 1.5;
+/// How many times the usual way a limit of an angle may turn back in a substep: what is hit hard needs it, what lies in a
+/// heap of 40 or more would rest sooner without.
+const TURN_BACK: f32 = 40.0;
+
 /// How limits give way.
 #[derive(Clone, Copy)]
 pub(super) struct Give<L> {
@@ -168,7 +174,10 @@ impl<L: Lanes> Give<L> {
     /// Limits of angles.
     #[inline(always)]
     pub(super) fn turning(stride: &Stride<L>) -> Self {
-        Self { snap: stride.snap_turn, overrun: stride.splat(SOFT_OVERRUN) }
+        Self {
+            snap: stride.snap_turn * stride.splat(TURN_BACK),
+            overrun: stride.splat(SOFT_OVERRUN),
+        }
     }
 
     /// Limits of places.
@@ -205,6 +214,7 @@ pub(super) fn solve_limit<L: Lanes, const BIAS: bool>(
         // Only a soft push takes part of the velocity, and of what was pushed before.
         let share = L::select(is_firm, stride.one, soft.mass_scale);
         let decay = L::select(is_firm, stride.zero, soft.impulse_scale * old);
+        let mass = mass * L::select(is_firm, stride.splat(FIRMNESS), stride.one);
         let bias = L::select(apart, room * stride.inv_h, push);
         let velocity = L::select(apart, velocity, share * velocity);
         old - mass * (velocity + bias) - L::select(apart, stride.zero, decay)
