@@ -6,7 +6,7 @@ mod common;
 use common::sources::{Source, sources, tokens};
 
 /// The layers, lowest first. Modules of one layer may know each other.
-const LAYERS: [&[&str]; 9] = [
+const LAYERS: [&[&str]; 10] = [
     &["error", "math", "codec", "footprint", "work"],
     &["simd", "threads"],
     &["geometry"],
@@ -16,6 +16,7 @@ const LAYERS: [&[&str]; 9] = [
     &["stages"],
     &["world", "fixed_step"],
     &["record"],
+    &["prelude"],
 ];
 
 /// The one module that may say `unsafe`.

@@ -99,8 +99,8 @@ pub(crate) struct Coloured<B> {
     keys: Vec<u16>,
     /// The bucket of each key.
     buckets: Vec<B>,
-    /// Empty ones, kept for their memory.
-    spare: Vec<B>,
+    /// Empty ones, ascending by the key that they had: the next bucket of that key needs as much memory.
+    spare: Vec<(u16, B)>,
 }
 
 impl<B> Default for Coloured<B> {
@@ -122,15 +122,29 @@ impl<B: Bucketful> Clone for Coloured<B> {
 
     fn clone_from(&mut self, source: &Self) {
         let Self { keys, buckets, spare } = self;
-        let count = source.buckets.len();
-        for mut bucket in buckets.drain(buckets.len().min(count)..) {
-            bucket.clone_from(&B::default());
-            spare.push(bucket);
+        keys.drain(..).zip(buckets.drain(..)).for_each(|(key, bucket)| lay_by(spare, key, bucket));
+        for (&key, other) in source.keys.iter().zip(&source.buckets) {
+            let mut bucket = take_spare(spare, key);
+            bucket.clone_from(other);
+            buckets.push(bucket);
         }
-        buckets.resize_with(count, || spare.pop().unwrap_or_default());
         keys.clone_from(&source.keys);
-        buckets.iter_mut().zip(&source.buckets).for_each(|(own, other)| own.clone_from(other));
+        let left_over = spare.iter_mut().filter(|(_, bucket)| !bucket.is_empty());
+        left_over.for_each(|(_, bucket)| bucket.clone_from(&B::default()));
+        spare.reserve(buckets.len());
     }
+}
+
+/// Keeps a bucket for its memory.
+fn lay_by<B>(spare: &mut Vec<(u16, B)>, key: u16, bucket: B) {
+    let at = spare.partition_point(|(other, _)| *other < key);
+    spare.insert(at, (key, bucket));
+}
+
+/// A bucket that was kept for this key, or a new one.
+fn take_spare<B: Default>(spare: &mut Vec<(u16, B)>, key: u16) -> B {
+    let at = spare.binary_search_by_key(&key, |(other, _)| *other);
+    at.map_or_else(|_| B::default(), |at| spare.remove(at).1)
 }
 
 impl<B: Bucketful + Data> Data for Coloured<B> {
@@ -188,7 +202,9 @@ impl<B: Bucketful> Coloured<B> {
             Ok(at) => at,
             Err(at) => {
                 self.keys.insert(at, key as u16);
-                self.buckets.insert(at, self.spare.pop().unwrap_or_default());
+                self.buckets.insert(at, take_spare(&mut self.spare, key as u16));
+                // So that closing needs no memory.
+                self.spare.reserve(self.buckets.len());
                 at
             }
         };
@@ -199,8 +215,8 @@ impl<B: Bucketful> Coloured<B> {
     pub(super) fn close(&mut self, key: usize) {
         let at = self.position(key);
         if self.buckets.get(at).is_some_and(B::is_empty) {
-            self.keys.remove(at);
-            self.spare.push(self.buckets.remove(at));
+            let key = self.keys.remove(at);
+            lay_by(&mut self.spare, key, self.buckets.remove(at));
         }
     }
 

@@ -99,11 +99,13 @@ macro_rules! joint_lanes {
             fn save_lane(&self, lane: usize, sink: &mut Sink) {
                 $(self.$field[lane].save(sink);)*
                 $($(self.$impulse[lane].save(sink);)*)?
+                $($(self.$kept[lane].save(sink);)*)?
             }
 
             fn load_lane(&mut self, lane: usize, reader: &mut Reader<'_>) -> Result<(), Error> {
                 $(self.$field[lane] = Data::load(reader)?;)*
                 $($(self.$impulse[lane] = Data::load(reader)?;)*)?
+                $($(self.$kept[lane] = Data::load(reader)?;)*)?
                 Ok(())
             }
         }
