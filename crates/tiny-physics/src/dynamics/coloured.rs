@@ -235,6 +235,11 @@ impl<B: Bucketful> Coloured<B> {
         SharedBuckets { keys: &self.keys, buckets: SharedSlice::new(&mut self.buckets) }
     }
 
+    /// All buckets with their keys, to work on; none may become empty.
+    pub(crate) fn entries_mut(&mut self) -> impl Iterator<Item = (usize, &mut B)> {
+        self.keys.iter().map(|&key| key.into()).zip(&mut self.buckets)
+    }
+
     /// The key of each bucket.
     pub(crate) fn keys(&self) -> impl Iterator<Item = usize> + '_ {
         self.keys.iter().map(|&key| key.into())

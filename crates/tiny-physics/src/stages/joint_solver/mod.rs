@@ -114,9 +114,8 @@ pub(crate) fn describe(graph: &mut JointGraph, joints: &Joints, infos: &[BodyInf
         let h = h / refinement as f32;
         [Rates::new(h), Rates::anchored(h)]
     });
-    let paces: Vec<usize> = graph.colours.keys().map(pace_at).collect();
-    for (pace, colour) in paces.into_iter().zip(graph.colours.list_mut()) {
-        let rates = &rates[pace];
+    for (place, colour) in graph.colours.entries_mut() {
+        let rates = &rates[pace_at(place)];
         describe_bucket(&mut colour.distance, joints, infos, rates, all);
         describe_bucket(&mut colour.revolute, joints, infos, rates, all);
         describe_bucket(&mut colour.prismatic, joints, infos, rates, all);
