@@ -81,7 +81,7 @@ fn a_saved_batch_goes_on_as_if_nothing_had_happened() {
 
 #[test]
 fn resets_touch_only_their_worlds_and_scatter_follows_the_seed() {
-    let mut batch = WorldBatch::new(&[template(3).0, template(2).0], 6, 1).unwrap();
+    let mut batch = WorldBatch::new(&[template(3).0, template(4).0], 6, 1).unwrap();
     let fresh = batch.state_hashes().unwrap();
     play(&mut batch, 10, &mut Random::new(1));
     let played = batch.state_hashes().unwrap();

@@ -117,6 +117,7 @@ impl Simulation {
 
     fn equip(world: &mut World, how: &WorldArgs) -> Outcome {
         world.set_threads(usize::from(how.threads));
+        world.time_stages(true);
         if let Some(level) = how.simd {
             world.set_simd(level)?;
         }
