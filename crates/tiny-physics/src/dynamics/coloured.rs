@@ -117,7 +117,9 @@ impl<B: PartialEq> PartialEq for Coloured<B> {
 
 impl<B: Bucketful> Clone for Coloured<B> {
     fn clone(&self) -> Self {
-        Self { keys: self.keys.clone(), buckets: self.buckets.clone(), spare: Vec::new() }
+        // Going back lays all buckets by for a moment.
+        let spare = Vec::with_capacity(2 * self.buckets.len());
+        Self { keys: self.keys.clone(), buckets: self.buckets.clone(), spare }
     }
 
     fn clone_from(&mut self, source: &Self) {
