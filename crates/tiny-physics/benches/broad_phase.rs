@@ -5,10 +5,8 @@
 
 use std::ops::ControlFlow;
 use std::time::Instant;
-use tiny_physics::broad_phase::{
-    BroadPhase, DynamicTree, ProxyDef, ProxyId, ProxyKind, SpatialHash,
-};
-use tiny_physics::{Aabb, Vec2};
+use tiny_physics::broad_phase::{BroadPhase, DynamicTree, ProxyDef, ProxyId, ProxyKind};
+use tiny_physics::{Aabb, SpatialHash, Vec2};
 
 const MARGIN: f32 = 0.1;
 

@@ -10,10 +10,8 @@ use parts::{DT, KINDS, MARGIN};
 use std::hint::black_box;
 use std::ops::ControlFlow;
 use std::process::ExitCode;
-use tiny_physics::broad_phase::{
-    BroadPhase, DynamicTree, ProxyDef, ProxyId, ProxyKind, SpatialHash,
-};
-use tiny_physics::{QueryFilter, SimdLevel, Vec2, World, collide};
+use tiny_physics::broad_phase::{BroadPhase, DynamicTree, ProxyDef, ProxyId, ProxyKind};
+use tiny_physics::{QueryFilter, SimdLevel, SpatialHash, Vec2, World, collide};
 
 /// Boxes of the broad phase.
 const BOXES: usize = 2000;

@@ -7,10 +7,8 @@ use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use parts::{DT, KINDS, MARGIN, Random};
 use std::ops::ControlFlow;
-use tiny_physics::broad_phase::{
-    BroadPhase, DynamicTree, ProxyDef, ProxyId, ProxyKind, SpatialHash,
-};
-use tiny_physics::{Aabb, QueryFilter, SimdLevel, Vec2, World, collide};
+use tiny_physics::broad_phase::{BroadPhase, DynamicTree, ProxyDef, ProxyId, ProxyKind};
+use tiny_physics::{Aabb, QueryFilter, SimdLevel, SpatialHash, Vec2, World, collide};
 
 const COUNTS: [usize; 2] = [1000, 20_000];
 

@@ -34,7 +34,7 @@
 //! | draw | [`DebugDraw`] |
 //! | collide two shapes without a world | [`collide`], [`contact`], [`geometry`] |
 //! | calculate | [`Vec2`], [`Rot`], [`Transform`], [`Aabb`], [`math`] |
-//! | find pairs of boxes without a world | [`broad_phase`] |
+//! | find pairs of boxes without a world | [`broad_phase`], [`SpatialHash`] |
 //! | choose an instruction set | [`SimdLevel`] |
 //!
 //! # Units and frames
@@ -57,32 +57,26 @@
 
 pub mod broad_phase;
 mod codec;
-mod debug_draw;
 mod describe;
 mod dynamics;
 mod error;
-mod fixed_step;
 mod footprint;
 pub mod geometry;
 pub mod math;
+mod play;
 pub mod prelude;
-pub mod record;
 mod simd;
 mod stages;
 mod threads;
 mod work;
 mod world;
 
-pub use debug_draw::{
-    Color, DEPTH_SCALE, DebugDraw, DebugDrawOptions, Layer, Palette, depth_color, draw_bounds,
-    draw_shape,
-};
 pub use describe::*;
 pub use error::Error;
-pub use fixed_step::FixedStep;
 pub use geometry::{Contact, Manifold, ManifoldPoint, collide, contact};
 pub use geometry::{Polygon, Shape};
 pub use math::{Aabb, DVec2, Pose, Rot, Transform, Vec2};
+pub use play::*;
 pub use simd::SimdLevel;
 pub use world::*;
 

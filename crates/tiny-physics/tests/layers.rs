@@ -6,18 +6,23 @@ mod common;
 use common::sources::{Source, sources, tokens};
 
 /// The layers, lowest first. Modules of one layer may know each other.
-const LAYERS: [&[&str]; 10] = [
+const LAYERS: [&[&str]; 9] = [
     &["error", "math", "codec", "footprint", "work"],
     &["simd", "threads"],
     &["geometry"],
     &["broad_phase"],
-    &["describe", "debug_draw"],
+    &["describe"],
     &["dynamics"],
     &["stages"],
-    &["world", "fixed_step"],
-    &["record"],
-    &["prelude"],
+    &["world"],
+    &["play", "prelude"],
 ];
+
+/// What stands on the public API alone.
+const PLAY: &str = "play";
+
+/// The modules that it may name: the public ones, itself, and the codec for what it writes to files.
+const OPEN_TO_PLAY: [&str; 5] = ["math", "geometry", "broad_phase", "codec", PLAY];
 
 /// The one module that may say `unsafe`.
 const UNSAFE_MODULE: &str = "threads";
@@ -77,6 +82,7 @@ impl Source {
     fn violations(&self) -> Vec<String> {
         let mut found = Vec::new();
         found.extend(self.upward_imports());
+        found.extend(self.imports_from_the_inside());
         found.extend(self.unsafe_code());
         found.extend(self.inexact_methods());
         found.extend(self.hashed());
@@ -94,6 +100,16 @@ impl Source {
             // What is no module is a re-export of lib.rs: that is above everything but the world.
             .filter(|name| layer(name).unwrap_or(LAYERS.len() - 1) > own)
             .map(|name| format!("imports `crate::{name}`, which is above `{}`", self.module()))
+            .collect()
+    }
+
+    /// Modules of the inside, named by what stands on the public API alone.
+    fn imports_from_the_inside(&self) -> Vec<String> {
+        let names = if self.module() == PLAY { self.root_names() } else { vec![] };
+        names
+            .into_iter()
+            .filter(|name| layer(name).is_some() && !OPEN_TO_PLAY.contains(&name.as_str()))
+            .map(|name| format!("imports `crate::{name}`, which is no public API"))
             .collect()
     }
 
@@ -205,6 +221,16 @@ fn an_import_from_above_is_found_however_it_is_written() {
         let source = Source::new("geometry/shape.rs", import);
         assert_eq!(source.violations().len(), 1, "{import}: {:?}", source.violations());
     }
+}
+
+#[test]
+fn what_stands_on_the_public_api_names_no_inside() {
+    for import in ["use crate::dynamics::Bodies;", "use super::super::{stages, math};"] {
+        let source = Source::new("play/mover.rs", import);
+        assert_eq!(source.violations().len(), 1, "{import}: {:?}", source.violations());
+    }
+    let code = "use crate::{World, Vec2}; use crate::math::sin_cos; use super::record::Command;";
+    assert_eq!(Source::new("play/mover.rs", code).violations(), Vec::<String>::new());
 }
 
 #[test]

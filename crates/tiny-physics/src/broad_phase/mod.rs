@@ -2,7 +2,7 @@
 //! bodies.
 //!
 //! [`BroadPhase`] is what the world uses: proxies with fat boxes in one [`DynamicTree`] per kind of
-//! body. [`SpatialHash`] is the simple alternative for boxes that are collected anew every step.
+//! body. [`SpatialHash`](crate::SpatialHash) is the simple alternative for boxes that are collected anew every step.
 //!
 //! # What was measured
 //!
@@ -21,7 +21,7 @@
 //! | the same, rebuilt when the nodes grew by a quarter | 273 | 269 | 208 | 254 |
 //! | the same, moved boxes of a node ask together: **[`BroadPhase`]** | 155 | 145 | 146 | 189 |
 //! | uniform grid, counting sort every step | 223 | 177 | 162 | 292 |
-//! | [`SpatialHash`] filled every step | 443 | 348 | 334 | 739 |
+//! | [`SpatialHash`](crate::SpatialHash) filled every step | 443 | 348 | 334 | 739 |
 //!
 //! The grid has no filters and needs boxes of one size; it pays for every box when one moves. With
 //! 300,000 falling circles of which a third move, it is ahead (261 against 476): there the tree
@@ -32,13 +32,11 @@
 mod boxes;
 mod cast;
 mod proxies;
-mod spatial_hash;
 mod stack;
 mod tree;
 
 pub use cast::BoxCast;
 pub use proxies::{BroadPhase, ProxyDef, ProxyId, ProxyKind};
-pub use spatial_hash::SpatialHash;
 pub use tree::DynamicTree;
 
 use crate::math::{Aabb, Vec2};
@@ -52,7 +50,7 @@ pub const LIMIT: f32 = 1.0e18;
 /// The box with every coordinate between minus and plus [`LIMIT`]; [`Aabb::EMPTY`] for a box with
 /// NaN or with `min > max`. Boxes that overlap still do so afterwards.
 #[inline]
-fn clamped(aabb: Aabb) -> Aabb {
+pub fn clamped(aabb: Aabb) -> Aabb {
     if !(aabb.min.x <= aabb.max.x && aabb.min.y <= aabb.max.y) {
         return Aabb::EMPTY;
     }
@@ -67,4 +65,4 @@ pub fn sort_pairs(pairs: &mut Vec<(u32, u32)>) {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

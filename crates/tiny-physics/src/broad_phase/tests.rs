@@ -14,7 +14,7 @@ enum Command {
     Rebuild,
 }
 
-pub(super) fn any_box() -> impl Strategy<Value = Aabb> {
+pub(crate) fn any_box() -> impl Strategy<Value = Aabb> {
     let coordinate = prop_oneof![
         8 => -20.0f32..20.0,
         1 => Just(1.0e7),

@@ -10,6 +10,8 @@
 mod bytes;
 mod hash;
 mod math;
+#[cfg(feature = "serde")]
+pub(crate) mod packed;
 mod store;
 
 pub(crate) use bytes::{Reader, Sink};

@@ -178,25 +178,6 @@ impl RigidBody {
         Ok(self)
     }
 
-    /// Adds the convex pieces of an outline, which may be concave, as copies of a shape: see
-    /// [`ShapeDef::pieces`].
-    ///
-    /// ```
-    /// use tiny_physics::{RigidBody, Shape, ShapeDef, Vec2};
-    /// let boomerang = [(0.0, 0.0), (2.0, 1.0), (0.0, 2.0), (0.5, 1.0)].map(|(x, y)| Vec2::new(x, y));
-    /// let material = ShapeDef::new(Shape::circle(1.0)?).friction(0.3);
-    /// let body = RigidBody::dynamic().outline(&boomerang, &material)?;
-    /// assert_eq!(body.shapes.len(), 2);
-    /// # Ok::<(), tiny_physics::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// Those of [`Polygon::decompose`](crate::Polygon::decompose).
-    pub fn outline(mut self, outline: &[Vec2], like: &ShapeDef) -> Result<Self, Error> {
-        self.shapes.extend(like.pieces(outline)?);
-        Ok(self)
-    }
-
     /// Sets [`RigidBody::mass`].
     pub fn mass(mut self, kilograms: f32) -> Self {
         self.mass = Some(kilograms);

@@ -1,8 +1,7 @@
 //! A shape on a body: geometry, place, material, filter.
 
 use super::{ChainLink, Filter};
-use crate::error::Error;
-use crate::geometry::{Polygon, Shape};
+use crate::geometry::Shape;
 use crate::math::Vec2;
 
 /// The surface and stuff of a shape.
@@ -97,16 +96,6 @@ impl ShapeDef {
             hit_events: false,
             user_data: 0,
         }
-    }
-
-    /// Copies of this description with the convex pieces of an outline for shapes: what it says of place,
-    /// material, filter and events holds for each of them.
-    ///
-    /// # Errors
-    /// Those of [`Polygon::decompose`].
-    pub fn pieces(&self, outline: &[Vec2]) -> Result<Vec<Self>, Error> {
-        let pieces = Polygon::decompose(outline)?;
-        Ok(pieces.into_iter().map(|piece| Self { shape: piece.into(), ..self.clone() }).collect())
     }
 
     /// Sets [`ShapeDef::offset`].

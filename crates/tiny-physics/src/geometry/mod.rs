@@ -13,7 +13,6 @@ mod hull;
 pub(crate) mod manifold;
 mod mass;
 mod part;
-mod pieces;
 mod point;
 mod polygon;
 mod ray;
@@ -34,6 +33,7 @@ pub use part::AreaPart;
 pub use polygon::{MAX_VERTICES, Polygon};
 pub use ray::{Ray, RayHit};
 pub use rounded_core::Core;
+pub(crate) use shape::check_point;
 pub use shape::{MAX_EXTENT, MIN_EXTENT, Shape};
 pub use sweep::Sweep;
 pub use toi::{

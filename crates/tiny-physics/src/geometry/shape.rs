@@ -159,7 +159,7 @@ pub(super) fn check_size(name: &'static str, value: f32) -> Result<(), Error> {
 }
 
 /// `Ok` where both coordinates of a point are in range.
-pub(super) fn check_point(name: &'static str, point: Vec2) -> Result<(), Error> {
+pub(crate) fn check_point(name: &'static str, point: Vec2) -> Result<(), Error> {
     Error::check_finite_vec(name, point)?;
     for value in [point.x, point.y] {
         if value.abs() > MAX_EXTENT {

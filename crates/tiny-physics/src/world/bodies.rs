@@ -25,6 +25,11 @@ impl<'a> Body<'a> {
         &self.world.state.bodies.infos[self.index as usize]
     }
 
+    /// The world that it is in.
+    pub fn world(&self) -> &'a World {
+        self.world
+    }
+
     /// Its handle.
     pub fn id(&self) -> BodyId {
         self.world.body_id(self.index)
@@ -146,6 +151,11 @@ impl BodyMut<'_> {
         &mut self.world.state.bodies.infos[self.index as usize]
     }
 
+    /// Counts a call that a number was refused in.
+    pub(crate) fn refuse(&mut self) {
+        self.world.refuse();
+    }
+
     /// Wakes it if all numbers are acceptable, and says whether to go on.
     pub(super) fn accept(&mut self, numbers: &[f32]) -> bool {
         let acceptable = numbers.iter().all(|n| n.abs() <= MAX_NUMBER);
@@ -153,7 +163,7 @@ impl BodyMut<'_> {
             self.world.stats.pushes += u64::from(!numbers.is_empty());
             self.world.wake_index(self.index);
         } else {
-            self.world.stats.refused_numbers += 1;
+            self.world.refuse();
         }
         acceptable
     }
@@ -175,7 +185,7 @@ impl BodyMut<'_> {
             let position = self.as_ref().position_f64();
             self.set_pose(Pose::new(position, Rot::from_angle(radians)));
         } else {
-            self.world.stats.refused_numbers += 1;
+            self.world.refuse();
         }
     }
 
@@ -183,7 +193,7 @@ impl BodyMut<'_> {
     pub fn set_pose(&mut self, pose: Pose) {
         let (x, y) = (pose.p.x.abs(), pose.p.y.abs());
         if !pose.is_finite() || x > MAX_COORDINATE || y > MAX_COORDINATE {
-            self.world.stats.refused_numbers += 1;
+            self.world.refuse();
             return;
         }
         let (world, index) = (&mut *self.world, self.index);

@@ -107,11 +107,20 @@ impl World {
     /// # Errors
     /// The handle is stale, or the points make no chain. Nothing has been added then.
     pub fn add_chain(&mut self, body: BodyId, chain: &ChainDef) -> Result<Vec<ShapeId>, Error> {
-        let index = self.body_index(body)?;
-        self.insert_shapes(index, &chain.shapes()?)
+        self.add_shapes(body, &chain.shapes()?)
     }
 
     /// Adds all shapes to a body, or none.
+    pub(crate) fn add_shapes(
+        &mut self,
+        body: BodyId,
+        shapes: &[ShapeDef],
+    ) -> Result<Vec<ShapeId>, Error> {
+        let body = self.body_index(body)?;
+        self.insert_shapes(body, shapes)
+    }
+
+    /// The same, by the body's index.
     pub(super) fn insert_shapes(
         &mut self,
         body: u32,
@@ -123,21 +132,6 @@ impl World {
         self.update_mass(body);
         self.create_proxies(body);
         Ok(ids.into_iter().map(|id| self.shape_id(id)).collect())
-    }
-
-    /// Adds the convex pieces of an outline, which may be concave, to a body as copies of a shape: see
-    /// [`ShapeDef::pieces`]. Gives their handles.
-    ///
-    /// # Errors
-    /// The handle is stale, or the points make no outline. Nothing has been added then.
-    pub fn add_outline(
-        &mut self,
-        body: BodyId,
-        outline: &[Vec2],
-        like: &ShapeDef,
-    ) -> Result<Vec<ShapeId>, Error> {
-        let index = self.body_index(body)?;
-        self.insert_shapes(index, &like.pieces(outline)?)
     }
 
     /// Removes a shape from its body; mass and inertia follow. What rested on it wakes.

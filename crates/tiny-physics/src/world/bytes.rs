@@ -103,6 +103,28 @@ impl World {
     }
 }
 
+/// Worlds as a value in files of any format: one string of bytes, [`World::to_bytes`]; in base64 where the format is
+/// text.
+#[cfg(feature = "serde")]
+mod files {
+    use super::World;
+    use crate::codec::packed;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    impl Serialize for World {
+        fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            packed::serialize(&self.to_bytes(), serializer)
+        }
+    }
+
+    /// Fails where [`World::from_bytes`] fails.
+    impl<'de> Deserialize<'de> for World {
+        fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+            packed::deserialize(deserializer, "a saved world", Self::from_bytes)
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::state::State;

@@ -6,18 +6,13 @@ mod build;
 mod bytes;
 mod check;
 mod contacts;
-mod debug_draw;
 mod events;
-mod forces;
 mod frame;
 mod freeze;
 mod hooks;
 mod ids;
 mod joints;
 mod memory;
-mod mover;
-#[cfg(feature = "serde")]
-pub(crate) mod packed;
 mod queries;
 mod reading;
 mod sensors;
@@ -34,12 +29,10 @@ mod waking;
 pub use bodies::{Body, BodyMut};
 pub use contacts::{ContactPoint, ContactView};
 pub use events::{ContactBegin, ContactEnd, Events, Hit, JointBreak, SensorBegin, SensorEnd};
-pub use forces::{Explosion, ForceZone, Water, Wind, ZoneForce};
 pub use hooks::{ContactRules, ShapePair};
 pub use ids::{BodyId, JointId, ShapeId, TileGridId};
 pub use joints::JointRef;
 pub use memory::{Memory, MemoryUse};
-pub use mover::{CharacterMover, MoverGround, MoverInput};
 pub use queries::{ClosestPoint, QueryFilter, RayCast, RayCastHit, ShapeCastHit};
 pub use shape_changes::ShapeMut;
 pub use shapes::ShapeRef;
@@ -394,6 +387,11 @@ impl World {
     /// Counts of the last step, and times where [`World::time_stages`] asks for them.
     pub fn stats(&self) -> &Stats {
         &self.stats
+    }
+
+    /// Counts a call that changes nothing because a number was refused in it.
+    pub(crate) fn refuse(&mut self) {
+        self.stats.refused_numbers += 1;
     }
 
     /// What happened in the last step.

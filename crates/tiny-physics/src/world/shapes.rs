@@ -2,7 +2,7 @@
 
 use super::World;
 use super::ids::{BodyId, ShapeId};
-use crate::describe::{Filter, Material};
+use crate::describe::{ChainLink, Filter, Material};
 use crate::dynamics::ShapeRecord;
 use crate::geometry::Shape;
 use crate::math::{Aabb, Pose, Transform, Vec2};
@@ -58,6 +58,11 @@ impl<'a> ShapeRef<'a> {
     /// Direction, in the body's frame, out of the solid side of a one-way platform.
     pub fn one_way(&self) -> Option<Vec2> {
         self.record.one_way
+    }
+
+    /// Its neighbours in a chain. A segment with a link is solid from one side only.
+    pub fn link(&self) -> Option<ChainLink> {
+        self.record.link
     }
 
     /// Its frame in the world.

@@ -24,15 +24,6 @@ pub(super) struct Finder<'a> {
     pub(super) filter: &'a QueryFilter<'a>,
 }
 
-/// Does a filter let a query see a shape?
-pub(in crate::world) fn sees(world: &World, filter: &QueryFilter<'_>, index: u32) -> bool {
-    let record = &world.state.shapes.records[index as usize];
-    (filter.sensors || !record.sensor)
-        && filter.filter.collides(&record.filter)
-        && filter.exclude_body.is_none_or(|body| body != world.body_id(record.body))
-        && filter.predicate.is_none_or(|predicate| predicate(world.shape_id(index)))
-}
-
 /// The best of several hits: the smallest key, then the smallest index.
 struct Best<T> {
     key: f32,
@@ -54,8 +45,13 @@ impl<T> Best<T> {
 
 impl Finder<'_> {
     /// Does the filter let the query see a shape?
-    fn sees(&self, index: u32) -> bool {
-        sees(self.world, self.filter, index)
+    pub(super) fn sees(&self, index: u32) -> bool {
+        let Self { world, filter } = self;
+        let record = &world.state.shapes.records[index as usize];
+        (filter.sensors || !record.sensor)
+            && filter.filter.collides(&record.filter)
+            && filter.exclude_body.is_none_or(|body| body != world.body_id(record.body))
+            && filter.predicate.is_none_or(|predicate| predicate(world.shape_id(index)))
     }
 
     /// A shape and its frame in the world.
@@ -198,6 +194,10 @@ impl Finder<'_> {
             distance(&record.shape, shape, pose.relative_to(place)).separation <= 0.0
         });
         self.ids(found)
+    }
+
+    pub(super) fn near(&self, aabb: Aabb) -> Vec<super::ShapeId> {
+        self.ids(self.collect(&aabb, |_, _| true))
     }
 
     pub(super) fn overlapping_box(&self, aabb: Aabb) -> Vec<super::ShapeId> {

@@ -17,7 +17,6 @@ use super::ids::{BodyId, ShapeId};
 use crate::geometry::Shape;
 use crate::math::{Aabb, DVec2, Pose, Vec2};
 use find::Finder;
-pub(super) use find::sees;
 
 /// A ray in the world, for [`World::ray_casts`].
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -197,6 +196,21 @@ impl World {
     /// their boxes.
     pub fn overlap_aabb(&self, aabb: Aabb, filter: &QueryFilter<'_>) -> Vec<ShapeId> {
         Finder { world: self, filter }.overlapping_box(aabb)
+    }
+
+    /// The shapes whose boxes in the broad phase ([`ShapeRef::fat_aabb`](crate::ShapeRef::fat_aabb)) overlap a box (world,
+    /// metres), in index order: all that can be there, found at less cost than what is.
+    pub fn shapes_near(&self, aabb: Aabb, filter: &QueryFilter<'_>) -> Vec<ShapeId> {
+        Finder { world: self, filter }.near(aabb)
+    }
+
+    /// All shapes that a filter shows, in index order.
+    pub fn shapes_seen<'a>(
+        &'a self,
+        filter: &'a QueryFilter<'a>,
+    ) -> impl Iterator<Item = ShapeId> + 'a {
+        let finder = Finder { world: self, filter };
+        self.shape_ids().filter(move |shape| finder.sees(shape.index))
     }
 
     /// The shapes that hold a point, in index order.

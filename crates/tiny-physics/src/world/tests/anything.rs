@@ -1,6 +1,7 @@
 //! Random changes of every kind between steps: invariants hold, every end has its begin.
 
 use super::*;
+use crate::Explosion;
 use crate::describe::{Filter, JointDef, Material, TileGrid};
 use std::collections::BTreeSet;
 

@@ -1,4 +1,5 @@
 use super::*;
+use crate::{Explosion, ForceZone, Water, Wind, ZoneForce};
 use core::f32::consts::PI;
 
 #[test]

@@ -1,8 +1,7 @@
 //! What plays.
 
 use super::Recording;
-use crate::error::Error;
-use crate::world::World;
+use crate::{Error, World};
 
 /// Plays a recording.
 #[derive(Clone, Debug)]

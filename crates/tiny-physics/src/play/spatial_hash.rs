@@ -7,13 +7,15 @@
 //! has to be remembered or removed (the reference point of Dittrich and Seeger, "Data Redundancy
 //! and Duplicate Detection in Spatial Join Processing", 2000).
 
-use super::{DynamicTree, NONE, clamped, sort_pairs};
-use crate::error::Error;
-use crate::math::Aabb;
+use crate::broad_phase::{DynamicTree, clamped, sort_pairs};
+use crate::{Aabb, Error};
 use core::ops::ControlFlow;
 
 /// A box over more cells than this is kept in a tree instead of the cells.
 const MAX_CELLS: u64 = 64;
+
+/// No link, no entry.
+const NONE: u32 = u32::MAX;
 
 /// Column and row of a cell.
 type Key = (i32, i32);
@@ -54,7 +56,7 @@ struct Link {
 /// coordinates beyond [`LIMIT`](super::LIMIT) count as that limit.
 ///
 /// ```
-/// use tiny_physics::{Aabb, Vec2, broad_phase::SpatialHash};
+/// use tiny_physics::{Aabb, SpatialHash, Vec2};
 /// let mut hash = SpatialHash::new(2.0)?;
 /// for id in 0..3 {
 ///     let center = Vec2::new(1.5 * id as f32, 0.0);
@@ -329,9 +331,9 @@ fn hash(key: Key) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::any_box;
     use super::*;
-    use crate::math::Vec2;
+    use crate::Vec2;
+    use crate::broad_phase::tests::any_box;
     use proptest::prelude::*;
 
     proptest! {

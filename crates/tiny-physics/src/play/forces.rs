@@ -3,11 +3,9 @@
 //! Nothing here is kept in the world: call the functions before every step in which the force is to act. Each
 //! works on bodies in index order, so results do not depend on anything but the world.
 
-use super::World;
-use super::bodies::BodyMut;
-use super::queries::QueryFilter;
-use crate::geometry::Shape;
-use crate::math::{Aabb, DVec2, Pose, Vec2};
+use crate::{
+    Aabb, BodyId, BodyKind, BodyMut, DVec2, Pose, QueryFilter, Shape, ShapeId, Vec2, World,
+};
 
 /// A blast: impulses away from a point.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -120,19 +118,17 @@ impl World {
         let falloff = if falloff > 0.0 { falloff } else { 0.0 };
         let reach = radius + falloff;
         if !(center.is_finite() && reach.is_finite() && radius >= 0.0) {
-            self.stats.refused_numbers += 1;
+            self.refuse();
             return;
         }
         let side = DVec2::new(f64::from(reach), f64::from(reach));
         let bounds = Aabb::rounded_out(center - side, center + side);
         for shape in self.overlap_aabb(bounds, filter) {
-            let Ok(index) = self.shape_index(shape) else { continue };
-            let record = &self.state.shapes.records[index as usize];
-            let (body, geometry) = (record.body, record.shape);
-            if !self.state.bodies.is_dynamic(body) {
+            let Some(shape) = self.shape(shape) else { continue };
+            let (id, geometry, frame) = (shape.body(), *shape.shape(), shape.pose());
+            let Some(body) = self.body(id).filter(|body| body.kind() == BodyKind::Dynamic) else {
                 continue;
-            }
-            let frame = self.state.bodies.poses[body as usize].compose(record.central);
+            };
             let local = frame.unapply(center);
             let closest = geometry.closest_point(local);
             let distance = closest.distance(local);
@@ -142,15 +138,13 @@ impl World {
             let scale = if distance > radius { (reach - distance) / falloff } else { 1.0 };
             // From inside, everything goes away from the centre of mass.
             let inside = distance == 0.0;
-            let point = if inside {
-                self.state.bodies.poses[body as usize].p
-            } else {
-                frame.apply(closest)
-            };
+            let point = if inside { body.center() } else { frame.apply(closest) };
             let away = point.relative_to(center).normalized();
             let width = geometry.width_across(frame.q.unrotate(away));
             let impulse = away * (impulse_per_metre * width * scale);
-            BodyMut { world: self, index: body }.apply_impulse(impulse, point);
+            if let Some(mut body) = self.body_mut(id) {
+                body.apply_impulse(impulse, point);
+            }
         }
     }
 
@@ -179,40 +173,35 @@ impl World {
             [water.density, water.linear_drag, water.angular_drag, dt, normal.x, normal.y];
         let finite = numbers.iter().all(|n| n.is_finite()) && water.surface.is_finite();
         if !finite || !water.flow.is_finite() || normal == Vec2::ZERO {
-            self.stats.refused_numbers += 1;
+            self.refuse();
             return;
         }
-        let shapes: Vec<u32> = match water.area {
-            Some(area) => self.overlap_aabb(area, filter).iter().map(|shape| shape.index).collect(),
-            None => self
-                .state
-                .shapes
-                .indices()
-                .filter(|&shape| self.query_sees(shape, filter))
-                .collect(),
+        let shapes: Vec<ShapeId> = match water.area {
+            Some(area) => self.overlap_aabb(area, filter),
+            None => self.shapes_seen(filter).collect(),
         };
         for shape in shapes {
-            let body = self.state.shapes.records[shape as usize].body;
-            if self.state.bodies.is_dynamic(body) && self.state.bodies.infos[body as usize].awake {
-                self.float(shape, body, water, normal, dt);
-            }
+            self.float(shape, water, normal, dt);
         }
     }
 
-    /// Buoyancy and drag of one shape.
-    fn float(&mut self, shape: u32, body: u32, water: &Water, normal: Vec2, dt: f32) {
-        let record = &self.state.shapes.records[shape as usize];
-        let frame = self.state.bodies.poses[body as usize].compose(record.central);
+    /// Buoyancy and drag of one shape, if it moves.
+    fn float(&mut self, shape: ShapeId, water: &Water, normal: Vec2, dt: f32) {
+        let Some(shape) = self.shape(shape) else { return };
+        let (id, frame) = (shape.body(), shape.pose());
+        if !self.body(id).is_some_and(|body| body.kind() == BodyKind::Dynamic && body.is_awake()) {
+            return;
+        }
         let height = water.surface.relative_to(frame.p).dot(normal);
-        let part = record.shape.part_below(frame.q.unrotate(normal), height);
+        let part = shape.shape().part_below(frame.q.unrotate(normal), height);
         if part.area <= 0.0 {
             return;
         }
-        let whole = record.shape.mass_properties(1.0);
+        let whole = shape.shape().mass_properties(1.0);
         let center = frame.apply(part.center);
         let displaced = water.density * part.area;
         let gravity = self.gravity;
-        let body = BodyMut { world: self, index: body };
+        let Some(mut body) = self.body_mut(id) else { return };
         let (mass, inertia) = (body.as_ref().mass(), body.as_ref().inertia());
         // Implicit in the velocity, so that no drag is too strong for a step.
         let rate = displaced * water.linear_drag;
@@ -225,7 +214,6 @@ impl World {
         } else {
             0.0
         };
-        let mut body = body;
         body.apply_force(drag - gravity * displaced, center);
         body.apply_torque(torque);
     }
@@ -234,21 +222,17 @@ impl World {
     /// each once, during the next step, which is `dt` seconds long.
     pub fn apply_zone(&mut self, zone: &ForceZone, filter: &QueryFilter<'_>, dt: f32) {
         let shapes = self.overlap_shape(&zone.shape, zone.pose, filter);
-        let mut bodies: Vec<u32> =
-            shapes.iter().map(|shape| self.state.shapes.records[shape.index()].body).collect();
+        let mut bodies: Vec<BodyId> =
+            shapes.into_iter().filter_map(|shape| Some(self.shape(shape)?.body())).collect();
         bodies.sort_unstable();
         bodies.dedup();
-        for index in bodies {
-            if self.state.bodies.is_dynamic(index)
-                && (zone.wakes || self.state.bodies.infos[index as usize].awake)
-            {
-                BodyMut { world: self, index }.apply_zone_force(&zone.force, dt);
+        for body in bodies {
+            let Some(mut body) = self.body_mut(body) else { continue };
+            let view = body.as_ref();
+            if view.kind() == BodyKind::Dynamic && (zone.wakes || view.is_awake()) {
+                body.apply_zone_force(&zone.force, dt);
             }
         }
-    }
-
-    fn query_sees(&self, shape: u32, filter: &QueryFilter<'_>) -> bool {
-        super::queries::sees(self, filter, shape)
     }
 }
 
@@ -260,7 +244,7 @@ impl BodyMut<'_> {
         let mass = self.as_ref().mass();
         let finite = wind.velocity.is_finite() && wind.density.is_finite() && wind.drag.is_finite();
         if !finite || !dt.is_finite() {
-            self.world.stats.refused_numbers += 1;
+            self.refuse();
             return;
         }
         if mass <= 0.0 {
@@ -268,16 +252,16 @@ impl BodyMut<'_> {
         }
         let mut forces: Vec<(Vec2, DVec2)> = Vec::new();
         let mut rate = 0.0;
-        for shape in self.world.shapes_of(self.index) {
-            let record = &self.world.state.shapes.records[shape as usize];
-            if record.sensor {
+        let body = self.as_ref();
+        for shape in body.shapes().filter_map(|shape| body.world().shape(shape)) {
+            if shape.is_sensor() {
                 continue;
             }
-            let frame = self.world.state.bodies.poses[self.index as usize].compose(record.central);
-            let point = frame.apply(record.shape.mass_properties(1.0).center);
-            let past = wind.velocity - self.as_ref().velocity_at(point);
+            let (shape, frame) = (shape.shape(), shape.pose());
+            let point = frame.apply(shape.mass_properties(1.0).center);
+            let past = wind.velocity - body.velocity_at(point);
             let (way, speed) = past.direction_and_length();
-            let width = record.shape.width_across(frame.q.unrotate(way));
+            let width = shape.width_across(frame.q.unrotate(way));
             let strength = 0.5 * wind.density * wind.drag * width * speed;
             rate += strength;
             forces.push((past * strength, point));

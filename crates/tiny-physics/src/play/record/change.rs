@@ -1,10 +1,8 @@
 //! Commands to one body or one shape.
 
-use crate::describe::{BodyKind, Filter, Locks, Material};
-use crate::error::Error;
-use crate::geometry::Shape;
-use crate::math::{DVec2, Pose, Vec2};
-use crate::world::{BodyMut, ShapeMut, Wind};
+use crate::{
+    BodyKind, BodyMut, DVec2, Error, Filter, Locks, Material, Pose, Shape, ShapeMut, Vec2, Wind,
+};
 
 /// Something that is done to a body, named after the function of [`BodyMut`] that does it.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -1,4 +1,4 @@
-//! Convex pieces of an outline.
+//! Convex pieces of an outline, as polygons and as the shapes of a body.
 //!
 //! For every decision corners are rounded to a grid of 2^24 steps, where turns are exact in whole numbers; the
 //! pieces have the corners as they were given. Ears are cut off, the roundest first (G. Meisters,
@@ -6,10 +6,8 @@
 //! (S. Hertel, K. Mehlhorn, *Fast triangulation of simple polygons*, 1983): but for the limit of 8 corners that
 //! makes at most four times as many pieces as there must be.
 
-use super::polygon::{MAX_VERTICES, Polygon};
-use super::shape::check_point;
-use crate::error::Error;
-use crate::math::Vec2;
+use crate::geometry::{MAX_VERTICES, check_point};
+use crate::{BodyId, Error, Polygon, RigidBody, ShapeDef, ShapeId, Vec2, World};
 
 /// Steps of the grid from 0 to the largest coordinate: 32-bit numbers have as many.
 const STEPS: f64 = 16_777_216.0;
@@ -47,6 +45,55 @@ impl Polygon {
         };
         let polygons: Vec<Self> = pieces.into_iter().filter_map(hull).collect();
         if polygons.is_empty() { Err(no_area(outline.len())) } else { Ok(polygons) }
+    }
+}
+
+impl ShapeDef {
+    /// Copies of this description with the convex pieces of an outline for shapes: what it says of place,
+    /// material, filter and events holds for each of them.
+    ///
+    /// # Errors
+    /// Those of [`Polygon::decompose`].
+    pub fn pieces(&self, outline: &[Vec2]) -> Result<Vec<Self>, Error> {
+        let pieces = Polygon::decompose(outline)?;
+        Ok(pieces.into_iter().map(|piece| Self { shape: piece.into(), ..self.clone() }).collect())
+    }
+}
+
+impl RigidBody {
+    /// Adds the convex pieces of an outline, which may be concave, as copies of a shape: see
+    /// [`ShapeDef::pieces`].
+    ///
+    /// ```
+    /// use tiny_physics::{RigidBody, Shape, ShapeDef, Vec2};
+    /// let boomerang = [(0.0, 0.0), (2.0, 1.0), (0.0, 2.0), (0.5, 1.0)].map(|(x, y)| Vec2::new(x, y));
+    /// let material = ShapeDef::new(Shape::circle(1.0)?).friction(0.3);
+    /// let body = RigidBody::dynamic().outline(&boomerang, &material)?;
+    /// assert_eq!(body.shapes.len(), 2);
+    /// # Ok::<(), tiny_physics::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Polygon::decompose`](crate::Polygon::decompose).
+    pub fn outline(mut self, outline: &[Vec2], like: &ShapeDef) -> Result<Self, Error> {
+        self.shapes.extend(like.pieces(outline)?);
+        Ok(self)
+    }
+}
+
+impl World {
+    /// Adds the convex pieces of an outline, which may be concave, to a body as copies of a shape: see
+    /// [`ShapeDef::pieces`]. Gives their handles.
+    ///
+    /// # Errors
+    /// The handle is stale, or the points make no outline. Nothing has been added then.
+    pub fn add_outline(
+        &mut self,
+        body: BodyId,
+        outline: &[Vec2],
+        like: &ShapeDef,
+    ) -> Result<Vec<ShapeId>, Error> {
+        self.add_shapes(body, &like.pieces(outline)?)
     }
 }
 
@@ -263,7 +310,7 @@ fn join(corners: &[Corner], pieces: &mut Vec<Vec<usize>>, mut cuts: Vec<[usize; 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Rot;
+    use crate::{Rot, Shape};
     use proptest::prelude::*;
 
     fn points(list: &[(f32, f32)]) -> Vec<Vec2> {
@@ -305,7 +352,7 @@ mod tests {
             assert!(piece.vertices().iter().all(|v| outline.contains(v)));
             assert_eq!(Polygon::convex(piece.vertices()).unwrap(), *piece);
         }
-        let shapes: Vec<crate::geometry::Shape> = pieces.iter().map(|p| (*p).into()).collect();
+        let shapes: Vec<Shape> = pieces.iter().map(|p| (*p).into()).collect();
         let size = outline.iter().map(|p| p.length()).fold(0.0, f32::max);
         for i in 0..200 {
             let spread = |step: f32| (i as f32 * step).fract() * 2.0 - 1.0;

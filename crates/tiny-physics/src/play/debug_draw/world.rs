@@ -1,11 +1,10 @@
 //! Drawing a world for people who look for trouble.
 
-use super::{Body, ContactView, ShapeRef, World};
-use crate::debug_draw::{
-    Color, DebugDraw, DebugDrawOptions, Layer, depth_color, draw_bounds, draw_shape,
+use super::{Color, DebugDraw, DebugDrawOptions, Layer, depth_color, draw_bounds, draw_shape};
+use crate::{
+    Aabb, Body, BodyKind, ContactView, DVec2, JointKind, Pose, Rot, ShapeRef, Transform, Vec2,
+    World,
 };
-use crate::describe::{BodyKind, JointKind};
-use crate::math::{Aabb, DVec2, Pose, Rot, Transform, Vec2};
 
 /// Length of drawn normals, metres at length unit 1.
 const NORMAL_LENGTH: f32 = 0.25;

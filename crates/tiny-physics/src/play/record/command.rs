@@ -1,12 +1,10 @@
 //! What can be done to a world, as data.
 
 use super::{BodyCommand, ShapeCommand};
-use crate::describe::{ChainDef, Filter, JointDef, RigidBody, Settings, ShapeDef, TileGrid};
-use crate::error::Error;
-use crate::math::Vec2;
-use crate::world::{
-    BodyId, CharacterMover, Explosion, ForceZone, JointId, MoverInput, QueryFilter, ShapeId,
-    TileGridId, Water, World,
+use crate::{
+    BodyId, ChainDef, CharacterMover, Error, Explosion, Filter, ForceZone, JointDef, JointId,
+    MoverInput, QueryFilter, RigidBody, Settings, ShapeDef, ShapeId, TileGrid, TileGridId, Vec2,
+    Water, World,
 };
 
 /// Something that is done to a world between two steps. Most are named after the function that they stand for.

@@ -2,8 +2,7 @@
 
 use super::Command;
 use crate::codec::{Data, Reader, Sink, bad, data};
-use crate::error::Error;
-use crate::world::World;
+use crate::{Error, World};
 
 /// The first bytes of a recording; its version follows.
 const MAGIC: [u8; 3] = *b"tpr";
@@ -119,7 +118,7 @@ impl Recording {
 #[cfg(feature = "serde")]
 mod files {
     use super::Recording;
-    use crate::world::packed;
+    use crate::codec::packed;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     impl Serialize for Recording {

@@ -3,8 +3,7 @@
 
 use super::{BodyCommand, Command, FilterData, ShapeCommand};
 use crate::codec::{Data, Reader, Sink, bad, data};
-use crate::error::Error;
-use crate::world::{Explosion, ForceZone, MoverInput, Water, Wind, ZoneForce};
+use crate::{Error, Explosion, ForceZone, MoverInput, Water, Wind, ZoneForce};
 
 /// Commands are rare: what a part is made of is compiled once, not into every command.
 #[inline(never)]

@@ -2,8 +2,7 @@
 
 use super::recording::Step;
 use super::{Command, Made, Recording};
-use crate::error::Error;
-use crate::world::World;
+use crate::{Error, World};
 
 /// Records what is done to a world.
 ///

@@ -1,29 +1,13 @@
-//! Worlds as a value in files of any format (feature `serde`): one string of bytes, that of
-//! [`World::to_bytes`]. In formats for people it is text in base64 (RFC 4648, section 4), because lists of numbers take
-//! three times the room.
+//! Bytes as a value in files of any format (feature `serde`). In formats for people they are text in base64 (RFC 4648,
+//! section 4), because lists of numbers take three times the room.
 
-use super::World;
 use crate::error::Error;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD as BASE64;
 use core::fmt;
 use core::marker::PhantomData;
 use serde::de::{Error as _, SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-/// As one string of bytes, [`World::to_bytes`]; in base64 where the format is text.
-impl Serialize for World {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serialize(&self.to_bytes(), serializer)
-    }
-}
-
-/// Fails where [`World::from_bytes`] fails.
-impl<'de> Deserialize<'de> for World {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserialize(deserializer, "a saved world", Self::from_bytes)
-    }
-}
+use serde::{Deserializer, Serializer};
 
 /// Writes bytes.
 pub(crate) fn serialize<S: Serializer>(bytes: &[u8], serializer: S) -> Result<S::Ok, S::Error> {

@@ -8,15 +8,13 @@
 //! The method is cast and slide (Fauerby, *Improved Collision Detection and Response*, 2003), with
 //! steps climbed by casts up, forward and down.
 
-use super::World;
-use super::ids::{BodyId, ShapeId};
-use super::queries::QueryFilter;
 use crate::codec::data;
-use crate::describe::{BodyKind, Filter};
-use crate::dynamics::ShapeRecord;
-use crate::geometry::{MIN_EXTENT, Shape, distance, shape_cast};
-use crate::math::{Aabb, DVec2, Pose, Rot, Vec2, sin_cos};
-use core::ops::ControlFlow;
+use crate::geometry::{MIN_EXTENT, distance, shape_cast};
+use crate::math::sin_cos;
+use crate::{
+    Aabb, BodyId, BodyKind, DVec2, Filter, Pose, QueryFilter, Rot, Shape, ShapeId, ShapeRef, Vec2,
+    World,
+};
 
 /// Most casts of one movement.
 const MAX_CASTS: u32 = 6;
@@ -120,7 +118,8 @@ struct Obstacle {
     /// Out of the obstacle.
     normal: Vec2,
     point: DVec2,
-    shape: u32,
+    shape: ShapeId,
+    body: BodyId,
 }
 
 /// What a character pushed in an update, and what came of it.
@@ -389,11 +388,9 @@ impl CharacterMover {
     }
 
     fn stand(&mut self, world: &World, hit: &Obstacle) {
-        let body = world.body_id(world.state.shapes.records[hit.shape as usize].body);
-        let local = world.body(body).map_or(Vec2::ZERO, |body| body.pose().unapply(hit.point));
-        let shape = world.shape_id(hit.shape);
-        self.ground =
-            Some(MoverGround { body, shape, normal: hit.normal, point: hit.point, local });
+        let Obstacle { normal, point, shape, body, .. } = *hit;
+        let local = world.body(body).map_or(Vec2::ZERO, |body| body.pose().unapply(point));
+        self.ground = Some(MoverGround { body, shape, normal, point, local });
     }
 
     /// Can it stand on this: a slope that is not too steep, or an edge with such a floor beside it?
@@ -436,8 +433,8 @@ impl CharacterMover {
         let Frame { up, right, dt, .. } = frame;
         let motion = along(self.floor(ground.normal, up), right, speed * dt);
         let Some(hit) = self.cast(world, frame, motion, None) else { return };
-        let body = world.state.shapes.records[hit.shape as usize].body;
-        if !world.state.bodies.is_dynamic(body) || self.is_walkable(hit.normal, up) {
+        let dynamic = world.body(hit.body).is_some_and(|body| body.kind() == BodyKind::Dynamic);
+        if !dynamic || self.is_walkable(hit.normal, up) {
             return;
         }
         let left = 1.0 - hit.fraction;
@@ -458,7 +455,7 @@ impl CharacterMover {
     /// comes as far as under that force.
     fn push(&mut self, world: &mut World, frame: Frame, hit: &Obstacle, speed: f32, part: f32) {
         let Frame { dt, pushed, .. } = frame;
-        let id = world.body_id(world.state.shapes.records[hit.shape as usize].body);
+        let id = hit.body;
         let Some(mut body) = world.body_mut(id) else { return };
         let (view, way) = (body.as_ref(), -hit.normal);
         let point = self.hand(frame, hit, view.center());
@@ -518,12 +515,12 @@ impl CharacterMover {
             let pose = Pose::new(self.position, Rot::IDENTITY);
             let bounds = capsule.world_aabb(pose).grown(self.skin);
             let mut deepest: Option<(f32, Vec2)> = None;
-            for index in self.obstacles(world, &bounds) {
-                let (record, place) = placed(world, index);
-                let gap = distance(&record.shape, &capsule, pose.relative_to(place));
+            for obstacle in self.obstacles(world, bounds) {
+                let place = obstacle.pose();
+                let gap = distance(obstacle.shape(), &capsule, pose.relative_to(place));
                 let normal = place.q.rotate(gap.normal);
                 let near = gap.separation < self.skin - 1.0e-3;
-                let solid = self.is_solid(world, frame, record, place, -normal);
+                let solid = self.is_solid(world, frame, &obstacle, -normal);
                 if near && solid && deepest.is_none_or(|(least, _)| gap.separation < least) {
                     deepest = Some((gap.separation, normal));
                 }
@@ -544,10 +541,10 @@ impl CharacterMover {
         let capsule = self.capsule(frame.up, 0.0);
         let pose = Pose::new(self.position, Rot::IDENTITY);
         let bounds = capsule.world_aabb(pose).grown(self.skin);
-        self.obstacles(world, &bounds).into_iter().any(|index| {
-            let (record, place) = placed(world, index);
-            let gap = || distance(&record.shape, &capsule, pose.relative_to(place)).separation;
-            record.one_way.is_some() && gap() <= self.skin + 1.0e-3
+        self.obstacles(world, bounds).into_iter().any(|obstacle| {
+            let start = pose.relative_to(obstacle.pose());
+            let gap = || distance(obstacle.shape(), &capsule, start).separation;
+            obstacle.one_way().is_some() && gap() <= self.skin + 1.0e-3
         })
     }
 
@@ -598,25 +595,21 @@ impl CharacterMover {
         let end = Pose::new(self.position + motion, Rot::IDENTITY);
         let bounds = capsule.world_aabb(pose).union(&capsule.world_aabb(end));
         let mut first: Option<Obstacle> = None;
-        for shape in self.obstacles(world, &bounds) {
-            let (record, place) = placed(world, shape);
-            if without.is_some_and(|body| body == world.body_id(record.body))
-                || !self.is_solid(world, frame, record, place, motion)
-            {
+        for obstacle in self.obstacles(world, bounds) {
+            let (place, body) = (obstacle.pose(), obstacle.body());
+            if without == Some(body) || !self.is_solid(world, frame, &obstacle, motion) {
                 continue;
             }
             let way = place.q.unrotate(motion);
-            let Some(hit) = shape_cast(&record.shape, &capsule, pose.relative_to(place), way)
-            else {
-                continue;
-            };
+            let start = pose.relative_to(place);
+            let Some(hit) = shape_cast(obstacle.shape(), &capsule, start, way) else { continue };
             let normal = place.q.rotate(hit.normal);
             if normal.dot(motion) >= -PARALLEL * length {
                 continue;
             }
             if first.is_none_or(|first| hit.fraction < first.fraction) {
-                let point = place.apply(hit.point);
-                first = Some(Obstacle { fraction: hit.fraction, normal, point, shape });
+                let (point, shape) = (place.apply(hit.point), obstacle.id());
+                first = Some(Obstacle { fraction: hit.fraction, normal, point, shape, body });
             }
         }
         first
@@ -634,40 +627,26 @@ impl CharacterMover {
     }
 
     /// Shapes whose fat boxes overlap a box and that its filter lets it collide with, in index order.
-    fn obstacles(&self, world: &World, bounds: &Aabb) -> Vec<u32> {
-        let mut found = Vec::new();
-        world.state.broad_phase.query(bounds, self.filter.reach().1, |index| {
-            let record = &world.state.shapes.records[index as usize];
-            if !record.sensor && self.filter.collides(&record.filter) {
-                found.push(index);
-            }
-            ControlFlow::Continue(())
-        });
-        found.sort_unstable();
-        found
+    fn obstacles<'a>(&self, world: &'a World, bounds: Aabb) -> Vec<ShapeRef<'a>> {
+        let near = world.shapes_near(bounds, &QueryFilter::from(self.filter));
+        near.into_iter().filter_map(|shape| world.shape(shape)).collect()
     }
 
     /// Is a shape solid for something that moves this way? One-way platforms are from above, chains from
     /// outside.
-    fn is_solid(
-        &self,
-        world: &World,
-        frame: Frame,
-        record: &ShapeRecord,
-        place: Pose,
-        motion: Vec2,
-    ) -> bool {
-        if let (Some(_), Shape::Segment { a, b }) = (record.link, record.shape) {
+    fn is_solid(&self, world: &World, frame: Frame, obstacle: &ShapeRef<'_>, motion: Vec2) -> bool {
+        let place = obstacle.pose();
+        if let (Some(_), Shape::Segment { a, b }) = (obstacle.link(), *obstacle.shape()) {
             let way = b - a;
             return Vec2::new(way.y, 0.0 - way.x).dot(place.unapply(self.position) - a) >= 0.0;
         }
-        let Some(way) = record.one_way else { return true };
-        let way = world.state.bodies.poses[record.body as usize].q.rotate(way);
+        let Some(way) = obstacle.one_way() else { return true };
+        let way = world.body(obstacle.body()).map_or(way, |body| body.rotation().rotate(way));
         if self.dropping || way.dot(motion) >= 0.0 {
             return false;
         }
         let pose = Pose::new(self.position, Rot::IDENTITY);
-        let gap = distance(&record.shape, &self.capsule(frame.up, 0.0), pose.relative_to(place));
+        let gap = distance(obstacle.shape(), &self.capsule(frame.up, 0.0), pose.relative_to(place));
         gap.separation >= -0.5 * self.skin && place.q.rotate(gap.normal).dot(way) > 0.3
     }
 }
@@ -680,9 +659,4 @@ fn along(normal: Vec2, right: Vec2, way: f32) -> Vec2 {
 
 fn smaller(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
-}
-
-fn placed(world: &World, index: u32) -> (&ShapeRecord, Pose) {
-    let record = &world.state.shapes.records[index as usize];
-    (record, world.state.bodies.poses[record.body as usize].compose(record.central))
 }

@@ -7,8 +7,7 @@
 //! upper bytes, which cost half a bit each.
 
 use crate::codec::bad;
-use crate::error::Error;
-use crate::world::World;
+use crate::{Error, World};
 
 /// Bytes of a word.
 const WORD: usize = 4;

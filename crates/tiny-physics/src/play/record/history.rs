@@ -2,8 +2,7 @@
 
 use super::recording::Step;
 use super::{Command, Made, Recording, delta};
-use crate::error::Error;
-use crate::world::World;
+use crate::{Error, World};
 
 /// Fewest steps between two frames that are kept.
 const INTERVAL: usize = 8;
@@ -250,7 +249,7 @@ impl Frames {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::BodyCommand;
+    use crate::play::record::BodyCommand;
     use crate::{BodyId, RigidBody, Shape, Vec2};
 
     /// Balls that rain on a floor; every one that has fallen for long is hit.

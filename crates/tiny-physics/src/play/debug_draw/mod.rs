@@ -1,6 +1,6 @@
 //! Seeing a world: the trait that a drawing library implements, and what it is asked to draw.
 //!
-//! Sits beside the world and above shapes: `World::debug_draw` walks bodies, joints and contacts and
+//! [`World::debug_draw`](crate::World::debug_draw) walks bodies, joints and contacts and
 //! calls a [`DebugDraw`] with plain outlines. Nothing here changes a world, so drawing can never change
 //! a result. Everything arrives relative to [`DebugDrawOptions::origin`]: a level 100 km from (0, 0)
 //! is drawn without trembling.
@@ -22,9 +22,9 @@
 //! assert_eq!(count.0, 1);
 //! ```
 
-use crate::describe::BodyKind;
-use crate::geometry::Shape;
-use crate::math::{Aabb, DVec2, Rot, Transform, Vec2};
+mod world;
+
+use crate::{Aabb, BodyKind, DVec2, Rot, Shape, Transform, Vec2};
 
 /// A colour: red, green, blue and opacity, 0 to 255 each, sRGB, not premultiplied.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
@@ -306,7 +306,7 @@ fn box_corners(half: Vec2) -> [Vec2; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Polygon;
+    use crate::Polygon;
 
     #[derive(Default)]
     struct Log(Vec<String>);
