@@ -3,6 +3,7 @@
 //! `cargo test -p tiny-physics-doctor --test ward -- --nocapture` prints who was told what.
 
 mod patients;
+mod strangers;
 
 use tiny_physics::{BodyId, RigidBody, Settings, Shape, Vec2, World};
 use tiny_physics_doctor::{Code, Doctor, Report};
@@ -124,4 +125,27 @@ fn every_code_has_patients() {
     for &code in Code::ALL {
         assert!(patients.iter().any(|patient| patient.code == code), "nobody suffers from {code}");
     }
+}
+
+/// The doctor knows the textbook's patients; these it has not been written for.
+#[test]
+fn strangers_are_told_too() {
+    let mut patients = strangers::all();
+    let count = patients.len();
+    let mut named = 0;
+    for patient in &mut patients {
+        let report = examine(patient);
+        let told: Vec<_> = report.findings.iter().map(|finding| finding.code.name()).collect();
+        let is_named = report.find(patient.code).is_some();
+        named += usize::from(is_named);
+        let mark = match told.first() {
+            Some(&first) if first == patient.code.name() => "first",
+            _ if is_named => "named",
+            _ => "MISSED",
+        };
+        let code = patient.code.name();
+        println!("{mark:<6} {:<42} {code:<16} told {}", patient.name, told.join(", "));
+    }
+    println!("{named} of {count} strangers named");
+    assert!(named >= 56, "{named} of {count} strangers named");
 }
