@@ -2,6 +2,7 @@
 
 pub use crate::{
     Aabb, Body, BodyId, BodyKind, BodyMut, ChainDef, CharacterMover, DVec2, Error, Filter,
-    FixedStep, JointDef, JointId, JointKind, Material, MoverInput, Polygon, Pose, QueryFilter,
-    RigidBody, Rot, Settings, Shape, ShapeDef, ShapeId, TileGrid, Transform, Vec2, World,
+    FixedStep, JointDef, JointId, JointKind, Limits, Material, Motor, MoverInput, Polygon, Pose,
+    QueryFilter, RigidBody, Rot, Settings, Shape, ShapeDef, ShapeId, Spring, TileGrid, Transform,
+    Vec2, World,
 };

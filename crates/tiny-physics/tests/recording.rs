@@ -15,11 +15,12 @@ use tiny_physics::record::{
 use tiny_physics::*;
 
 /// Functions that change a world and need no command, with the reason.
-const WITHOUT_COMMAND: [(&str, &str); 11] = [
+const WITHOUT_COMMAND: [(&str, &str); 12] = [
     ("World::step", "every step is recorded"),
     ("World::try_step", "the same"),
     ("World::body_mut", "what it gives has commands"),
     ("World::shape_mut", "what it gives has commands"),
+    ("World::joint_mut", "what it gives does what SetJoint does"),
     ("World::set_threads", "changes no results"),
     ("World::set_simd", "changes no results"),
     ("World::time_stages", "changes no results"),

@@ -94,6 +94,8 @@ data!(JointDef {
     collide_connected,
     softness,
     break_at,
+    anchors_at,
+    enabled,
     user_data,
 });
 data!(ChainLink { previous, next });

@@ -233,6 +233,14 @@ pub struct JointDef {
     /// Load at which it breaks.
     #[cfg_attr(feature = "serde", serde(default))]
     pub break_at: Option<Break>,
+    /// Anchors on A and B in the world, metres, instead of those in the bodies' frames. Angles then are those of the
+    /// world, too: the bodies count as not turned yet. Adding or setting the joint turns all that into anchors and
+    /// angles of the bodies as they are at that moment, and leaves `None` here.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub anchors_at: Option<[DVec2; 2]>,
+    /// A joint that is not enabled is kept but does nothing: it does not even keep its bodies from colliding.
+    #[cfg_attr(feature = "serde", serde(default = "enabled"))]
+    pub enabled: bool,
     /// Free for the user.
     #[cfg_attr(feature = "serde", serde(default))]
     pub user_data: u64,
@@ -251,6 +259,8 @@ impl JointDef {
             collide_connected: false,
             softness: None,
             break_at: None,
+            anchors_at: None,
+            enabled: true,
             user_data: 0,
         }
     }
@@ -339,10 +349,35 @@ impl JointDef {
 impl JointDef {
     /// Sets both anchors, each in its body's frame.
     pub fn anchors(mut self, anchor_a: impl Into<Vec2>, anchor_b: impl Into<Vec2>) -> Self {
-        let anchor_a = anchor_a.into();
-        let anchor_b = anchor_b.into();
-        self.anchor_a = anchor_a;
-        self.anchor_b = anchor_b;
+        (self.anchor_a, self.anchor_b) = (anchor_a.into(), anchor_b.into());
+        self
+    }
+
+    /// Puts both anchors at a point of the world, metres, and takes the bodies' angles at the moment of adding as the
+    /// zero of the joint's angle: see [`JointDef::anchors_at`].
+    ///
+    /// ```
+    /// use tiny_physics::prelude::*;
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let mut world = World::new((0.0, -10.0));
+    /// let wall = world.add_body(RigidBody::fixed())?;
+    /// let sign = RigidBody::dynamic().position((3.0, 2.0)).angle(0.4).shape(Shape::rect(0.5, 0.2)?);
+    /// let sign = world.add_body(sign)?;
+    /// let nail = world.add_joint(wall, sign, JointDef::revolute().anchor_at((3.0, 2.2)))?;
+    /// let joint = world.joint(nail).unwrap();
+    /// assert!((joint.anchors().1 - DVec2::new(3.0, 2.2)).length() < 1e-6);
+    /// assert!(joint.angle().abs() < 1e-6);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn anchor_at(self, point: impl Into<DVec2>) -> Self {
+        let point = point.into();
+        self.anchors_at(point, point)
+    }
+
+    /// Puts the anchors at two points of the world, metres: see [`JointDef::anchor_at`].
+    pub fn anchors_at(mut self, anchor_a: impl Into<DVec2>, anchor_b: impl Into<DVec2>) -> Self {
+        self.anchors_at = Some([anchor_a.into(), anchor_b.into()]);
         self
     }
 
@@ -362,60 +397,20 @@ impl JointDef {
 
     /// Sets the spring where the kind has one (both springs of a weld).
     pub fn spring(mut self, hertz: f32, damping_ratio: f32) -> Self {
-        let value = Spring { hertz, damping_ratio };
-        match &mut self.kind {
-            JointKind::Distance { spring, .. }
-            | JointKind::Revolute { spring, .. }
-            | JointKind::Prismatic { spring, .. }
-            | JointKind::Wheel { spring, .. } => *spring = Some(value),
-            JointKind::Weld { linear, angular } => {
-                *linear = Some(value);
-                *angular = Some(value);
-            }
-            JointKind::Mouse { spring, .. } => *spring = value,
-            JointKind::Motor { .. }
-            | JointKind::Filter
-            | JointKind::Pulley { .. }
-            | JointKind::Gear { .. } => {}
-        }
+        self.kind.set_spring(Some(Spring { hertz, damping_ratio }));
         self
     }
 
     /// Sets limits where the kind has them.
     pub fn limits(mut self, lower: f32, upper: f32) -> Self {
-        match &mut self.kind {
-            JointKind::Distance { limits, .. }
-            | JointKind::Revolute { limits, .. }
-            | JointKind::Prismatic { limits, .. }
-            | JointKind::Wheel { limits, .. } => *limits = Some(Limits { lower, upper }),
-            JointKind::Weld { .. }
-            | JointKind::Motor { .. }
-            | JointKind::Mouse { .. }
-            | JointKind::Filter
-            | JointKind::Pulley { .. }
-            | JointKind::Gear { .. } => {}
-        }
+        self.kind.set_limits(Some(Limits { lower, upper }));
         self
     }
 
     /// Sets a motor where the kind has one: speed in metres or radians a second, greatest force or
     /// torque. A [`JointKind::Motor`] takes it as its angular part.
     pub fn motor(mut self, speed: f32, max: f32) -> Self {
-        match &mut self.kind {
-            JointKind::Distance { motor, .. }
-            | JointKind::Revolute { motor, .. }
-            | JointKind::Prismatic { motor, .. }
-            | JointKind::Wheel { motor, .. } => *motor = Some(Motor { speed, max }),
-            JointKind::Motor { angular_velocity, max_torque, .. } => {
-                *angular_velocity = speed;
-                *max_torque = max;
-            }
-            JointKind::Weld { .. }
-            | JointKind::Mouse { .. }
-            | JointKind::Filter
-            | JointKind::Pulley { .. }
-            | JointKind::Gear { .. } => {}
-        }
+        self.kind.set_motor(Some(Motor { speed, max }));
         self
     }
 
@@ -462,6 +457,9 @@ impl JointDef {
         check_anchor("anchor_b", self.anchor_b)?;
         Error::check_finite("angle_a", self.angle_a)?;
         Error::check_finite("angle_b", self.angle_b)?;
+        for point in self.anchors_at.iter().flatten() {
+            check_point("anchors_at", *point)?;
+        }
         check_spring("softness", self.softness)?;
         if let Some(limit) = self.break_at {
             Error::check_not_negative("break_at.force", limit.force)?;
@@ -471,7 +469,83 @@ impl JointDef {
     }
 }
 
+/// The parts that several kinds have; those that set one say whether the kind has it.
 impl JointKind {
+    /// The motor, if it has one that is set: of a [`JointKind::Motor`] the angular part.
+    pub fn motor(&self) -> Option<Motor> {
+        match *self {
+            Self::Distance { motor, .. }
+            | Self::Revolute { motor, .. }
+            | Self::Prismatic { motor, .. }
+            | Self::Wheel { motor, .. } => motor,
+            Self::Motor { angular_velocity: speed, max_torque: max, .. } => {
+                Some(Motor { speed, max })
+            }
+            _ => None,
+        }
+    }
+
+    pub(crate) fn set_motor(&mut self, value: Option<Motor>) -> bool {
+        match self {
+            Self::Distance { motor, .. }
+            | Self::Revolute { motor, .. }
+            | Self::Prismatic { motor, .. }
+            | Self::Wheel { motor, .. } => *motor = value,
+            Self::Motor { angular_velocity, max_torque, .. } => {
+                (*angular_velocity, *max_torque) = value.map_or((0.0, 0.0), |m| (m.speed, m.max));
+            }
+            _ => return false,
+        }
+        true
+    }
+
+    pub(crate) fn set_limits(&mut self, value: Option<Limits>) -> bool {
+        match self {
+            Self::Distance { limits, .. }
+            | Self::Revolute { limits, .. }
+            | Self::Prismatic { limits, .. }
+            | Self::Wheel { limits, .. } => *limits = value,
+            _ => return false,
+        }
+        true
+    }
+
+    pub(crate) fn set_spring(&mut self, value: Option<Spring>) -> bool {
+        match self {
+            Self::Distance { spring, .. }
+            | Self::Revolute { spring, .. }
+            | Self::Prismatic { spring, .. }
+            | Self::Wheel { spring, .. } => *spring = value,
+            Self::Weld { linear, angular } => (*linear, *angular) = (value, value),
+            Self::Mouse { spring, .. } => *spring = value.unwrap_or(*spring),
+            _ => return false,
+        }
+        true
+    }
+
+    pub(crate) fn set_rest(&mut self, value: f32) -> bool {
+        match self {
+            Self::Distance { length: rest, .. }
+            | Self::Revolute { target_angle: rest, .. }
+            | Self::Prismatic { target: rest, .. }
+            | Self::Pulley { length: rest, .. } => *rest = value,
+            _ => return false,
+        }
+        true
+    }
+
+    pub(crate) fn set_max_force(&mut self, value: f32) -> bool {
+        match self {
+            Self::Distance { motor: Some(motor), .. }
+            | Self::Revolute { motor: Some(motor), .. }
+            | Self::Prismatic { motor: Some(motor), .. }
+            | Self::Wheel { motor: Some(motor), .. } => motor.max = value,
+            Self::Motor { max_force, .. } | Self::Mouse { max_force, .. } => *max_force = value,
+            _ => return false,
+        }
+        true
+    }
+
     fn validate(&self) -> Result<(), Error> {
         match *self {
             Self::Distance { length, spring, limits, motor } => {
@@ -532,6 +606,12 @@ impl JointKind {
             }
         }
     }
+}
+
+/// What a file means that does not say.
+#[cfg(feature = "serde")]
+fn enabled() -> bool {
+    true
 }
 
 /// Anchors lie where points of shapes can lie.

@@ -387,6 +387,15 @@ impl JointGraph {
         self.count -= 1;
     }
 
+    /// What a joint has accumulated in the last substep, in the order of its block; nothing while it sleeps.
+    pub(crate) fn impulses(&self, record: &JointRecord) -> Impulses {
+        let (JointPlace::Graph { colour, slot }, Some(class)) = (record.place, record.class())
+        else {
+            return Impulses::default();
+        };
+        with_bucket!([&] self.colours[usize::from(colour)], class, bucket => bucket.saved(slot))
+    }
+
     /// Brings the forest up to date, and moves joints between lanes and trees.
     pub(crate) fn grow_forest(&mut self, bodies: &mut Bodies, joints: &mut Joints) {
         if !self.forest.is_stale() {
@@ -404,7 +413,7 @@ impl JointGraph {
     }
 
     /// Gives a joint another description, also while it is in the graph. Impulses live on unless the
-    /// kind is another. The description has been validated. A joint that had nothing to solve before is
+    /// kind is another or it is enabled or disabled. The description has been validated. A joint that had nothing to solve before is
     /// not in the graph yet afterwards: [`Self::insert`] it where its bodies are awake.
     pub(crate) fn update(
         &mut self,
@@ -414,7 +423,8 @@ impl JointGraph {
         def: &crate::describe::JointDef,
     ) {
         let record = &joints.records[index as usize];
-        let same = core::mem::discriminant(&record.def.kind) == core::mem::discriminant(&def.kind);
+        let same = core::mem::discriminant(&record.def.kind) == core::mem::discriminant(&def.kind)
+            && record.def.enabled == def.enabled;
         if same && is_rigid(&record.def) == is_rigid(def) {
             joints.records[index as usize].def = *def;
             self.mark_stale(joints, index);

@@ -61,7 +61,7 @@ impl JointRecord {
 
     /// Which kernel solves it; `None` where there is nothing to solve.
     pub(crate) fn class(&self) -> Option<JointClass> {
-        JointClass::of(&self.def.kind)
+        self.def.enabled.then(|| JointClass::of(&self.def.kind)).flatten()
     }
 }
 
@@ -146,7 +146,7 @@ impl Joints {
         self.of_body(first(body)).all(|(index, side)| {
             let record = &self.records[index as usize];
             let partner = if side == 0 { record.body_b } else { record.body_a };
-            partner != other || record.def.collide_connected
+            partner != other || record.def.collide_connected || !record.def.enabled
         })
     }
 

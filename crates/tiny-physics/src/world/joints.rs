@@ -3,10 +3,10 @@
 use super::World;
 use super::events::JointBreak;
 use super::ids::{BodyId, JointId};
-use crate::describe::JointDef;
-use crate::dynamics::{JointRecord, NULL};
+use crate::describe::{JointDef, JointKind};
+use crate::dynamics::{JointRecord, NULL, REFINEMENT};
 use crate::error::Error;
-use crate::math::{DVec2, Vec2};
+use crate::math::{DVec2, Rot, Vec2};
 use crate::stages::joint_solver;
 
 /// A joint of the world, to read.
@@ -18,6 +18,10 @@ pub struct JointRef<'a> {
 }
 
 impl<'a> JointRef<'a> {
+    pub(super) fn new(world: &'a World, index: u32) -> Self {
+        Self { world, record: &world.state.joints.records[index as usize], index }
+    }
+
     /// Its handle.
     pub fn id(&self) -> JointId {
         self.world.joint_id(self.index)
@@ -39,6 +43,84 @@ impl<'a> JointRef<'a> {
         let (a, b) = (self.record.body_a, self.record.body_b);
         let def = &self.record.def;
         (bodies.origin_pose(a).apply(def.anchor_a), bodies.origin_pose(b).apply(def.anchor_b))
+    }
+
+    /// Does it do anything?
+    pub fn is_enabled(&self) -> bool {
+        self.record.def.enabled
+    }
+
+    /// B's angle against A's as the joint counts it, radians in [-pi, pi]: see [`JointDef::angle_a`].
+    pub fn angle(&self) -> f32 {
+        let JointDef { angle_a, angle_b, .. } = self.record.def;
+        let turned = |body: u32, by: f32| {
+            self.world.state.bodies.poses[body as usize].q.compose(Rot::from_angle(by))
+        };
+        turned(self.record.body_b, angle_b).angle_from(turned(self.record.body_a, angle_a))
+    }
+
+    /// How fast its angle grows, radians a second.
+    pub fn angular_speed(&self) -> f32 {
+        let speed = |body: u32| self.world.state.bodies.angular_velocity(body);
+        speed(self.record.body_b) - speed(self.record.body_a)
+    }
+
+    /// Of a slider or a wheel, how far anchor B is from anchor A along the joint's direction, metres. Of other joints,
+    /// the distance of the anchors; of a mouse joint, that to its target.
+    pub fn translation(&self) -> f32 {
+        let (direction, gap) = self.line();
+        direction.dot(gap)
+    }
+
+    /// How fast [`JointRef::translation`] grows, metres a second.
+    pub fn speed(&self) -> f32 {
+        let ((direction, gap), (at_a, at_b)) = (self.line(), self.anchors());
+        let (a, b) = self.bodies();
+        let velocity = |body, at| self.world.body(body).map_or(Vec2::ZERO, |b| b.velocity_at(at));
+        match self.record.def.kind {
+            JointKind::Mouse { .. } => -velocity(b, at_b).dot(direction),
+            // The line turns with A; that of two anchors turns as they go, which does not lengthen it.
+            _ => {
+                let spin = self.world.state.bodies.angular_velocity(self.record.body_a);
+                let apart = velocity(b, at_b) - velocity(a, at_a);
+                apart.dot(direction) + spin * direction.perp().dot(gap)
+            }
+        }
+    }
+
+    /// The joint's direction, and the way from anchor A to anchor B (of a mouse joint, from anchor B to its target).
+    fn line(&self) -> (Vec2, Vec2) {
+        let (a, b) = self.anchors();
+        match self.record.def.kind {
+            JointKind::Prismatic { .. } | JointKind::Wheel { .. } => {
+                let frame = self.world.state.bodies.poses[self.record.body_a as usize].q;
+                let direction = Rot::from_angle(self.record.def.angle_a).x_axis();
+                (frame.rotate(direction), b.relative_to(a))
+            }
+            JointKind::Mouse { target, .. } => {
+                let gap = target.relative_to(b);
+                (gap.direction_and_length().0, gap)
+            }
+            _ => {
+                let gap = b.relative_to(a);
+                (gap.direction_and_length().0, gap)
+            }
+        }
+    }
+
+    /// Force (newtons) or torque (newton metres) that the motor exerted on B in the last step, positive the way that
+    /// positive speeds go; of a [`JointKind::Motor`] the torque. 0 without a motor and while it sleeps.
+    pub fn motor_load(&self) -> f32 {
+        let graph = &self.world.state.joint_graph;
+        let impulse = match self.record.def.kind {
+            JointKind::Wheel { .. } => 1,
+            JointKind::Distance { .. } => 2,
+            JointKind::Revolute { .. } | JointKind::Prismatic { .. } => 3,
+            JointKind::Motor { .. } => 5,
+            _ => return 0.0,
+        };
+        let per_second = self.world.state.inv_h * REFINEMENT[graph.pace_of(self.record)] as f32;
+        graph.impulses(self.record)[impulse] * per_second
     }
 
     /// Force on body B in the last step, newtons; the opposite acts on A. Zero while it sleeps.
@@ -72,7 +154,7 @@ impl World {
         if a == b {
             return Err(Error::Unsupported { reason: "a joint needs two different bodies" });
         }
-        def.validate()?;
+        let def = self.place_joint(a, b, def)?;
         let awake = |world: &Self, i: u32| world.state.bodies.infos[i as usize].awake;
         if awake(self, a) || awake(self, b) {
             self.wake_index(a);
@@ -83,7 +165,7 @@ impl World {
         if awake(self, a) || awake(self, b) {
             self.state.joint_graph.insert(&mut self.state.bodies, &mut self.state.joints, index);
         }
-        if !def.collide_connected {
+        if !def.collide_connected && def.enabled {
             self.part_bodies(a, b);
         }
         Ok(self.joint_id(index))
@@ -106,16 +188,16 @@ impl World {
     /// The handle is stale, or a number in the description is out of range.
     pub fn set_joint(&mut self, id: JointId, def: JointDef) -> Result<(), Error> {
         let index = self.joint_index(id)?;
-        def.validate()?;
         let record = &self.state.joints.records[index as usize];
         let (a, b) = (record.body_a, record.body_b);
+        let def = self.place_joint(a, b, def)?;
         self.wake_index(a);
         self.wake_index(b);
         self.state.joint_graph.update(&mut self.state.bodies, &mut self.state.joints, index, &def);
         if self.state.bodies.infos[a as usize].awake || self.state.bodies.infos[b as usize].awake {
             self.state.joint_graph.insert(&mut self.state.bodies, &mut self.state.joints, index);
         }
-        if def.collide_connected {
+        if def.collide_connected || !def.enabled {
             self.buffer_shapes(self.smaller(a, b));
         } else {
             self.part_bodies(a, b);
@@ -123,10 +205,22 @@ impl World {
         Ok(())
     }
 
+    /// Checks a description and takes anchors in the world into the frames of the bodies.
+    fn place_joint(&self, a: u32, b: u32, mut def: JointDef) -> Result<JointDef, Error> {
+        def.validate()?;
+        if let Some([at_a, at_b]) = def.anchors_at.take() {
+            let [a, b] = [a, b].map(|body| self.state.bodies.origin_pose(body));
+            def = def.anchors(a.unapply(at_a), b.unapply(at_b));
+            def = def.angles(def.angle_a - a.q.angle(), def.angle_b - b.q.angle());
+            def.validate()?;
+        }
+        Ok(def)
+    }
+
     /// A joint to read; `None` if it has been removed.
     pub fn joint(&self, id: JointId) -> Option<JointRef<'_>> {
         let index = self.joint_index(id).ok()?;
-        Some(JointRef { world: self, record: &self.state.joints.records[index as usize], index })
+        Some(JointRef::new(self, index))
     }
 
     /// Handles of all joints, in index order.

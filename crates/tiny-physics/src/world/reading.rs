@@ -1,6 +1,6 @@
 //! Going through all that a world holds, and printing it.
 
-use super::{Body, BodyMut, JointRef, ShapeMut, ShapeRef, World};
+use super::{Body, BodyMut, JointMut, JointRef, ShapeMut, ShapeRef, World};
 use crate::describe::BodyKind;
 use core::fmt;
 
@@ -76,10 +76,16 @@ impl fmt::Debug for JointRef<'_> {
     }
 }
 
-/// What a body tells is told by one that may be changed, too.
+impl fmt::Debug for JointMut<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.as_ref().fmt(f)
+    }
+}
+
+/// What a body, shape or joint tells is told by one that may be changed, too.
 macro_rules! told_by_both {
-    ($($(#[doc = $doc:literal])+ $name:ident: $out:ty;)+) => {
-        impl BodyMut<'_> {
+    ($type:ident { $($(#[doc = $doc:literal])+ $name:ident: $out:ty;)+ }) => {
+        impl $type<'_> {
             $($(#[doc = $doc])+
             pub fn $name(&self) -> $out {
                 self.as_ref().$name()
@@ -89,38 +95,88 @@ macro_rules! told_by_both {
 }
 
 told_by_both! {
-    /// Its handle.
-    id: super::BodyId;
-    /// Origin of its frame: world, metres.
-    position: crate::math::Vec2;
-    /// Origin of its frame in 64 bits: world, metres.
-    position_f64: crate::math::DVec2;
-    /// Frame of the body in the world.
-    pose: crate::math::Pose;
-    /// Rotation of its frame.
-    rotation: crate::math::Rot;
-    /// Angle of its frame, radians in [-pi, pi].
-    angle: f32;
-    /// Centre of mass: world, metres.
-    center: crate::math::DVec2;
-    /// Centre of mass in the body's frame, metres.
-    local_center: crate::math::Vec2;
-    /// Velocity of the centre of mass, metres a second.
-    velocity: crate::math::Vec2;
-    /// Radians a second, anticlockwise.
-    angular_velocity: f32;
-    /// Kilograms; 0 for bodies that are not dynamic.
-    mass: f32;
-    /// Moment of inertia about the centre of mass, kilogram square metres; 0 for bodies that are not dynamic.
-    inertia: f32;
-    /// What moves it.
-    kind: BodyKind;
-    /// Is it simulated at the moment?
-    is_awake: bool;
-    /// Is it swept against moving bodies too?
-    is_bullet: bool;
-    /// Does it take part?
-    is_enabled: bool;
-    /// The user's number.
-    user_data: u64;
+    BodyMut {
+        /// Its handle.
+        id: super::BodyId;
+        /// Origin of its frame: world, metres.
+        position: crate::math::Vec2;
+        /// Origin of its frame in 64 bits: world, metres.
+        position_f64: crate::math::DVec2;
+        /// Frame of the body in the world.
+        pose: crate::math::Pose;
+        /// Rotation of its frame.
+        rotation: crate::math::Rot;
+        /// Angle of its frame, radians in [-pi, pi].
+        angle: f32;
+        /// Centre of mass: world, metres.
+        center: crate::math::DVec2;
+        /// Centre of mass in the body's frame, metres.
+        local_center: crate::math::Vec2;
+        /// Velocity of the centre of mass, metres a second.
+        velocity: crate::math::Vec2;
+        /// Radians a second, anticlockwise.
+        angular_velocity: f32;
+        /// Kilograms; 0 for bodies that are not dynamic.
+        mass: f32;
+        /// Moment of inertia about the centre of mass, kilogram square metres; 0 for bodies that are not dynamic.
+        inertia: f32;
+        /// What moves it.
+        kind: BodyKind;
+        /// Is it simulated at the moment?
+        is_awake: bool;
+        /// Is it swept against moving bodies too?
+        is_bullet: bool;
+        /// Does it take part?
+        is_enabled: bool;
+        /// The user's number.
+        user_data: u64;
+    }
+}
+
+told_by_both! {
+    ShapeMut {
+        /// Its handle.
+        id: super::ShapeId;
+        /// The body it hangs on.
+        body: super::BodyId;
+        /// Geometry in the shape's frame.
+        shape: &crate::geometry::Shape;
+        /// Surface and stuff.
+        material: crate::describe::Material;
+        /// What it collides with.
+        filter: crate::describe::Filter;
+        /// Is it a sensor?
+        is_sensor: bool;
+        /// Its frame in the world.
+        pose: crate::math::Pose;
+        /// The user's number.
+        user_data: u64;
+    }
+}
+
+told_by_both! {
+    JointMut {
+        /// Its handle.
+        id: super::JointId;
+        /// Its bodies A and B.
+        bodies: (super::BodyId, super::BodyId);
+        /// What it does.
+        def: &crate::describe::JointDef;
+        /// Its anchors on A and B: world, metres.
+        anchors: (crate::math::DVec2, crate::math::DVec2);
+        /// Does it do anything?
+        is_enabled: bool;
+        /// B's angle against A's as the joint counts it, radians in [-pi, pi].
+        angle: f32;
+        /// How fast its angle grows, radians a second.
+        angular_speed: f32;
+        /// Place along its line, or distance of the anchors, metres.
+        translation: f32;
+        /// How fast its translation grows, metres a second.
+        speed: f32;
+        /// Force or torque that the motor exerted in the last step, newtons or newton metres.
+        motor_load: f32;
+        /// The user's number.
+        user_data: u64;
+    }
 }

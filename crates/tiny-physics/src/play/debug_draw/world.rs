@@ -76,7 +76,7 @@ impl World {
 
     fn draw_joints(&self, pen: &mut Pen<'_>) {
         pen.draw.layer(Layer::Joint);
-        for joint in self.joint_ids().filter_map(|id| self.joint(id)) {
+        for joint in self.joints().filter(|joint| joint.is_enabled()) {
             let (a, b) = joint.bodies();
             let (Some(a), Some(b)) = (self.body(a), self.body(b)) else { continue };
             let def = joint.def();
