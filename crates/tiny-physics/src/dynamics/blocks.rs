@@ -162,9 +162,9 @@ lane_block! {
         /// Normal velocity of the points at the start of the step, negative when approaching.
         approach_1: f32 = 0.0,
         approach_2: f32 = 0.0,
-        /// Greatest normal impulse over the substeps, where hits are asked for.
-        peak_1: f32 = 0.0,
-        peak_2: f32 = 0.0,
+        /// Sum of the normal impulses of the substeps and of bounces, where hits are asked for.
+        total_1: f32 = 0.0,
+        total_2: f32 = 0.0,
     }
 }
 

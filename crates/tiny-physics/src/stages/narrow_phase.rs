@@ -445,8 +445,8 @@ fn write_constraint<L: Lanes, K: PairKernel>(
         let surface = &mut blocks.surfaces[index];
         approach[0].store(&mut surface.approach_1[at..]);
         approach[1].store(&mut surface.approach_2[at..]);
-        zero.store(&mut surface.peak_1[at..]);
-        zero.store(&mut surface.peak_2[at..]);
+        zero.store(&mut surface.total_1[at..]);
+        zero.store(&mut surface.total_2[at..]);
     }
 }
 

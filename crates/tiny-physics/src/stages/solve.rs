@@ -197,9 +197,10 @@ impl Solver {
                 contacts(stores, Pass::Solve);
             }
             integrate::positions(team, listed, stores.bodies, h, max_speed);
-            for _ in 0..lengths.relaxations {
+            for round in 1..=lengths.relaxations {
+                let last = round == lengths.relaxations;
                 joints(stores, joint_solver::Pass::Relax);
-                contacts(stores, Pass::Relax);
+                contacts(stores, if last { Pass::RelaxLast } else { Pass::Relax });
             }
             joint_solver::note_broken(stores.joint_graph, stores.joints, pace, inv_h_plain, broken);
         }

@@ -222,6 +222,7 @@ impl World {
             }
         }
         self.note_ground(shape);
+        self.end_overlaps_of(shape);
         self.state.broad_phase.destroy_proxy(self.state.shapes.proxy(shape));
         self.state.waiting.stale = true;
         self.state.sensors.remove(shape);

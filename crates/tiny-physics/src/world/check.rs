@@ -339,8 +339,13 @@ impl World {
             |i: usize| self.state.shapes.records[i].alive && self.state.shapes.records[i].sensor;
         let right = is_set(&sensors.shapes, count, is_sensor) && sensors.shapes.is_sorted();
         ensure(right, "the sensors are not")?;
-        let inside = |shape: u32| (shape as usize) < count;
-        let known = sensors.overlaps.iter().all(|o| inside(o.sensor) && inside(o.visitor));
+        let there = |shape: u32, generation: u32| {
+            let record = self.state.shapes.records.get(shape as usize);
+            record.is_some_and(|record| record.alive && record.generation == generation)
+        };
+        let known = sensors.overlaps.iter().all(|o| {
+            there(o.sensor, o.sensor_generation) && there(o.visitor, o.visitor_generation)
+        });
         ensure(known && sensors.overlaps.is_sorted(), "sensors see what is not there")
     }
 }

@@ -5,7 +5,7 @@ use super::events::{ContactBegin, ContactEnd, Hit};
 use super::ids::{BodyId, ShapeId};
 use super::state::State;
 use crate::describe::BodyKind;
-use crate::dynamics::{Bucket, NULL, Place, flags};
+use crate::dynamics::{Bucket, NULL, PLAIN, Place, REFINEMENT, flags, pace_at};
 use crate::math::{DVec2, Vec2};
 use crate::simd::BLOCK;
 use crate::stages::islands::Stores;
@@ -24,6 +24,9 @@ pub struct ContactPoint {
     pub normal_impulse: f32,
     /// Newton seconds in the last substep, positive along the normal turned clockwise.
     pub tangent_impulse: f32,
+    /// Newton seconds along the normal in the whole step, with what bounces took. It is summed up only where a shape
+    /// asks for hit events; elsewhere it is what the last substep's makes in a step, which is right for what rests.
+    pub total_impulse: f32,
 }
 
 /// A contact as of the last step.
@@ -41,9 +44,40 @@ pub struct ContactView {
     pub normal: Vec2,
     points: [ContactPoint; 2],
     count: u8,
+    /// Substeps a second.
+    rate: f32,
+    /// Length of the step, seconds.
+    dt: f32,
 }
 
 impl ContactView {
+    /// Newton seconds that B was pushed along the normal in the last step: see [`ContactPoint::total_impulse`].
+    pub fn total_impulse(&self) -> f32 {
+        self.points().iter().map(|point| point.total_impulse).sum()
+    }
+
+    /// Mean force on B in the last step, newtons, world: normal impulses by the step's length, and friction as of the
+    /// last substep. The opposite acts on A.
+    ///
+    /// ```
+    /// use tiny_physics::prelude::*;
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let mut world = World::new((0.0, -10.0));
+    /// let scales = world.add_body(RigidBody::fixed().shape(Shape::rect(2.0, 0.5)?))?;
+    /// let weight = RigidBody::dynamic().position((0.0, 0.9)).shape(Shape::rect(0.4, 0.4)?).mass(3.0);
+    /// world.add_body(weight)?;
+    /// (0..20).for_each(|_| world.step(1.0 / 60.0));
+    /// let shown: f32 = world.body(scales).unwrap().contacts().map(|contact| contact.force().length()).sum();
+    /// assert!((shown - 30.0).abs() < 0.5);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn force(&self) -> Vec2 {
+        let tangent = Vec2::new(self.normal.y, 0.0 - self.normal.x);
+        let friction: f32 = self.points().iter().map(|point| point.tangent_impulse).sum();
+        self.normal * (self.total_impulse() / self.dt) + tangent * (friction * self.rate)
+    }
+
     /// One or two points.
     pub fn points(&self) -> &[ContactPoint] {
         &self.points[..usize::from(self.count)]
@@ -76,6 +110,14 @@ impl World {
         let (block, lane) = (slot / BLOCK, slot % BLOCK);
         let contact = &self.state.contacts.records[bucket.contacts[slot] as usize];
         let (manifold, constraint) = (&bucket.manifolds[block], &bucket.constraints[block]);
+        let pace = match contact.place {
+            Place::Graph { colour, .. } => pace_at(colour.into()),
+            Place::Asleep => PLAIN,
+        };
+        let refinement = REFINEMENT[pace] as f32;
+        let substeps = refinement * self.settings.substeps as f32;
+        let surface = &bucket.surfaces[block];
+        let totals = contact.hit_events.then_some([surface.total_1[lane], surface.total_2[lane]]);
         let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
         let center = self.state.bodies.poses[contact.body_a as usize].p;
         let mut points = [ContactPoint {
@@ -83,11 +125,12 @@ impl World {
             separation: 0.0,
             normal_impulse: 0.0,
             tangent_impulse: 0.0,
+            total_impulse: 0.0,
         }; 2];
         let mut count = 0;
-        for (point, id) in constraint.points.iter().zip([manifold.id_1[lane], manifold.id_2[lane]])
-        {
-            if id < 0.0 {
+        let ids = [manifold.id_1[lane], manifold.id_2[lane]];
+        for (k, point) in constraint.points.iter().enumerate() {
+            if ids[k] < 0.0 {
                 continue;
             }
             // r x n and r x t = -(r . n) give the anchor back.
@@ -98,6 +141,7 @@ impl World {
                 separation: point.separation[lane],
                 normal_impulse: point.normal_impulse[lane],
                 tangent_impulse: point.tangent_impulse[lane],
+                total_impulse: totals.map_or(point.normal_impulse[lane] * substeps, |t| t[k]),
             };
             count += 1;
         }
@@ -109,6 +153,8 @@ impl World {
             normal,
             points,
             count: count as u8,
+            rate: self.state.inv_h * refinement,
+            dt: self.settings.substeps as f32 / self.state.inv_h,
         }
     }
 
@@ -150,21 +196,31 @@ impl World {
         let mut fastest: Option<(usize, f32)> = None;
         let ids = [manifold.id_1[lane], manifold.id_2[lane]];
         let approach = [surface.approach_1[lane], surface.approach_2[lane]];
-        let peak = [surface.peak_1[lane], surface.peak_2[lane]];
+        let total = [surface.total_1[lane], surface.total_2[lane]];
         for (point, k) in (0..2).filter(|&k| ids[k] >= 0.0).enumerate() {
             let speed = -approach[k];
-            if peak[k] > 0.0 && speed > threshold && fastest.is_none_or(|(_, most)| speed > most) {
+            if total[k] > 0.0 && speed > threshold && fastest.is_none_or(|(_, most)| speed > most) {
                 fastest = Some((point, speed));
             }
         }
         let (point, speed) = fastest?;
         let view = self.view(bucket, slot);
+        let contact = &self.state.contacts.records[bucket.contacts[slot] as usize];
+        let [mass_a, mass_b] = [contact.body_a, contact.body_b]
+            .map(|body| self.state.bodies.infos[body as usize].mass);
         Some(Hit {
             shape_a: view.shape_a,
             shape_b: view.shape_b,
+            body_a: view.body_a,
+            body_b: view.body_b,
+            user_data_a: self.state.user_data(contact.shape_a),
+            user_data_b: self.state.user_data(contact.shape_b),
             position: view.points()[point].position,
             normal: view.normal,
             speed,
+            impulse: view.total_impulse(),
+            mass_a,
+            mass_b,
         })
     }
 
@@ -218,9 +274,8 @@ impl World {
         let contact = &mut self.state.contacts.records[index as usize];
         contact.touching = true;
         if contact.events {
-            let (shape_a, shape_b) = (contact.shape_a, contact.shape_b);
-            let (shape_a, shape_b) = (self.shape_id(shape_a), self.shape_id(shape_b));
-            self.state.events.contact_begin.push(ContactBegin { shape_a, shape_b });
+            let end = self.end_event(index);
+            self.state.events.contact_begin.push(ContactBegin::from(end));
         }
     }
 
@@ -252,6 +307,10 @@ impl World {
         ContactEnd {
             shape_a: self.shape_id(contact.shape_a),
             shape_b: self.shape_id(contact.shape_b),
+            body_a: self.body_id(contact.body_a),
+            body_b: self.body_id(contact.body_b),
+            user_data_a: self.state.user_data(contact.shape_a),
+            user_data_b: self.state.user_data(contact.shape_b),
         }
     }
 

@@ -4,62 +4,130 @@ use super::ids::{BodyId, JointId, ShapeId};
 use crate::codec::{data, store};
 use crate::math::{DVec2, Vec2};
 
-/// Two shapes began to touch.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct ContactBegin {
-    /// First shape of the contact.
-    pub shape_a: ShapeId,
-    /// Second shape.
-    pub shape_b: ShapeId,
+/// The user's numbers of a shape and of its body.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct UserData {
+    /// That of the shape.
+    pub shape: u64,
+    /// That of the body.
+    pub body: u64,
 }
 
-/// Two shapes no longer touch, or one of them is gone (its handle may be stale).
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct ContactEnd {
-    /// First shape of the contact.
-    pub shape_a: ShapeId,
-    /// Second shape.
-    pub shape_b: ShapeId,
+/// Declares an event of two shapes: what both are, then what else it tells. It says all that as it was when the event
+/// came about, whatever has been removed since.
+macro_rules! event {
+    ($(#[$meta:meta])* $name:ident
+        $(#[$first:meta])* $shape_a:ident $body_a:ident $data_a:ident,
+        $(#[$second:meta])* $shape_b:ident $body_b:ident $data_b:ident,
+        $($(#[$field_meta:meta])* $field:ident: $type:ty,)*
+    ) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, PartialEq, Debug)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        pub struct $name {
+            $(#[$first])*
+            pub $shape_a: ShapeId,
+            $(#[$second])*
+            pub $shape_b: ShapeId,
+            /// Body of the first.
+            pub $body_a: BodyId,
+            /// Body of the second.
+            pub $body_b: BodyId,
+            /// The user's numbers of the first.
+            pub $data_a: UserData,
+            /// The user's numbers of the second.
+            pub $data_b: UserData,
+            $($(#[$field_meta])* pub $field: $type,)*
+        }
+
+        data!($name { $shape_a, $shape_b, $body_a, $body_b, $data_a, $data_b, $($field),* });
+    };
 }
 
-/// Two shapes hit each other faster than [`Settings::hit_event_threshold`](crate::Settings).
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Hit {
+event! {
+    /// Two shapes began to touch.
+    ContactBegin
     /// First shape of the contact.
-    pub shape_a: ShapeId,
+    shape_a body_a user_data_a,
     /// Second shape.
-    pub shape_b: ShapeId,
+    shape_b body_b user_data_b,
+}
+
+event! {
+    /// Two shapes no longer touch, or one of them is gone (its handle may be stale).
+    ContactEnd
+    /// First shape of the contact.
+    shape_a body_a user_data_a,
+    /// Second shape.
+    shape_b body_b user_data_b,
+}
+
+event! {
+    /// Two shapes hit each other faster than [`Settings::hit_event_threshold`](crate::Settings).
+    Hit
+    /// First shape of the contact.
+    shape_a body_a user_data_a,
+    /// Second shape.
+    shape_b body_b user_data_b,
     /// Where, world, metres.
-    pub position: DVec2,
+    position: DVec2,
     /// Unit, from A to B.
-    pub normal: Vec2,
+    normal: Vec2,
     /// Approach speed along the normal at the start of the step, metres a second.
-    pub speed: f32,
+    speed: f32,
+    /// Newton seconds that the step pushed B along the normal, and A against it: a pea that hits a wall has little, a
+    /// boulder much. Loudness and damage go by it.
+    impulse: f32,
+    /// Mass of body A, kilograms; 0 for bodies that are not dynamic.
+    mass_a: f32,
+    /// Mass of body B.
+    mass_b: f32,
 }
 
-/// A shape began to overlap a sensor, or went through it within the step.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct SensorBegin {
+event! {
+    /// A shape began to overlap a sensor, or went through it within the step.
+    SensorBegin
     /// The sensor.
-    pub sensor: ShapeId,
+    sensor sensor_body sensor_data,
     /// What it sees.
-    pub visitor: ShapeId,
+    visitor visitor_body visitor_data,
 }
 
-/// A shape no longer overlaps a sensor, or one of them is gone (its handle may be stale).
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct SensorEnd {
+event! {
+    /// A shape no longer overlaps a sensor, or one of them is gone (its handle may be stale).
+    SensorEnd
     /// The sensor.
-    pub sensor: ShapeId,
+    sensor sensor_body sensor_data,
     /// What it saw.
-    pub visitor: ShapeId,
+    visitor visitor_body visitor_data,
+}
+
+impl From<ContactEnd> for ContactBegin {
+    fn from(end: ContactEnd) -> Self {
+        let ContactEnd { shape_a, shape_b, body_a, body_b, user_data_a, user_data_b } = end;
+        Self { shape_a, shape_b, body_a, body_b, user_data_a, user_data_b }
+    }
+}
+
+impl From<SensorEnd> for SensorBegin {
+    fn from(end: SensorEnd) -> Self {
+        let SensorEnd { sensor, visitor, sensor_body, visitor_body, sensor_data, visitor_data } =
+            end;
+        Self { sensor, visitor, sensor_body, visitor_body, sensor_data, visitor_data }
+    }
 }
 
 /// A joint bore more than it can and is gone.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct JointBreak {
     /// Its handle, now stale.
     pub joint: JointId,
+    /// Its body A.
+    pub body_a: BodyId,
+    /// Its body B.
+    pub body_b: BodyId,
     /// Greatest force on body B in a substep of the step in which it broke, newtons.
     pub force: Vec2,
     /// Greatest torque on body B, newton metres.
@@ -105,17 +173,14 @@ store! {
         pub(crate) fell_asleep: Vec<BodyId>,
         /// What came about since the last step: part of the next step's events.
         pub(crate) pending_end: Vec<ContactEnd>,
+        pub(crate) pending_sensor_end: Vec<SensorEnd>,
         pub(crate) pending_woke: Vec<BodyId>,
         pub(crate) pending_asleep: Vec<BodyId>,
     }
 }
 
-data!(ContactBegin { shape_a, shape_b });
-data!(ContactEnd { shape_a, shape_b });
-data!(SensorBegin { sensor, visitor });
-data!(SensorEnd { sensor, visitor });
-data!(Hit { shape_a, shape_b, position, normal, speed });
-data!(JointBreak { joint, force, torque, user_data });
+data!(UserData { shape, body });
+data!(JointBreak { joint, body_a, body_b, force, torque, user_data });
 
 impl Events {
     /// Contacts that began.
@@ -175,6 +240,7 @@ impl Events {
     /// Makes what came about by changes part of this step.
     pub(crate) fn flush_pending(&mut self) {
         self.contact_end.append(&mut self.pending_end);
+        self.sensor_end.append(&mut self.pending_sensor_end);
         self.woke.append(&mut self.pending_woke);
         self.fell_asleep.append(&mut self.pending_asleep);
     }

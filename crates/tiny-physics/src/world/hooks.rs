@@ -262,6 +262,6 @@ fn note_approach(bucket: &mut Bucket, rows: &[crate::simd::Row], block: usize) {
             along + point.normal_arm_b[lane] * b[Slot::W] - point.normal_arm_a[lane] * a[Slot::W]
         });
         (surface.approach_1[lane], surface.approach_2[lane]) = (approach[0], approach[1]);
-        (surface.peak_1[lane], surface.peak_2[lane]) = (0.0, 0.0);
+        (surface.total_1[lane], surface.total_2[lane]) = (0.0, 0.0);
     }
 }

@@ -256,9 +256,15 @@ impl World {
         let broken = core::mem::take(&mut self.scratch.solver.broken);
         for &(index, load) in &broken {
             let joint = self.joint_id(index);
-            let user_data = self.state.joints.records[index as usize].def.user_data;
-            let (force, torque) = (load.force, load.torque);
-            self.state.events.joint_breaks.push(JointBreak { joint, force, torque, user_data });
+            let record = &self.state.joints.records[index as usize];
+            self.state.events.joint_breaks.push(JointBreak {
+                joint,
+                body_a: self.body_id(record.body_a),
+                body_b: self.body_id(record.body_b),
+                force: load.force,
+                torque: load.torque,
+                user_data: record.def.user_data,
+            });
             self.destroy_joint(index);
         }
         self.scratch.solver.broken = broken;

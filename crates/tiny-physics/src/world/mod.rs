@@ -29,7 +29,9 @@ mod waking;
 
 pub use bodies::{Body, BodyMut};
 pub use contacts::{ContactPoint, ContactView};
-pub use events::{ContactBegin, ContactEnd, Events, Hit, JointBreak, SensorBegin, SensorEnd};
+pub use events::{
+    ContactBegin, ContactEnd, Events, Hit, JointBreak, SensorBegin, SensorEnd, UserData,
+};
 pub use hooks::{ContactRules, ShapePair};
 pub use ids::{BodyId, JointId, ShapeId, TileGridId};
 pub use joint_mut::JointMut;

@@ -1,45 +1,68 @@
 //! Sensors of the world: the stage of the step, and what the user sees of it.
 
-use super::World;
 use super::events::{SensorBegin, SensorEnd};
 use super::ids::ShapeId;
 use super::state::State;
+use super::{Scratch, World};
 use crate::dynamics::Overlap;
 use crate::stages::sensors;
 use crate::threads::Team;
+use core::mem::take;
 
 impl World {
     /// Finds out what the sensors see now, and what has begun and ended.
     pub(super) fn update_sensors(&mut self, team: &Team) {
-        if self.state.sensors.shapes.is_empty() && self.state.sensors.overlaps.is_empty() {
-            return;
+        if !self.state.sensors.shapes.is_empty() || !self.state.sensors.overlaps.is_empty() {
+            self.look_with_sensors(team);
         }
-        let mut overlaps = core::mem::take(&mut self.scratch.overlaps);
-        let State { bodies, shapes, broad_phase, sensors, events, .. } = &mut self.state;
-        let scratch = &mut self.scratch;
+        // What ended before the step stands before the rest.
+        self.state.events.sensor_end.sort_unstable_by_key(|end| (end.sensor, end.visitor));
+    }
+
+    fn look_with_sensors(&mut self, team: &Team) {
+        let mut overlaps = take(&mut self.scratch.overlaps);
+        let State { bodies, shapes, broad_phase, sensors, .. } = &self.state;
+        let Scratch { fast, found_overlaps, .. } = &mut self.scratch;
         let scene = sensors::Scene { bodies, shapes, broad_phase, sensors };
-        sensors::find_overlaps(
-            team,
-            scene,
-            &scratch.fast,
-            &mut scratch.found_overlaps,
-            &mut overlaps,
-        );
+        sensors::find_overlaps(team, scene, fast, found_overlaps, &mut overlaps);
+        let mut begun = take(&mut self.state.events.sensor_begin);
+        let mut ended = take(&mut self.state.events.sensor_end);
         sensors::compare(
-            &sensors.overlaps,
+            &self.state.sensors.overlaps,
             &overlaps,
-            |begun| {
-                let (sensor, visitor) = handles(begun);
-                events.sensor_begin.push(SensorBegin { sensor, visitor });
-            },
-            |ended| {
-                let (sensor, visitor) = handles(ended);
-                events.sensor_end.push(SensorEnd { sensor, visitor });
-            },
+            |overlap| begun.push(SensorBegin::from(self.sensor_event(overlap))),
+            |overlap| ended.push(self.sensor_event(overlap)),
         );
+        let State { sensors, events, .. } = &mut self.state;
+        (events.sensor_begin, events.sensor_end) = (begun, ended);
         core::mem::swap(&mut sensors.overlaps, &mut overlaps);
         sensors.clear_changed();
-        scratch.overlaps = overlaps;
+        self.scratch.overlaps = overlaps;
+    }
+
+    /// What a sensor and a visitor, both alive, are.
+    fn sensor_event(&self, overlap: &Overlap) -> SensorEnd {
+        let body = |shape: u32| self.body_id(self.state.shapes.records[shape as usize].body);
+        SensorEnd {
+            sensor: self.shape_id(overlap.sensor),
+            visitor: self.shape_id(overlap.visitor),
+            sensor_body: body(overlap.sensor),
+            visitor_body: body(overlap.visitor),
+            sensor_data: self.state.user_data(overlap.sensor),
+            visitor_data: self.state.user_data(overlap.visitor),
+        }
+    }
+
+    /// Ends the overlaps of a shape that is about to be removed.
+    pub(super) fn end_overlaps_of(&mut self, shape: u32) {
+        let mut overlaps = take(&mut self.state.sensors.overlaps);
+        let ends = |overlap: &Overlap| overlap.sensor == shape || overlap.visitor == shape;
+        for overlap in overlaps.iter().filter(|overlap| ends(overlap)) {
+            let end = self.sensor_event(overlap);
+            self.state.events.pending_sensor_end.push(end);
+        }
+        overlaps.retain(|overlap| !ends(overlap));
+        self.state.sensors.overlaps = overlaps;
     }
 
     /// What a sensor saw in the last step, in index order; nothing for shapes that are no sensors. Shapes that

@@ -1,6 +1,6 @@
 //! What a world is, apart from its gravity and settings: all that is saved, copied and hashed.
 
-use super::events::Events;
+use super::events::{Events, UserData};
 use super::tiles::TileGrids;
 use crate::broad_phase::BroadPhase;
 use crate::codec::store;
@@ -50,6 +50,13 @@ impl State {
             gravity: None,
             inv_h: 0.0,
         }
+    }
+
+    /// The user's numbers of a shape and its body.
+    pub(super) fn user_data(&self, shape: u32) -> UserData {
+        let record = &self.shapes.records[shape as usize];
+        let body = self.bodies.infos[record.body as usize].user_data;
+        UserData { shape: record.user_data, body }
     }
 
     /// What the solver works on.

@@ -99,6 +99,8 @@ pub(crate) enum Pass {
     WarmStartJointed,
     Solve,
     Relax,
+    /// The last of a substep.
+    RelaxLast,
 }
 
 /// Blocks that one member of the team solves at a time.
@@ -193,8 +195,11 @@ impl<const POINTS: usize> LaneKernel for Points<POINTS, RunPass<'_>> {
                             (u32::from(head.jointed_a) >> at, u32::from(head.jointed_b) >> at);
                         warm_start::<L, POINTS, false>(&stride, block, surface, flags, jointed);
                     }
-                    Pass::Solve => solve::<L, POINTS>(&stride, block, surface, flags),
-                    Pass::Relax => relax::<L, POINTS>(&stride, block, surface, flags),
+                    Pass::Solve => solve::<L, POINTS>(&stride, block),
+                    Pass::Relax | Pass::RelaxLast => {
+                        let unsummed = if pass == Pass::Relax { flags::HIT } else { 0 };
+                        relax::<L, POINTS>(&stride, block, surface, flags & !unsummed);
+                    }
                 }
             }
         }
@@ -229,25 +234,14 @@ fn warm_start<L: Lanes, const POINTS: usize, const FIRST: bool>(
 
 /// Normal impulses with bias.
 #[inline(always)]
-fn solve<L: Lanes, const POINTS: usize>(
-    stride: &Stride<'_, L>,
-    block: &mut ConstraintBlock,
-    surface: &mut SurfaceBlock,
-    flags: u8,
-) {
+fn solve<L: Lanes, const POINTS: usize>(stride: &Stride<'_, L>, block: &mut ConstraintBlock) {
     let mut pair = Pair::load(stride, block);
     let soft = pair.softness(stride.constants);
-    let impulses = solve_normals::<L, POINTS, true>(stride, &mut pair, block, soft);
-    if flags & flags::HIT != 0 {
-        let peaks = [&mut surface.peak_1, &mut surface.peak_2];
-        for (peak, impulse) in peaks.into_iter().zip(impulses).take(POINTS) {
-            stride.store(stride.load(peak).max(impulse), peak);
-        }
-    }
+    solve_normals::<L, POINTS, true>(stride, &mut pair, block, soft);
     pair.store(stride, block);
 }
 
-/// Friction, rolling resistance, and normal impulses without bias.
+/// Friction, rolling resistance, and normal impulses without bias. Sums these up where `flags` ask for hits.
 #[inline(always)]
 fn relax<L: Lanes, const POINTS: usize>(
     stride: &Stride<'_, L>,
@@ -268,6 +262,12 @@ fn relax<L: Lanes, const POINTS: usize>(
     let loads = solve_normals::<L, POINTS, false>(stride, &mut pair, block, soft);
     for (point, load) in block.points.iter_mut().zip(loads).take(POINTS) {
         stride.store(load, &mut point.load);
+    }
+    if flags & flags::HIT != 0 {
+        let totals = [&mut surface.total_1, &mut surface.total_2];
+        for (total, load) in totals.into_iter().zip(loads).take(POINTS) {
+            stride.store(stride.load(total) + load, total);
+        }
     }
     pair.store(stride, block);
 }

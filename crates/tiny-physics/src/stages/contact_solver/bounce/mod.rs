@@ -110,7 +110,7 @@ pub(crate) fn run(
             }
         }
         for batch in &*batches {
-            batch.note_peaks(graph);
+            batch.add_totals(graph);
             batch.mark(bodies, marks, marked);
         }
     }
@@ -172,8 +172,8 @@ impl Batch {
         }
     }
 
-    /// Notes impulses for the events of hits.
-    fn note_peaks(&self, graph: &mut Graph) {
+    /// Adds the impulses to those that events of hits tell.
+    fn add_totals(&self, graph: &mut Graph) {
         for (index, &(class, slot)) in self.sources.iter().enumerate() {
             let bucket = graph.bucket_mut(self.place, class);
             let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
@@ -181,12 +181,9 @@ impl Batch {
                 continue;
             }
             let surface = &mut bucket.surfaces[block];
-            let peaks = [&mut surface.peak_1, &mut surface.peak_2];
-            for (peak, point) in peaks.into_iter().zip(&self.blocks[index / BLOCK].points) {
-                let impulse = point.normal_impulse[index % BLOCK];
-                if impulse > peak[lane] {
-                    peak[lane] = impulse;
-                }
+            let totals = [&mut surface.total_1, &mut surface.total_2];
+            for (total, point) in totals.into_iter().zip(&self.blocks[index / BLOCK].points) {
+                total[lane] += point.normal_impulse[index % BLOCK];
             }
         }
     }
