@@ -26,11 +26,10 @@ pub fn main() -> Result<(), Error> {
         slept += world.events().fell_asleep().len();
         // The slices stay as they are while the world changes; a copy lets us change it.
         for hit in world.events().hits().to_vec() {
-            let ball = world.shape(hit.shape_b).map(|shape| (shape.body(), shape.user_data()));
-            let Some((body, number)) = ball else { continue };
-            println!("step {step:3}: ball {number} hits at {:.1} m/s", hit.speed);
+            let (number, impulse) = (hit.user_data_b.shape, hit.impulse);
+            println!("step {step:3}: ball {number} hits at {:.1} m/s, {impulse:.1} Ns", hit.speed);
             if hit.speed > 13.0 {
-                world.remove_body(body)?;
+                world.remove_body(hit.body_b)?;
                 burst += 1;
             }
         }
