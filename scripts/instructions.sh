@@ -2,12 +2,12 @@
 # Instructions of the main kernels, counted by valgrind: the same on a noisy machine as on a quiet one.
 #
 # Usage: scripts/instructions.sh [--update] [KERNEL...]
-# Prints for each kernel the instructions an item, those of docs/instructions.txt, and the change in per cent.
+# Prints for each kernel the instructions an item, those of crates/tiny-physics/benches/instructions.txt, and the change in per cent.
 # A kernel named "solve_X" counts what eight solver iterations more a substep add to "step_X".
 # --update writes the new numbers into that file. Needs valgrind; numbers depend a little on the compiler.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-reference=docs/instructions.txt
+reference=crates/tiny-physics/benches/instructions.txt
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 

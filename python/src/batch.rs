@@ -1,9 +1,9 @@
 //! Batches of worlds.
 
-use crate::body::Body;
 use crate::convert::{Pair, batch_error};
-use crate::joint::Joint;
-use crate::world::World;
+use crate::handles::Body;
+use crate::handles::Joint;
+use crate::handles::World;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;

@@ -1,30 +1,9 @@
 //! Bodies.
 
 use crate::convert::{Pair, StaleHandleError, error, place, read, tuple};
-use crate::joint::Joint;
-use crate::shape::Shape;
-use crate::world::World;
+use crate::handles::{Body, Joint, Shape, World};
 use pyo3::prelude::*;
 use tiny_physics::{self as engine, BodyKind, DVec2, ShapeDef, Vec2};
-
-/// A body of a world: a handle. It is equal to every other handle of the same body.
-#[pyclass(module = "tiny_physics", frozen, eq, hash)]
-pub struct Body {
-    pub world: Py<World>,
-    pub id: engine::BodyId,
-}
-
-impl PartialEq for Body {
-    fn eq(&self, other: &Self) -> bool {
-        self.id == other.id && self.world.is(&other.world)
-    }
-}
-
-impl std::hash::Hash for Body {
-    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
-        self.id.hash(state);
-    }
-}
 
 impl Body {
     fn stale(&self) -> PyErr {

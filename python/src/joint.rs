@@ -1,30 +1,10 @@
 //! Joints.
 
-use crate::body::Body;
 use crate::convert::{StaleHandleError, error, place, read, tuple, write};
-use crate::world::World;
+use crate::handles::{Body, Joint};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use tiny_physics::{self as engine, JointDef, JointKind, Motor};
-
-/// A joint of a world: a handle.
-#[pyclass(module = "tiny_physics", frozen, eq, hash)]
-pub struct Joint {
-    pub world: Py<World>,
-    pub id: engine::JointId,
-}
-
-impl PartialEq for Joint {
-    fn eq(&self, other: &Self) -> bool {
-        self.id == other.id && self.world.is(&other.world)
-    }
-}
-
-impl std::hash::Hash for Joint {
-    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
-        self.id.hash(state);
-    }
-}
 
 impl Joint {
     fn get<T>(&self, py: Python<'_>, get: impl FnOnce(engine::JointRef<'_>) -> T) -> PyResult<T> {

@@ -9,6 +9,7 @@ mod batch;
 mod body;
 mod convert;
 mod draw;
+mod handles;
 mod joint;
 mod query;
 mod shape;
@@ -18,10 +19,10 @@ mod world;
 #[pymodule]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("StaleHandleError", module.py().get_type::<convert::StaleHandleError>())?;
-    module.add_class::<world::World>()?;
-    module.add_class::<body::Body>()?;
-    module.add_class::<shape::Shape>()?;
-    module.add_class::<joint::Joint>()?;
+    module.add_class::<handles::World>()?;
+    module.add_class::<handles::Body>()?;
+    module.add_class::<handles::Shape>()?;
+    module.add_class::<handles::Joint>()?;
     module.add_class::<batch::WorldBatch>()?;
     module.add_class::<tasks::TaskBatch>()?;
     module.add_function(wrap_pyfunction!(draw::gif, module)?)?;

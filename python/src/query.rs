@@ -1,9 +1,9 @@
 //! Queries of a world.
 
-use crate::body::Body;
 use crate::convert::{Pair, place, read, tuple};
-use crate::shape::Shape;
-use crate::world::World;
+use crate::handles::Body;
+use crate::handles::Shape;
+use crate::handles::World;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

@@ -1,29 +1,9 @@
 //! Shapes.
 
-use crate::body::Body;
 use crate::convert::{StaleHandleError, error, read, write};
-use crate::world::World;
+use crate::handles::{Body, Shape};
 use pyo3::prelude::*;
 use tiny_physics::{self as engine, Filter, Material};
-
-/// A shape of a world: a handle.
-#[pyclass(module = "tiny_physics", frozen, eq, hash)]
-pub struct Shape {
-    pub world: Py<World>,
-    pub id: engine::ShapeId,
-}
-
-impl PartialEq for Shape {
-    fn eq(&self, other: &Self) -> bool {
-        self.id == other.id && self.world.is(&other.world)
-    }
-}
-
-impl std::hash::Hash for Shape {
-    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
-        self.id.hash(state);
-    }
-}
 
 impl Shape {
     fn stale(&self) -> PyErr {

@@ -2,7 +2,7 @@
 
 use crate::convert::batch_error;
 use crate::draw::{Picture, View};
-use crate::world::World;
+use crate::handles::World;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;

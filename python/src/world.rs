@@ -1,27 +1,14 @@
 //! Worlds.
 
-use crate::body::Body;
 use crate::convert::{Pair, error, place, read, tuple, write};
 use crate::draw::{Picture, View};
-use crate::joint::Joint;
-use crate::shape::Shape;
+use crate::handles::{Body, Joint, Shape, World};
 use numpy::{PyArray2, PyArray3, PyArrayMethods, PyReadwriteArray2};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use tiny_physics::{self as engine, ChainDef, JointDef, RigidBody, Settings, Stage, Vec2};
 use tiny_physics_scenes::{Scene, WorldHost};
-
-/// A world of bodies. Metres, kilograms, seconds, radians anticlockwise; y points up.
-///
-/// gravity: (x, y), metres a second squared.
-/// settings: a dictionary of what differs from the defaults: {"substeps": 8}.
-///
-/// Raises ValueError where a number makes no sense.
-#[pyclass(module = "tiny_physics")]
-pub struct World {
-    pub inner: engine::World,
-}
 
 impl World {
     fn body(slf: &Bound<'_, Self>, id: engine::BodyId) -> Body {

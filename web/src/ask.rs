@@ -1,8 +1,9 @@
 //! Questions to a world: what is where.
 
 use crate::handles::Handle;
+use crate::outcome::Outcome;
 use crate::read::point;
-use crate::shelf::{Outcome, Shelf};
+use crate::shelf::Shelf;
 use crate::with;
 use serde::Deserialize;
 use tiny_physics::record::FilterData;

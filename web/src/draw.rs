@@ -1,24 +1,12 @@
 //! What is to be drawn of a world, as rows that WebGL takes as they are. Places are relative to the camera.
 
+use crate::picture::Picture;
 use crate::session::Session;
 use crate::with;
 use tiny_physics::{
     BodyKind, Color, DVec2, DebugDraw, DebugDrawOptions, Palette, Polygon, Pose, Rot, Shape,
     ShapeRef, Transform, Vec2, World,
 };
-
-/// Rows of the last picture.
-#[derive(Clone, Default)]
-pub(crate) struct Picture {
-    /// Rounded boxes: place (2), cosine, sine, half extents (2), radius, style, body, tint.
-    boxes: Vec<f32>,
-    /// Polygons: place (2), cosine, sine, radius, corners, style, body, tint, and up to eight corners.
-    polygons: Vec<f32>,
-    /// Lines: ends (4), width in pixels (negative: metres), colour (red, green, blue, opacity).
-    lines: Vec<f32>,
-    /// What each body is tinted by, by its index.
-    tints: Vec<f32>,
-}
 
 /// Numbers of a row.
 const CORNERS: usize = 8;

@@ -16,34 +16,38 @@ mod catalogue;
 mod draw;
 mod handles;
 mod order;
+mod outcome;
+#[cfg(feature = "playground")]
+mod picture;
 mod read;
 mod session;
 mod shelf;
+mod views;
 
 pub use session::Session;
 pub use shelf::Shelf;
 
 use core::cell::RefCell;
-use shelf::Outcome;
+use outcome::Outcome;
 
 thread_local! {
     static SHELF: RefCell<Shelf> = RefCell::new(Shelf::default());
 }
 
 /// What all functions work on: this module has one thread.
-pub(crate) fn shelf<T>(work: impl FnOnce(&mut Shelf) -> T) -> T {
+pub(crate) fn with_shelf<T>(work: impl FnOnce(&mut Shelf) -> T) -> T {
     SHELF.with_borrow_mut(work)
 }
 
 /// Does something with a session; false with the reason as text where that fails.
 pub(crate) fn with(session: u32, work: impl FnOnce(&mut Session, &mut Shelf) -> Outcome) -> bool {
-    shelf(|shelf| shelf.with(session, work))
+    with_shelf(|shelf| shelf.with(session, work))
 }
 
 /// Makes the input buffer so many bytes long and gives its address.
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_input(length: usize) -> *mut u8 {
-    shelf(|shelf| {
+    with_shelf(|shelf| {
         shelf.input.resize(length, 0);
         shelf.input.as_mut_ptr()
     })
@@ -52,7 +56,7 @@ pub extern "C" fn tp_input(length: usize) -> *mut u8 {
 /// Gives memory of large inputs and outputs back.
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_tidy() {
-    shelf(|shelf| {
+    with_shelf(|shelf| {
         shelf.input = Vec::new();
         shelf.text = Vec::new();
         shelf.numbers = Vec::new();
@@ -62,23 +66,23 @@ pub extern "C" fn tp_tidy() {
 /// Address of the text of the last call: UTF-8, or bytes of a frame or recording.
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_text() -> *const u8 {
-    shelf(|shelf| shelf.text.as_ptr())
+    with_shelf(|shelf| shelf.text.as_ptr())
 }
 
 /// Its bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_text_length() -> usize {
-    shelf(|shelf| shelf.text.len())
+    with_shelf(|shelf| shelf.text.len())
 }
 
 /// Address of the numbers of the last call.
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_numbers() -> *const f64 {
-    shelf(|shelf| shelf.numbers.as_ptr())
+    with_shelf(|shelf| shelf.numbers.as_ptr())
 }
 
 /// How many there are.
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_numbers_length() -> usize {
-    shelf(|shelf| shelf.numbers.len())
+    with_shelf(|shelf| shelf.numbers.len())
 }

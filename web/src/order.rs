@@ -1,7 +1,8 @@
 //! What is done to a world: any command as JSON, and those to bodies as numbers.
 
 use crate::handles::Handle;
-use crate::shelf::{Outcome, Shelf};
+use crate::outcome::Outcome;
+use crate::shelf::Shelf;
 use crate::with;
 use tiny_physics::record::{BodyCommand, Command, Made};
 use tiny_physics::{BodyId, BodyKind, DVec2, Locks, Pose, Rot, Vec2};
@@ -24,7 +25,7 @@ fn answer(made: &Made, shelf: &mut Shelf) -> Outcome {
         Made::Joint(id) => shelf.count([id.number()]),
         Made::TileGrid(id) => shelf.count([id.number()]),
         Made::Character(character) => {
-            shelf.say(serde_json::to_vec(character).map_err(crate::shelf::words)?);
+            shelf.say(serde_json::to_vec(character).map_err(crate::outcome::words)?);
         }
         _ => {}
     }

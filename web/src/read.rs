@@ -1,60 +1,11 @@
 //! What there is in a world, as rows of numbers.
 
 use crate::handles::Handle;
+use crate::outcome::{Outcome, words};
 use crate::session::Session;
-use crate::shelf::{Outcome, words};
+use crate::views::{Views, state};
 use crate::with;
 use tiny_physics::{Body, BodyId, BodyKind, DVec2, Error, JointId, ShapeDef, ShapeId, World};
-
-/// Rows of all bodies in index order, made when they are asked for after a change.
-#[derive(Clone, Default)]
-pub(crate) struct Views {
-    pub(crate) stale: bool,
-    alpha: f32,
-    count: usize,
-    ids: Vec<f64>,
-    /// x, y, angle.
-    poses: Vec<f32>,
-    /// x, y, angular.
-    velocities: Vec<f32>,
-    /// Bit 0 and 1: the kind; 2 awake, 3 enabled, 4 bullet.
-    states: Vec<u8>,
-}
-
-impl Views {
-    fn refresh(&mut self, world: &World, alpha: f32) {
-        if !self.stale && self.alpha == alpha && self.count == world.body_count() {
-            return;
-        }
-        (self.stale, self.alpha, self.count) = (false, alpha, world.body_count());
-        self.ids.clear();
-        self.poses.clear();
-        self.velocities.clear();
-        self.states.clear();
-        for body in world.body_ids().filter_map(|id| world.body(id)) {
-            let pose = body.interpolated_pose(alpha);
-            let (velocity, p) = (body.velocity(), pose.p);
-            self.ids.push(body.id().number());
-            self.poses.extend([p.x as f32, p.y as f32, pose.q.angle()]);
-            self.velocities.extend([velocity.x, velocity.y, body.angular_velocity()]);
-            self.states.push(state(&body));
-        }
-    }
-}
-
-fn state(body: &Body<'_>) -> u8 {
-    let flags = [body.is_awake(), body.is_enabled(), body.is_bullet()];
-    let bits = flags.iter().enumerate().map(|(i, flag)| u8::from(*flag) << (2 + i));
-    bits.fold(kind_number(body.kind()), |all, bit| all | bit)
-}
-
-fn kind_number(kind: BodyKind) -> u8 {
-    match kind {
-        BodyKind::Static => 0,
-        BodyKind::Kinematic => 1,
-        BodyKind::Dynamic => 2,
-    }
-}
 
 /// Brings the rows of all bodies up to date, between the start (`alpha` 0) and the end (1) of the last step. The numbers
 /// are how many there are, and the addresses of handles, poses, velocities and states.

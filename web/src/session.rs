@@ -1,8 +1,8 @@
 //! A world with what belongs to it, and the functions that make, step, save and free it.
 
 use crate::handles::Handle;
-use crate::shelf::{Outcome, words};
-use crate::{shelf, with};
+use crate::outcome::{Outcome, words};
+use crate::{with, with_shelf};
 use serde::Deserialize;
 use tiny_physics::record::{Command, Made, Player, Recorder, Recording};
 use tiny_physics::{BodyId, DVec2, Error, Settings, Vec2, World};
@@ -27,9 +27,9 @@ pub struct Session {
     /// Length of a step, seconds.
     dt: f32,
     pub(crate) grip: Option<Grip>,
-    pub(crate) views: crate::read::Views,
+    pub(crate) views: crate::views::Views,
     #[cfg(feature = "playground")]
-    pub(crate) picture: crate::draw::Picture,
+    pub(crate) picture: crate::picture::Picture,
 }
 
 /// What a new world is described by.
@@ -146,7 +146,7 @@ impl Session {
 /// A world of the description in the input; 0 where that is wrong.
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_new() -> u32 {
-    shelf(|shelf| {
+    with_shelf(|shelf| {
         let world = |def: WorldDef| {
             def.settings.validate().map_err(words)?;
             if !def.gravity.is_finite() {
@@ -162,7 +162,7 @@ pub extern "C" fn tp_new() -> u32 {
 /// The scene file in the input, at its beginning; the numbers are the handles of its bodies.
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_new_scene() -> u32 {
-    shelf(|shelf| {
+    with_shelf(|shelf| {
         let scene = shelf.input_text().and_then(|text| Scene::from_json(text).map_err(words));
         let session = scene.and_then(|scene| Session::of_scene(&scene));
         if let Ok(session) = &session {
@@ -175,7 +175,7 @@ pub extern "C" fn tp_new_scene() -> u32 {
 /// The saved frame in the input.
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_new_frame() -> u32 {
-    shelf(|shelf| {
+    with_shelf(|shelf| {
         let session = World::from_bytes(&shelf.input).map(Session::of_world).map_err(words);
         shelf.put(session)
     })
@@ -184,7 +184,7 @@ pub extern "C" fn tp_new_frame() -> u32 {
 /// The recording in the input, at its beginning, with its history.
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_new_recording(budget: f64) -> u32 {
-    shelf(|shelf| {
+    with_shelf(|shelf| {
         let recording = Recording::from_bytes(&shelf.input);
         let tape = recording.and_then(|recording| Tape::of_recording(recording, budget as usize));
         let session = tape.map_err(words).map(|tape| {
@@ -198,7 +198,7 @@ pub extern "C" fn tp_new_recording(budget: f64) -> u32 {
 /// A copy that goes on by itself.
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_clone(session: u32) -> u32 {
-    shelf(|shelf| {
+    with_shelf(|shelf| {
         let mut copy = Err("this world has been freed".to_owned());
         shelf.with(session, |session, _| {
             copy = Ok(session.clone());
@@ -211,7 +211,7 @@ pub extern "C" fn tp_clone(session: u32) -> u32 {
 /// Drops a world.
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_free(session: u32) {
-    shelf(|shelf| shelf.free(session));
+    with_shelf(|shelf| shelf.free(session));
 }
 
 /// Steps by `dt` seconds; by the scene's own step where it is 0.
@@ -297,7 +297,7 @@ pub extern "C" fn tp_recording(session: u32) -> bool {
 /// Plays the recording in the input and compares every step; the number is how many there are.
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_check_recording() -> bool {
-    shelf(|shelf| {
+    with_shelf(|shelf| {
         let played = Recording::from_bytes(&shelf.input).and_then(|recording| {
             let mut player = Player::new(&recording)?;
             player.seek(recording.len()).map(|()| recording.len())

@@ -1,11 +1,8 @@
 //! What is kept between calls: sessions, and the buffers that arguments and answers go through.
 
+use crate::outcome::{Outcome, words};
 use crate::session::Session;
-use core::fmt::Display;
 use serde::de::DeserializeOwned;
-
-/// Done, or why not, in words.
-pub(crate) type Outcome<T = ()> = Result<T, String>;
 
 /// Sessions and buffers.
 #[derive(Default)]
@@ -95,9 +92,4 @@ impl Shelf {
         json.end().map_err(words)?;
         Ok(value)
     }
-}
-
-/// An error in words.
-pub(crate) fn words(error: impl Display) -> String {
-    error.to_string()
 }

@@ -23,6 +23,7 @@ mod rows;
 mod scenery;
 mod still;
 mod subject;
+mod suites;
 pub mod table;
 mod target;
 
@@ -31,8 +32,9 @@ pub use hard::hard_rows;
 pub use lab::{Lab, MakeSubject, Trial, Variant};
 pub use peers::{COMMAND as PEERS_COMMAND, Figure, PeerMeasure, PeerRow, Peers};
 pub use report::{Measure, Report};
-pub use row::{Row, Suite, all_rows, find, resolve};
+pub use row::{Row, Suite};
 pub use rows::rows;
 pub use still::still;
 pub use subject::{Subject, our_engine};
+pub use suites::{all_rows, find, resolve};
 pub use target::Target;

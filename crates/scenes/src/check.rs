@@ -1,7 +1,6 @@
-//! Checks a scene: every number makes sense, every index points at something.
+//! Checks of what a scene is made of: every number makes sense, every index points at something.
 
 use crate::error::{Problem, SceneError};
-use crate::scene::{Scene, SceneJoint, VERSION};
 use tiny_physics::{
     DVec2, Error, JointDef, JointKind, Limits, Material, Motor, RigidBody, Settings, Shape,
     ShapeDef, Spring, Vec2,
@@ -10,33 +9,12 @@ use tiny_physics::{
 /// Result of a check; the error's field is relative to what was checked.
 pub(crate) type Check = Result<(), SceneError>;
 
-impl Scene {
-    /// Can a world be made of it?
-    ///
-    /// # Errors
-    /// The first field that makes no sense, by its path.
-    pub fn check(&self) -> Check {
-        if self.version != VERSION {
-            return Err(SceneError::new("version", Problem::Version(self.version.into())));
-        }
-        finite_vec("gravity", self.gravity)?;
-        check_settings(&self.settings).map_err(|e| e.under("settings"))?;
-        positive("dt", self.dt)?;
-        each("bodies", &self.bodies, check_body)?;
-        each("joints", &self.joints, |joint| check_scene_joint(joint, self.bodies.len()))?;
-        match &self.script {
-            Some(script) => script.check(self).map_err(|e| e.under("script")),
-            None => Ok(()),
-        }
-    }
-}
-
-fn each<T>(name: &str, items: &[T], check: impl Fn(&T) -> Check) -> Check {
+pub(crate) fn each<T>(name: &str, items: &[T], check: impl Fn(&T) -> Check) -> Check {
     let checked = |(i, item)| check(item).map_err(|e| e.under(format_args!("{name}[{i}]")));
     items.iter().enumerate().try_for_each(checked)
 }
 
-fn check_settings(settings: &Settings) -> Check {
+pub(crate) fn check_settings(settings: &Settings) -> Check {
     at_least_one("substeps", settings.substeps)?;
     at_least_one("iterations", settings.iterations)?;
     positive("length_unit", settings.length_unit)?;
@@ -97,16 +75,6 @@ pub(crate) fn check_shape(shape: &Shape) -> Check {
         _ => fields.iter().find(|f| name.split([' ', '.']).any(|word| word == **f)).unwrap_or(&""),
     };
     Err(SceneError::new(*field, Problem::Value(error)).under(variant))
-}
-
-fn check_scene_joint(joint: &SceneJoint, bodies: usize) -> Check {
-    index("a", joint.a, bodies, "bodies")?;
-    index("b", joint.b, bodies, "bodies")?;
-    if joint.a == joint.b {
-        let reason = "a joint needs two different bodies";
-        return Err(SceneError::new("b", Problem::Value(Error::Unsupported { reason })));
-    }
-    check_joint(&joint.def)
 }
 
 pub(crate) fn check_joint(def: &JointDef) -> Check {

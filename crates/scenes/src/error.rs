@@ -1,5 +1,6 @@
 //! What is wrong with a scene, and where.
 
+use crate::version::VERSION;
 use core::fmt;
 use std::path::{Path, PathBuf};
 
@@ -107,7 +108,7 @@ impl fmt::Display for Problem {
             Self::Io(error) => error.fmt(f),
             Self::Format(text) => f.write_str(text),
             Self::Version(version) => {
-                write!(f, "version is {version}; this program reads version {}", crate::VERSION)
+                write!(f, "version is {version}; this program reads version {}", VERSION)
             }
             Self::Value(error) => error.fmt(f),
             Self::Index { index, count: 0, of } => {

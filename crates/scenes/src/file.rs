@@ -2,7 +2,8 @@
 
 use crate::error::{Problem, SceneError};
 use crate::json::{Node, line_column};
-use crate::scene::{Scene, VERSION};
+use crate::scene::Scene;
+use crate::version::VERSION;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use tiny_physics::{JointDef, RigidBody, Shape, ShapeDef};

@@ -25,11 +25,13 @@ mod grip;
 mod host;
 mod human;
 mod json;
+mod player;
 mod random;
 mod scene;
 mod script;
 mod shapes;
 mod tape;
+mod version;
 mod world_host;
 
 pub use build::Options;
@@ -38,13 +40,15 @@ pub use churn::{Churn, ChurnCounts};
 pub use error::{Problem, SceneError};
 pub use golden::{Golden, golden, run_hash};
 pub use grip::Grip;
-pub use host::{Host, Player};
+pub use host::Host;
 pub use human::Human;
+pub use player::Player;
 pub use random::Random;
-pub use scene::{Counts, Scene, SceneJoint, VERSION};
+pub use scene::{Counts, Scene, SceneJoint};
 pub use script::{
     Act, Character, Deed, Key, Leg, Pull, Queries, Rain, Ride, Script, Terrain, Timeline,
     WakeSleepers, Walkers, When, lead_progress,
 };
 pub use tape::Tape;
+pub use version::VERSION;
 pub use world_host::{CommandHost, Commanded, PausedScript, Run, WorldHost};

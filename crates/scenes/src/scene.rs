@@ -1,14 +1,16 @@
 //! The scene: what a world starts from, and what happens to it from outside while it runs.
 
+use crate::check::{
+    Check, check_body, check_joint, check_settings, each, finite_vec, index, positive,
+};
+use crate::error::{Problem, SceneError};
 use crate::script::Script;
+use crate::version::VERSION;
 use core::fmt;
 use serde::de::value::{MapAccessDeserializer, StrDeserializer};
 use serde::de::{DeserializeSeed, Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
-use tiny_physics::{BodyKind, JointDef, RigidBody, Settings, Vec2};
-
-/// The version of the scene format that this crate writes and reads.
-pub const VERSION: u32 = 1;
+use tiny_physics::{BodyKind, Error, JointDef, RigidBody, Settings, Vec2};
 
 /// A world before its first step, described without an engine.
 ///
@@ -95,6 +97,37 @@ impl Scene {
             joints: self.joints.len(),
         }
     }
+}
+
+impl Scene {
+    /// Can a world be made of it?
+    ///
+    /// # Errors
+    /// The first field that makes no sense, by its path.
+    pub fn check(&self) -> Check {
+        if self.version != VERSION {
+            return Err(SceneError::new("version", Problem::Version(self.version.into())));
+        }
+        finite_vec("gravity", self.gravity)?;
+        check_settings(&self.settings).map_err(|e| e.under("settings"))?;
+        positive("dt", self.dt)?;
+        each("bodies", &self.bodies, check_body)?;
+        each("joints", &self.joints, |joint| check_scene_joint(joint, self.bodies.len()))?;
+        match &self.script {
+            Some(script) => script.check(self.bodies.len()).map_err(|e| e.under("script")),
+            None => Ok(()),
+        }
+    }
+}
+
+fn check_scene_joint(joint: &SceneJoint, bodies: usize) -> Check {
+    index("a", joint.a, bodies, "bodies")?;
+    index("b", joint.b, bodies, "bodies")?;
+    if joint.a == joint.b {
+        let reason = "a joint needs two different bodies";
+        return Err(SceneError::new("b", Problem::Value(Error::Unsupported { reason })));
+    }
+    check_joint(&joint.def)
 }
 
 /// How much there is of what.

@@ -1,6 +1,7 @@
 //! Plays scenes on the engine's own world.
 
-use crate::host::{Host, Player};
+use crate::host::Host;
+use crate::player::Player;
 use crate::scene::Scene;
 use crate::script::{Deed, Pull, lead_progress};
 use tiny_physics::record::{

@@ -1,7 +1,5 @@
 //! The benchmark scenes in tiny-physics, through its public interface.
 
-mod world;
-
 fn main() {
-    peers_worker::serve::<world::Ours>();
+    peers_worker::serve::<tiny_physics_scenes::WorldHost>();
 }

@@ -8,6 +8,7 @@
 mod clock;
 mod engine;
 mod frames;
+mod ours;
 mod protocol;
 mod quality;
 mod run;

@@ -2,6 +2,7 @@
 
 use super::figures;
 use super::run::{Progress, Times};
+use super::timing::{levels, median, milliseconds};
 use crate::args::{BenchArgs, WorldArgs};
 use crate::failure::{Failure, Outcome};
 use crate::simulation::Simulation;
@@ -87,11 +88,6 @@ pub fn run(args: &BenchArgs) -> Outcome {
     Ok(())
 }
 
-/// The levels asked for; all that there are if none is named.
-pub(super) fn levels(args: &BenchArgs) -> Vec<SimdLevel> {
-    if args.simd.is_empty() { SimdLevel::available().collect() } else { args.simd.clone() }
-}
-
 /// A scene on all levels, interleaved.
 fn bench_scene(name: &str, args: &BenchArgs) -> Outcome<Vec<Row>> {
     let scene = source::open(name, 1)?;
@@ -159,10 +155,6 @@ fn cpu_milliseconds() -> Option<f64> {
     None
 }
 
-pub(super) fn milliseconds(start: Instant) -> f64 {
-    start.elapsed().as_secs_f64() * 1000.0
-}
-
 /// All levels must end in the same state, bit for bit.
 fn same_end<'a>(scene: &str, mut runs: impl Iterator<Item = &'a Run>) -> Outcome {
     let Some(first) = runs.next() else { return Ok(()) };
@@ -219,11 +211,6 @@ impl Row {
             end,
         }
     }
-}
-
-/// The middle value; the lower of two.
-pub(super) fn median(values: Vec<f64>) -> f64 {
-    Times::of(values).median
 }
 
 fn print_json(out: &mut impl Write, rows: &[Row]) -> Outcome {

@@ -1,10 +1,10 @@
 //! `demo`: a scene in letters, in the terminal or printed.
 
 use super::player;
-use crate::args::{DemoArgs, WorldArgs};
+use crate::args::DemoArgs;
 use crate::failure::Outcome;
 use crate::simulation::Simulation;
-use crate::{source, text_frame};
+use crate::text_frame;
 use std::io::{IsTerminal, Write, stdin, stdout};
 use tiny_physics_draw::TextView;
 
@@ -25,17 +25,8 @@ pub fn run(args: &DemoArgs) -> Outcome {
     if terminal && !args.plain {
         return player::run(args);
     }
-    let simulation = open(args, args.seed)?;
+    let simulation = player::open(args, args.seed)?;
     print_frames(&mut stdout().lock(), simulation, args)
-}
-
-/// The demo's scene with a seed.
-///
-/// # Errors
-/// No such scene, or the engine refuses it.
-pub(super) fn open(args: &DemoArgs, seed: u64) -> Outcome<Simulation> {
-    let how = WorldArgs { seed, threads: 1, simd: None };
-    Simulation::new(source::open(&args.scene, seed)?, &how)
 }
 
 fn print_frames(out: &mut impl Write, mut simulation: Simulation, args: &DemoArgs) -> Outcome {

@@ -12,6 +12,7 @@ mod record;
 mod render;
 mod run;
 mod soak;
+mod timing;
 mod view;
 
 use crate::args::{Cli, Command};

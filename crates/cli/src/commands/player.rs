@@ -1,10 +1,9 @@
 //! The demo in a terminal: letters in colour, keys to step, play, pause, restart.
 
-use super::demo;
-use crate::args::DemoArgs;
+use crate::args::{DemoArgs, WorldArgs};
 use crate::failure::Outcome;
 use crate::simulation::{Framing, Simulation};
-use crate::text_frame;
+use crate::{source, text_frame};
 use crossterm::event::{self, Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 use crossterm::style::{Color, Print, ResetColor, SetForegroundColor};
 use crossterm::terminal::{
@@ -43,6 +42,15 @@ pub fn run(args: &DemoArgs) -> Outcome {
     Ok(())
 }
 
+/// The demo's scene with a seed.
+///
+/// # Errors
+/// No such scene, or the engine refuses it.
+pub(super) fn open(args: &DemoArgs, seed: u64) -> Outcome<Simulation> {
+    let how = WorldArgs { seed, threads: 1, simd: None };
+    Simulation::new(source::open(&args.scene, seed)?, &how)
+}
+
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum State {
     Playing,
@@ -63,7 +71,7 @@ struct Player {
 
 impl Player {
     fn new(args: &DemoArgs) -> Outcome<Self> {
-        let simulation = demo::open(args, args.seed)?;
+        let simulation = open(args, args.seed)?;
         Ok(Self {
             args: args.clone(),
             seed: args.seed,
@@ -91,7 +99,7 @@ impl Player {
             KeyCode::Char('r') => self.simulation.restart()?,
             KeyCode::Char('n') => {
                 self.seed = self.seed.wrapping_add(1);
-                self.simulation = demo::open(&self.args, self.seed)?;
+                self.simulation = open(&self.args, self.seed)?;
                 self.framing = self.simulation.framing();
             }
             KeyCode::Char(' ') | KeyCode::Enter | KeyCode::Right => {

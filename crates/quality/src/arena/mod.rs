@@ -5,6 +5,7 @@
 
 mod judge;
 mod parts;
+mod shapes;
 mod shrink;
 mod topology;
 mod worlds;
@@ -68,7 +69,7 @@ mod tests {
         scene.steps = 30;
         // A sensor-less wall that is a bullet's neighbour only: swept bodies stop, so the wall is put in their way by hand.
         scene.settings.continuous = false;
-        scene.body(RigidBody::fixed().shape(worlds::rect(0.05, 2.0)));
+        scene.body(RigidBody::fixed().shape(shapes::rect(0.05, 2.0)));
         let ball = RigidBody::dynamic()
             .position(Vec2::new(-4.0, 0.0))
             .shape(Shape::Circle { radius: 0.1 });

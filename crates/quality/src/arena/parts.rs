@@ -1,6 +1,6 @@
 //! The parts that worlds are drawn from: each a few lines around a place on the ground.
 
-use super::worlds::{rect, shape};
+use super::shapes::{rect, shape};
 use tiny_physics::{JointDef, RigidBody, Shape, ShapeDef, Vec2};
 use tiny_physics_scenes::{Act, Deed, Human, Random, Scene, Script, Timeline, When};
 

@@ -21,7 +21,6 @@ pub use walkers::Walkers;
 
 use crate::check::Check;
 use crate::host::Host;
-use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 
 /// What a scene does before each step.
@@ -46,9 +45,8 @@ pub enum Script {
 }
 
 impl Script {
-    /// Are its parameters sensible in this scene?
-    pub(crate) fn check(&self, scene: &Scene) -> Check {
-        let bodies = scene.bodies.len();
+    /// Are its parameters sensible in a scene of so many bodies?
+    pub(crate) fn check(&self, bodies: usize) -> Check {
         match self {
             Self::Rain(rain) => rain.check().map_err(|e| e.under("rain")),
             Self::WakeSleepers(wake) => wake.check(bodies).map_err(|e| e.under("wake_sleepers")),

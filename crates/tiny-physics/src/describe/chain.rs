@@ -1,22 +1,9 @@
 //! Chains of segments: ground drawn as a line.
 
-use super::{Filter, Material, ShapeDef};
+use super::{ChainLink, Filter, Material, ShapeDef};
 use crate::error::Error;
 use crate::geometry::Shape;
 use crate::math::Vec2;
-
-/// What a segment of a chain knows of its neighbours, so that nothing catches on the joints.
-///
-/// A segment with a link is solid from one side only: the right of the way from `a` to `b` is outside.
-#[derive(Clone, Copy, PartialEq, Debug, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
-pub struct ChainLink {
-    /// Start of the segment before this one, in the shape's frame. `None`: the chain begins at `a`.
-    pub previous: Option<Vec2>,
-    /// End of the segment after this one. `None`: the chain ends at `b`.
-    pub next: Option<Vec2>,
-}
 
 /// A line of segments, open or closed, free of bumps at its joints.
 ///

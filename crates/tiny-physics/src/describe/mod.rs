@@ -13,10 +13,10 @@ mod shape;
 mod tiles;
 
 pub use body::{BodyKind, Locks, RigidBody};
-pub use chain::{ChainDef, ChainLink};
+pub use chain::ChainDef;
 pub use filter::Filter;
 pub use joint::{Break, JointDef, JointKind, Limits, Motor, Spring};
 pub use settings::{Mix, Settings};
-pub use shape::{Material, ShapeDef};
+pub use shape::{ChainLink, Material, ShapeDef};
 pub(crate) use tiles::{BLOCK_CELLS, Piece};
 pub use tiles::{Tile, TileForm, TileGrid};

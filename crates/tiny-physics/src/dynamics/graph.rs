@@ -11,13 +11,12 @@ use super::blocks::{
 use super::bodies::Bodies;
 use super::coloured::{Bucketful, Coloured, IDLE, give_colour_back, place_of, take_colour};
 use super::contacts::{Contact, Contacts, Place, SavedPoint};
-use super::schedule::Stage;
 use crate::codec::{Data, Reader, Sink, clone_by_field, store};
 use crate::error::Error;
 use crate::footprint::{Footprint, MemoryUse, each, footprint};
 use crate::geometry::manifold::PairClass;
 use crate::simd::BLOCK;
-use crate::threads::{SharedSlice, Team};
+use crate::threads::SharedSlice;
 use core::ops::Range;
 
 /// Contacts of one colour and class.
@@ -173,7 +172,7 @@ pub(crate) struct Blocks<'a> {
 
 /// A bucket, shared between members of the team.
 #[derive(Clone, Copy)]
-struct Shared<'a> {
+pub(super) struct Shared<'a> {
     count: usize,
     manifolds: SharedSlice<'a, ManifoldBlock>,
     heads: SharedSlice<'a, BlockHead>,
@@ -183,7 +182,7 @@ struct Shared<'a> {
 
 impl<'a> Shared<'a> {
     #[inline]
-    fn new(bucket: &'a mut Bucket) -> Self {
+    pub(super) fn new(bucket: &'a mut Bucket) -> Self {
         Self {
             count: bucket.contacts.len(),
             manifolds: SharedSlice::new(&mut bucket.manifolds),
@@ -194,7 +193,7 @@ impl<'a> Shared<'a> {
     }
 
     #[inline]
-    fn blocks(self, range: Range<usize>) -> Blocks<'a> {
+    pub(super) fn blocks(self, range: Range<usize>) -> Blocks<'a> {
         Blocks {
             count: self.count.min(range.end * BLOCK) - range.start * BLOCK,
             manifolds: self.manifolds.range(range.clone()),
@@ -309,35 +308,6 @@ impl Graph {
     /// The same, to change.
     pub(crate) fn bucket_mut(&mut self, place: usize, class: PairClass) -> &mut Bucket {
         &mut self.buckets[key(place, class)]
-    }
-
-    /// Works on the runs of a stage, shared out to the team; those of an overflow one after the other.
-    #[inline]
-    pub(crate) fn for_each_run(
-        &mut self,
-        team: &Team,
-        stage: &Stage<'_>,
-        work: impl Fn(PairClass, Blocks<'_>) + Sync,
-    ) {
-        let Stage { runs, chunk, .. } = *stage;
-        let buckets = &mut self.buckets.list_mut()[stage.buckets.clone()];
-        let first = stage.buckets.start;
-        if team.member_count() == 1 || runs.len() <= chunk {
-            for run in runs {
-                let bucket = Shared::new(&mut buckets[run.bucket - first]);
-                work(run.class, bucket.blocks(run.blocks.clone()));
-            }
-            return;
-        }
-        let mut buckets = buckets.iter_mut().map(Shared::new);
-        let buckets: [_; PairClass::COUNT] = core::array::from_fn(|_| buckets.next());
-        team.for_each_chunk(runs.len(), chunk, |range| {
-            for run in &runs[range] {
-                if let Some(bucket) = buckets[run.bucket - first] {
-                    work(run.class, bucket.blocks(run.blocks.clone()));
-                }
-            }
-        });
     }
 
     /// Contacts in the graph, touching or not.

@@ -1,8 +1,9 @@
 //! Who works on which blocks of the graph, and when.
 
 use super::coloured::{COLOURS, is_overflow, place_of};
-use super::graph::{BlockAddress, Graph, key};
+use super::graph::{BlockAddress, Blocks, Graph, Shared, key};
 use crate::geometry::manifold::PairClass;
+use crate::threads::Team;
 use core::ops::Range;
 
 /// Blocks of one bucket that one member of a team works on at a time.
@@ -152,4 +153,35 @@ impl Schedule {
 /// How many of `runs`, which have so many blocks, make a chunk of about `len` blocks.
 fn chunk(runs: usize, blocks: usize, len: usize) -> usize {
     runs.div_ceil(blocks.div_ceil(len).max(1))
+}
+
+impl Graph {
+    /// Works on the runs of a stage, shared out to the team; those of an overflow one after the other.
+    #[inline]
+    pub(crate) fn for_each_run(
+        &mut self,
+        team: &Team,
+        stage: &Stage<'_>,
+        work: impl Fn(PairClass, Blocks<'_>) + Sync,
+    ) {
+        let Stage { runs, chunk, .. } = *stage;
+        let buckets = &mut self.buckets.list_mut()[stage.buckets.clone()];
+        let first = stage.buckets.start;
+        if team.member_count() == 1 || runs.len() <= chunk {
+            for run in runs {
+                let bucket = Shared::new(&mut buckets[run.bucket - first]);
+                work(run.class, bucket.blocks(run.blocks.clone()));
+            }
+            return;
+        }
+        let mut buckets = buckets.iter_mut().map(Shared::new);
+        let buckets: [_; PairClass::COUNT] = core::array::from_fn(|_| buckets.next());
+        team.for_each_chunk(runs.len(), chunk, |range| {
+            for run in &runs[range] {
+                if let Some(bucket) = buckets[run.bucket - first] {
+                    work(run.class, bucket.blocks(run.blocks.clone()));
+                }
+            }
+        });
+    }
 }

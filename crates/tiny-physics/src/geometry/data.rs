@@ -6,7 +6,7 @@
 //! Besides, `rect` (half extents, optional center, angle and radius) and `regular` (count, size, optional
 //! radius) are read, and vertices in any order, which become their hull. What is read is checked.
 
-use super::shape::check_size;
+use super::limits::check_size;
 use super::{Polygon, Shape};
 use crate::error::Error;
 use crate::math::{Rot, Vec2};

@@ -163,7 +163,7 @@ impl Simplex {
         (self.vertices[0], self.vertices[1], self.count) = (p, q, 2);
         self.fraction = fraction;
         // The normal of the edge is precise however close the origin is.
-        let normal = super::rounded_core::edge_normal(p.gap, q.gap);
+        let normal = super::edges::edge_normal(p.gap, q.gap);
         let height = normal.dot(p.gap);
         (self.direction, self.length) =
             if height < 0.0 { (-normal, -height) } else { (normal, height) };

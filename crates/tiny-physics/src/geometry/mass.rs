@@ -4,7 +4,7 @@
 //! a rectangle along every edge and a sector of a disk at every corner. Sums are kept in 64 bits about the
 //! first core point, so a shape far from its frame's origin loses nothing.
 
-use super::{Core, Shape};
+use super::{Core, Polygon, Shape};
 use crate::math::{DVec2, Transform, Vec2, atan2};
 use core::f64::consts::TAU;
 
@@ -56,6 +56,13 @@ impl MassProperties {
         }
         let mean = centers * (1.0 / if count > 0.0 { count } else { 1.0 });
         Self { center: (origin + mean).to_vec2(), ..Self::default() }
+    }
+}
+
+impl Polygon {
+    /// Centre of area, corner radius included, metres in the shape's frame.
+    pub fn centroid(&self) -> Vec2 {
+        Shape::Polygon(*self).mass_properties(1.0).center
     }
 }
 

@@ -9,7 +9,9 @@ mod cast;
 #[cfg(feature = "serde")]
 mod data;
 mod distance;
+mod edges;
 mod hull;
+mod limits;
 pub(crate) mod manifold;
 mod mass;
 mod part;
@@ -27,14 +29,15 @@ pub(crate) mod testing;
 
 pub use cast::{CastHit, shape_cast};
 pub use distance::{Distance, distance};
+pub(crate) use limits::check_point;
+pub use limits::{MAX_EXTENT, MIN_EXTENT};
 pub use manifold::{Contact, Manifold, ManifoldPoint, collide, contact};
 pub use mass::MassProperties;
 pub use part::AreaPart;
 pub use polygon::{MAX_VERTICES, Polygon};
 pub use ray::{Ray, RayHit};
 pub use rounded_core::Core;
-pub(crate) use shape::check_point;
-pub use shape::{MAX_EXTENT, MIN_EXTENT, Shape};
+pub use shape::Shape;
 pub use sweep::Sweep;
 pub use toi::{
     LINEAR_SLOP, Toi, ToiState, time_of_impact, time_of_impact_to, time_of_impact_within,

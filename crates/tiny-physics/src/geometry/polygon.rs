@@ -1,8 +1,8 @@
 //! Convex polygons.
 
+use super::edges::{box_corners, edge_normal};
 use super::hull;
-use super::rounded_core::{box_corners, edge_normal};
-use super::shape::{MAX_EXTENT, check_point, check_size};
+use super::limits::{MAX_EXTENT, check_point, check_size};
 use crate::error::Error;
 use crate::math::{Rot, Transform, Vec2, sin_cos};
 
@@ -148,11 +148,6 @@ impl Polygon {
     #[inline]
     pub fn radius(&self) -> f32 {
         self.radius
-    }
-
-    /// Centre of area, corner radius included, metres in the shape's frame.
-    pub fn centroid(&self) -> Vec2 {
-        super::Shape::Polygon(*self).mass_properties(1.0).center
     }
 
     /// Is it a rectangle? Then its half width and half height without the corner radius, and the frame of

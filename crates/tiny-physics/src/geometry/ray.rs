@@ -4,7 +4,7 @@
 //! rounded core is the union of its hull, a strip outside every edge and a disk at every point: a ray from
 //! outside enters it where it first meets a shifted edge or a disk.
 
-use super::rounded_core::edge_normal;
+use super::edges::edge_normal;
 use super::{Core, Shape};
 use crate::math::Vec2;
 

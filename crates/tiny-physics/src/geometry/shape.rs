@@ -1,14 +1,9 @@
 //! The shapes.
 
 use super::Polygon;
+use super::limits::{MIN_EXTENT, check_point, check_size};
 use crate::error::Error;
 use crate::math::Vec2;
-
-/// No radius, half extent or length of a core may be below this, metres.
-pub const MIN_EXTENT: f32 = 1.0e-5;
-/// No coordinate, radius or half extent of a shape may be above this, metres: its square and the
-/// fourth power stay far inside 32 bits.
-pub const MAX_EXTENT: f32 = 1.0e6;
 
 /// A shape in its own frame.
 ///
@@ -146,27 +141,6 @@ impl From<Polygon> for Shape {
     fn from(polygon: Polygon) -> Self {
         Self::Polygon(polygon)
     }
-}
-
-/// `Ok` where a radius or half extent is in range.
-pub(super) fn check_size(name: &'static str, value: f32) -> Result<(), Error> {
-    Error::check_finite(name, value)?;
-    if (MIN_EXTENT..=MAX_EXTENT).contains(&value) {
-        Ok(())
-    } else {
-        Err(Error::OutOfRange { name, value: value.into(), allowed: "1e-5 to 1e6" })
-    }
-}
-
-/// `Ok` where both coordinates of a point are in range.
-pub(crate) fn check_point(name: &'static str, point: Vec2) -> Result<(), Error> {
-    Error::check_finite_vec(name, point)?;
-    for value in [point.x, point.y] {
-        if value.abs() > MAX_EXTENT {
-            return Err(Error::OutOfRange { name, value: value.into(), allowed: "-1e6 to 1e6" });
-        }
-    }
-    Ok(())
 }
 
 fn check_core(reason: &'static str, a: Vec2, b: Vec2) -> Result<(), Error> {

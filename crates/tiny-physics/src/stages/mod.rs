@@ -10,6 +10,7 @@ pub(crate) mod finalize;
 pub(crate) mod integrate;
 pub(crate) mod islands;
 pub(crate) mod joint_solver;
+pub(crate) mod narrow_context;
 pub(crate) mod narrow_phase;
 pub(crate) mod one_way;
 pub(crate) mod paces;

@@ -5,30 +5,13 @@
 //! iterates on. Running it twice on one block gives the same block, so blocks that got new contacts
 //! after the pass are simply run again.
 
-use super::surfaces::{self, LanePoints, Surroundings};
-use crate::dynamics::{
-    BlockHead, Blocks, BodyInfo, Graph, ManifoldBlock, NULL, Schedule, ShapeRecord, flags,
-};
+use super::narrow_context::Context;
+use super::surfaces::{self, LanePoints};
+use crate::dynamics::{BlockHead, Blocks, Graph, ManifoldBlock, NULL, Schedule, flags};
 use crate::geometry::manifold::{self, LaneManifold, LanePair, PairClass};
 use crate::math::{Pose, Rot, Transform, Vec2};
-use crate::simd::{BLOCK, LaneKernel, Lanes, Row, SimdLevel, dispatch, dispatch_baseline};
+use crate::simd::{BLOCK, LaneKernel, Lanes, dispatch, dispatch_baseline};
 use crate::threads::Team;
-
-/// What the narrow phase reads.
-#[derive(Clone, Copy)]
-pub(crate) struct Context<'a> {
-    pub(crate) level: SimdLevel,
-    pub(crate) body_rows: &'a [Row],
-    pub(crate) poses: &'a [Pose],
-    pub(crate) shape_rows: &'a [Row],
-    pub(crate) shapes: &'a [ShapeRecord],
-    /// Bodies, for whether they have joints; nothing where no joint is awake.
-    pub(crate) infos: Option<&'a [BodyInfo]>,
-    /// Points up to this far apart are contacts already, metres.
-    pub(crate) speculative_distance: f32,
-    /// For contacts with guarded shapes.
-    pub(crate) surroundings: Surroundings<'a>,
-}
 
 /// Blocks that one member of the team updates at a time.
 pub(crate) const CHUNK: usize = 4;

@@ -14,7 +14,7 @@
 //! the usual contact (on a free face) costs a look at a few bits. Worlds without static neighbours pay one
 //! comparison a stride of lanes.
 
-use super::narrow_phase::Context;
+use super::narrow_context::{Context, Surroundings};
 use super::one_way;
 use crate::broad_phase::{BroadPhase, ProxyId, ProxyKind};
 use crate::describe::{BodyKind, ChainLink};
@@ -34,14 +34,6 @@ const REACH: f32 = 0.02;
 const CONE_TOLERANCE: f32 = 5.0e-4;
 /// A corner of a chain has a normal if the next segment rises by no more than this sine above it.
 const LINK_TOLERANCE: f32 = 1.0e-3;
-
-/// What looking at surfaces needs beyond the narrow phase's own.
-#[derive(Clone, Copy)]
-pub(crate) struct Surroundings<'a> {
-    pub(crate) guards: &'a [u32],
-    pub(crate) broad_phase: &'a BroadPhase,
-    pub(crate) length_unit: f32,
-}
 
 /// A manifold of one lane as it is looked at: [`Manifold`] with ids as the kernels have them.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,8 @@
 //! Bodies as the user sees them.
 
 use super::World;
-use super::build::MAX_COORDINATE;
 use super::contacts::ContactView;
+use super::descriptions::MAX_COORDINATE;
 use super::ids::{BodyId, ShapeId};
 use super::state::State;
 use crate::describe::BodyKind;

@@ -6,6 +6,7 @@ mod build;
 mod bytes;
 mod check;
 mod contacts;
+mod descriptions;
 mod events;
 mod frame;
 mod freeze;
@@ -52,7 +53,8 @@ use crate::stages::finalize::{FastBody, Findings};
 use crate::stages::solve::{Lengths, Solver};
 use crate::stages::touching::Changes;
 use crate::stages::{
-    continuous, finalize, narrow_phase, paces, pairs, sleep, solve, surfaces, touching,
+    continuous, finalize, narrow_context, narrow_phase, paces, pairs, sleep, solve, surfaces,
+    touching,
 };
 use crate::threads::{Pool, Team};
 use state::State;
@@ -249,7 +251,7 @@ impl World {
     fn run_narrow_phase(&mut self, team: &Team) {
         let speculative_distance = self.contact_reach();
         let State { bodies, shapes, broad_phase, joint_graph, graph, .. } = &mut self.state;
-        let context = narrow_phase::Context {
+        let context = narrow_context::Context {
             level: self.level,
             body_rows: &bodies.rows,
             poses: &bodies.poses,
@@ -257,7 +259,7 @@ impl World {
             shapes: &shapes.records,
             infos: (joint_graph.count() > 0).then_some(&bodies.infos),
             speculative_distance,
-            surroundings: surfaces::Surroundings {
+            surroundings: narrow_context::Surroundings {
                 guards: &shapes.guards,
                 broad_phase,
                 length_unit: self.settings.length_unit,

@@ -78,7 +78,7 @@ impl ShapeMut<'_> {
     pub fn set_material(&mut self, material: Material) -> Result<(), Error> {
         let record = &self.world.state.shapes.records[self.index as usize];
         let def = ShapeDef { material, ..ShapeDef::new(record.shape) };
-        super::build::check_shape(&def)?;
+        super::descriptions::check_shape(&def)?;
         let (body, density) = (record.body, record.material.density);
         self.world.state.shapes.records[self.index as usize].material = material;
         self.world.wake_index(body);

@@ -1,7 +1,7 @@
 //! Tile grids in a world: which shapes stand for them, and edits.
 
 use super::World;
-use super::build::{check_body, check_shape};
+use super::descriptions::{check_body, check_shape};
 use super::ids::{BodyId, ShapeId, TileGridId};
 use crate::codec::{Data, Reader, Serial, Sink, bad, store};
 use crate::describe::{BLOCK_CELLS, Piece, ShapeDef, TileGrid};

@@ -132,8 +132,12 @@ fn item_length(code: &str) -> usize {
 
 /// All sources of the engine but those that only tests see.
 pub fn sources() -> Vec<Source> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let (mut folders, mut files) = (vec![root.clone()], Vec::<PathBuf>::new());
+    sources_below(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"))
+}
+
+/// The same of any crate, by its folder `src`.
+pub fn sources_below(root: &Path) -> Vec<Source> {
+    let (mut folders, mut files) = (vec![root.to_owned()], Vec::<PathBuf>::new());
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(&folder).expect("a folder of sources") {
             let path = entry.expect("an entry").path();
@@ -148,7 +152,7 @@ pub fn sources() -> Vec<Source> {
     files
         .iter()
         .map(|file| {
-            let below = file.strip_prefix(&root).expect("below src");
+            let below = file.strip_prefix(root).expect("below src");
             let path: Vec<_> = below.iter().map(|part| part.to_string_lossy()).collect();
             Source::new(&path.join("/"), &fs::read_to_string(file).expect("a source"))
         })

@@ -2,7 +2,7 @@
 
 use super::{print, print_head};
 use crate::args::BenchArgs;
-use crate::commands::bench::median;
+use crate::commands::timing::median;
 use crate::failure::Outcome;
 use serde::Serialize;
 use std::hint::black_box;

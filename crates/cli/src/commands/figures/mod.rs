@@ -7,7 +7,7 @@ mod memory;
 mod rest;
 mod stages;
 
-use super::bench::levels;
+use super::timing::levels;
 use crate::args::{BenchArgs, Figure, WorldArgs};
 use crate::failure::{Failure, Outcome};
 use serde::Serialize;

@@ -2,7 +2,7 @@
 
 use super::{at_level, built_in, print};
 use crate::args::BenchArgs;
-use crate::commands::bench::{levels, median, milliseconds};
+use crate::commands::timing::{levels, median, milliseconds};
 use crate::failure::{Failure, Outcome};
 use crate::simulation::Simulation;
 use serde::Serialize;

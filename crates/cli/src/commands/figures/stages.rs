@@ -2,7 +2,7 @@
 
 use super::{circles, how, print, print_head};
 use crate::args::BenchArgs;
-use crate::commands::bench::median;
+use crate::commands::timing::median;
 use crate::failure::Outcome;
 use crate::simulation::Simulation;
 use serde::Serialize;

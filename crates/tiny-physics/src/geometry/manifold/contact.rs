@@ -3,7 +3,7 @@
 //! For debugging, games without bodies, and reading a frame's contacts with `{:?}`. They come from the
 //! same kernels as everything else.
 
-use super::collide::{Manifold, collide};
+use super::{Manifold, collide};
 use crate::geometry::Shape;
 use crate::math::{Aabb, Pose, Transform, Vec2};
 

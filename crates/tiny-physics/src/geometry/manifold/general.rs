@@ -4,8 +4,7 @@
 //! segment has end faces of no width and a circle's centre has four faces of no width; with these,
 //! the best axis is always within 45 degrees of the direction between two nearest corners.
 
-use super::collide::ManifoldPoint;
-use super::{Manifold, RoundedBox};
+use super::{Manifold, ManifoldPoint, RoundedBox};
 use crate::geometry::Shape;
 use crate::math::{Transform, Vec2};
 

@@ -38,6 +38,7 @@ mod contact;
 mod face;
 mod general;
 mod lane;
+mod points;
 #[cfg(test)]
 mod tests;
 
@@ -45,8 +46,9 @@ pub(crate) use boxes::box_box;
 pub(crate) use capsule::{box_capsule, capsule_capsule};
 pub(crate) use circle::{box_circle, capsule_circle, circle_circle};
 pub(crate) use class::{PairClass, RoundedBox, ShapeClass};
-pub use collide::{Manifold, ManifoldPoint, collide};
+pub use collide::collide;
 pub use contact::{Contact, contact};
 pub(crate) use face::{collide_face, face_of, nearest_vertex, point_gap, support_height};
 pub(crate) use general::collide_general;
 pub(crate) use lane::{LaneManifold, LanePair};
+pub use points::{Manifold, ManifoldPoint};

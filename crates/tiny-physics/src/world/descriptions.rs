@@ -1,0 +1,63 @@
+//! Are the numbers of a description acceptable?
+
+use crate::describe::{RigidBody, ShapeDef};
+use crate::error::Error;
+use crate::geometry::Shape;
+
+/// Coordinates beyond this are refused: 64-bit positions would lose millimetres.
+pub(super) const MAX_COORDINATE: f64 = 1.0e12;
+/// Masses and densities outside of this are refused: products with them would leave 32 bits.
+const MASSES: core::ops::RangeInclusive<f32> = 1.0e-9..=1.0e12;
+
+pub(super) fn check_body(body: &RigidBody) -> Result<(), Error> {
+    for (name, value) in [("position.x", body.position.x), ("position.y", body.position.y)] {
+        if !value.is_finite() {
+            return Err(Error::NotFinite { name, value });
+        }
+        if value.abs() > MAX_COORDINATE {
+            return Err(Error::OutOfRange { name, value, allowed: "within 1e12 of the origin" });
+        }
+    }
+    Error::check_finite("angle", body.angle)?;
+    Error::check_finite_vec("velocity", body.velocity)?;
+    Error::check_finite("angular_velocity", body.angular_velocity)?;
+    Error::check_not_negative("linear_damping", body.linear_damping)?;
+    Error::check_not_negative("angular_damping", body.angular_damping)?;
+    Error::check_finite("gravity_scale", body.gravity_scale)?;
+    Error::check_not_negative("sleep_speed", body.sleep_speed)?;
+    if let Some(mass) = body.mass {
+        Error::check_positive("mass", mass)?;
+        check_range("mass", mass)?;
+    }
+    body.shapes.iter().try_for_each(check_shape)
+}
+
+pub(super) fn check_shape(shape: &ShapeDef) -> Result<(), Error> {
+    shape.shape.validate()?;
+    Error::check_finite_vec("offset", shape.offset)?;
+    Error::check_finite("angle", shape.angle)?;
+    Error::check_not_negative("density", shape.material.density)?;
+    if shape.material.density != 0.0 {
+        check_range("density", shape.material.density)?;
+    }
+    Error::check_not_negative("friction", shape.material.friction)?;
+    Error::check_not_negative("restitution", shape.material.restitution)?;
+    Error::check_not_negative("rolling_resistance", shape.material.rolling_resistance)?;
+    Error::check_finite("tangent_speed", shape.material.tangent_speed)?;
+    if let Some(link) = shape.link {
+        if !matches!(shape.shape, Shape::Segment { .. }) {
+            return Err(Error::Unsupported { reason: "only segments are links of a chain" });
+        }
+        for end in [link.previous, link.next].into_iter().flatten() {
+            Error::check_finite_vec("link", end)?;
+        }
+    }
+    shape.one_way.map_or(Ok(()), |direction| Error::check_finite_vec("one_way", direction))
+}
+
+fn check_range(name: &'static str, value: f32) -> Result<(), Error> {
+    if MASSES.contains(&value) {
+        return Ok(());
+    }
+    Err(Error::OutOfRange { name, value: value.into(), allowed: "1e-9 to 1e12" })
+}
