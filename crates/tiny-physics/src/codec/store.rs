@@ -143,14 +143,21 @@ macro_rules! data {
     };
 }
 
-/// Implements [`Data`] for an enum: a number for each variant, then its fields.
+/// Implements [`Data`] for an enum: a number for each variant, then its fields. `load with` names a function that refuses
+/// what was read, or lets it pass.
 macro_rules! data_enum {
-    ($type:ident { $($tag:literal => $variant:ident $({ $($field:ident),* $(,)? })?),* $(,)? }) => {
+    (
+        $type:ident {
+            $($tag:literal => $variant:ident $(($part:ident))? $({ $($field:ident),* $(,)? })?),* $(,)?
+        }
+        $(load with $check:path)?
+    ) => {
         impl $crate::codec::Data for $type {
             fn save(&self, sink: &mut $crate::codec::Sink) {
                 match self {
-                    $(Self::$variant $({ $($field),* })? => {
+                    $(Self::$variant $(($part))? $({ $($field),* })? => {
                         sink.put([$tag]);
+                        $($crate::codec::Data::save($part, sink);)?
                         $($($crate::codec::Data::save($field, sink);)*)?
                     })*
                 }
@@ -158,13 +165,16 @@ macro_rules! data_enum {
             fn load(
                 reader: &mut $crate::codec::Reader<'_>,
             ) -> Result<Self, $crate::error::Error> {
-                Ok(match <u8 as $crate::codec::Data>::load(reader)? {
+                let loaded = match <u8 as $crate::codec::Data>::load(reader)? {
                     $($tag => {
+                        $(let $part = $crate::codec::Data::load(reader)?;)?
                         $($(let $field = $crate::codec::Data::load(reader)?;)*)?
-                        Self::$variant $({ $($field),* })?
+                        Self::$variant $(($part))? $({ $($field),* })?
                     })*
                     _ => return Err($crate::codec::bad("a kind is unknown")),
-                })
+                };
+                $($check(&loaded)?;)?
+                Ok(loaded)
             }
         }
     };

@@ -111,71 +111,75 @@ impl<B: JointLanes> JointBucket<B> {
     }
 }
 
-store! {
-    /// All joints of one colour.
-    #[derive(Debug, PartialEq, Default)]
-    pub(crate) struct JointColour {
-        pub(crate) distance: JointBucket<DistanceBlock>,
-        pub(crate) revolute: JointBucket<RevoluteBlock>,
-        pub(crate) prismatic: JointBucket<PrismaticBlock>,
-        pub(crate) weld: JointBucket<WeldBlock>,
-        pub(crate) wheel: JointBucket<WheelBlock>,
-        pub(crate) drive: JointBucket<DriveBlock>,
-        pub(crate) pulley: JointBucket<PulleyBlock>,
-        pub(crate) gear: JointBucket<GearBlock>,
-    }
+/// Calls a macro with the list of all classes: the bucket, the class, its block. What is given goes before the list.
+macro_rules! joint_classes {
+    ($then:ident ! ($($given:tt)*)) => {
+        $then! {
+            ($($given)*)
+            distance Distance DistanceBlock,
+            revolute Revolute RevoluteBlock,
+            prismatic Prismatic PrismaticBlock,
+            weld Weld WeldBlock,
+            wheel Wheel WheelBlock,
+            drive Drive DriveBlock,
+            pulley Pulley PulleyBlock,
+            gear Gear GearBlock
+        }
+    };
 }
+pub(crate) use joint_classes;
 
-/// Does something with the bucket of a class.
-macro_rules! with_bucket {
-    ([$($borrow:tt)+] $colour:expr, $class:expr, $bucket:ident => $body:expr) => {
-        match $class {
-            JointClass::Distance => {
-                let $bucket = $($borrow)+ $colour.distance;
-                $body
+macro_rules! declare {
+    (() $($bucket:ident $class:ident $block:ident),*) => {
+        store! {
+            /// All joints of one colour.
+            #[derive(Debug, PartialEq, Default)]
+            pub(crate) struct JointColour {
+                $(pub(crate) $bucket: JointBucket<$block>,)*
             }
-            JointClass::Revolute => {
-                let $bucket = $($borrow)+ $colour.revolute;
-                $body
-            }
-            JointClass::Prismatic => {
-                let $bucket = $($borrow)+ $colour.prismatic;
-                $body
-            }
-            JointClass::Weld => {
-                let $bucket = $($borrow)+ $colour.weld;
-                $body
-            }
-            JointClass::Wheel => {
-                let $bucket = $($borrow)+ $colour.wheel;
-                $body
-            }
-            JointClass::Drive => {
-                let $bucket = $($borrow)+ $colour.drive;
-                $body
-            }
-            JointClass::Pulley => {
-                let $bucket = $($borrow)+ $colour.pulley;
-                $body
-            }
-            JointClass::Gear => {
-                let $bucket = $($borrow)+ $colour.gear;
-                $body
+        }
+
+        /// A run of blocks of one colour and class.
+        pub(crate) enum JointBlocks<'a> {
+            $($class(&'a mut [$block]),)*
+        }
+
+        impl JointColour {
+            /// The joints of each class.
+            fn lists(&self) -> impl Iterator<Item = &Vec<u32>> {
+                [$(&self.$bucket.joints),*].into_iter()
             }
         }
     };
 }
+joint_classes!(declare!());
 
-/// A run of blocks of one colour and class.
-pub(crate) enum JointBlocks<'a> {
-    Distance(&'a mut [DistanceBlock]),
-    Revolute(&'a mut [RevoluteBlock]),
-    Prismatic(&'a mut [PrismaticBlock]),
-    Weld(&'a mut [WeldBlock]),
-    Wheel(&'a mut [WheelBlock]),
-    Drive(&'a mut [DriveBlock]),
-    Pulley(&'a mut [PulleyBlock]),
-    Gear(&'a mut [GearBlock]),
+/// Does something with the bucket of a class, borrowed (`ref`) or to change (`mut`).
+macro_rules! with_bucket {
+    (mut $colour:expr, $class:expr, $bucket:ident => $body:expr) => {
+        joint_classes!(with_bucket!(place, mut $colour, $class, $bucket => $body))
+    };
+    (ref $colour:expr, $class:expr, $bucket:ident => $body:expr) => {
+        joint_classes!(with_bucket!(place, ref $colour, $class, $bucket => $body))
+    };
+    ((place, mut $colour:expr, $of:expr, $name:ident => $body:expr)
+        $($bucket:ident $class:ident $block:ident),*) => {
+        match $of {
+            $(JointClass::$class => {
+                let $name = &mut $colour.$bucket;
+                $body
+            })*
+        }
+    };
+    ((place, ref $colour:expr, $of:expr, $name:ident => $body:expr)
+        $($bucket:ident $class:ident $block:ident),*) => {
+        match $of {
+            $(JointClass::$class => {
+                let $name = &$colour.$bucket;
+                $body
+            })*
+        }
+    };
 }
 
 impl Bucketful for JointColour {
@@ -187,22 +191,12 @@ impl Bucketful for JointColour {
 impl JointColour {
     /// Number of joints.
     pub(crate) fn count(&self) -> usize {
-        self.distance.joints.len()
-            + self.revolute.joints.len()
-            + self.prismatic.joints.len()
-            + self.weld.joints.len()
-            + self.wheel.joints.len()
-            + self.drive.joints.len()
-            + self.pulley.joints.len()
-            + self.gear.joints.len()
+        self.lists().map(Vec::len).sum()
     }
 
     /// All joints.
     pub(crate) fn joints(&self) -> impl Iterator<Item = u32> + '_ {
-        let Self { distance, revolute, prismatic, weld, wheel, drive, pulley, gear } = self;
-        let lists = [&distance.joints, &revolute.joints, &prismatic.joints, &weld.joints];
-        let others = [&wheel.joints, &drive.joints, &pulley.joints, &gear.joints];
-        lists.into_iter().chain(others).flatten().copied()
+        self.lists().flatten().copied()
     }
 
     /// Multiplies the impulses of each joint with a factor that its bodies have.
@@ -228,7 +222,7 @@ impl JointColour {
         let alone = team.member_count() == 1 || self.count() <= RUN * BLOCK;
         let length = if alone { usize::MAX } else { RUN };
         macro_rules! share_out {
-            ($($bucket:ident: $class:ident),*) => {
+            (() $($bucket:ident $class:ident $block:ident),*) => {
                 $(if !self.$bucket.blocks.is_empty() {
                     team.for_each_chunk_mut(&mut self.$bucket.blocks, length, |_, blocks| {
                         work(JointBlocks::$class(blocks));
@@ -236,16 +230,7 @@ impl JointColour {
                 })*
             };
         }
-        share_out!(
-            distance: Distance,
-            revolute: Revolute,
-            prismatic: Prismatic,
-            weld: Weld,
-            wheel: Wheel,
-            drive: Drive,
-            pulley: Pulley,
-            gear: Gear
-        );
+        joint_classes!(share_out!());
     }
 }
 
@@ -349,7 +334,7 @@ impl JointGraph {
         let Some(class) = record.class() else { return };
         let ends = [record.body_a, record.body_b];
         let lanes = self.colours.open(place);
-        let slot = with_bucket!([&mut] lanes, class, bucket => {
+        let slot = with_bucket!(mut lanes, class, bucket => {
             bucket.push(index, ends, &record.saved)
         });
         record.place = JointPlace::Graph { colour: place as u8, slot };
@@ -375,7 +360,7 @@ impl JointGraph {
         let Some(class) = record.class() else { return };
         record.place = JointPlace::Asleep;
         let ends = [record.body_a, record.body_b];
-        let moved = with_bucket!([&mut] self.colours[usize::from(colour)], class, bucket => {
+        let moved = with_bucket!(mut self.colours[usize::from(colour)], class, bucket => {
             record.saved = bucket.saved(slot);
             bucket.swap_remove(slot)
         });
@@ -393,7 +378,7 @@ impl JointGraph {
         else {
             return Impulses::default();
         };
-        with_bucket!([&] self.colours[usize::from(colour)], class, bucket => bucket.saved(slot))
+        with_bucket!(ref self.colours[usize::from(colour)], class, bucket => bucket.saved(slot))
     }
 
     /// Brings the forest up to date, and moves joints between lanes and trees.
@@ -458,7 +443,7 @@ impl JointGraph {
         else {
             return;
         };
-        with_bucket!([&mut] self.colours[usize::from(colour)], class, bucket => bucket.mark_stale(slot));
+        with_bucket!(mut self.colours[usize::from(colour)], class, bucket => bucket.mark_stale(slot));
         self.any_stale = true;
     }
 }
@@ -533,7 +518,7 @@ mod tests {
             placed += 1;
             let ends = [record.body_a, record.body_b];
             let class = record.class().expect("a joint in the graph has a class");
-            with_bucket!([&mut] graph.colours[usize::from(colour)], class, bucket => {
+            with_bucket!(mut graph.colours[usize::from(colour)], class, bucket => {
                 assert_eq!(bucket.joints[slot as usize], index);
                 let frame = bucket.blocks[slot as usize / BLOCK].frame();
                 assert_eq!(frame.body_a[slot as usize % BLOCK], ends[0]);

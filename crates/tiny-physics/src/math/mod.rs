@@ -10,6 +10,7 @@ mod rot;
 mod transform;
 mod trig;
 mod vec2;
+mod vector;
 
 pub use aabb::Aabb;
 pub use dvec2::DVec2;

@@ -1,7 +1,7 @@
 //! The 32-bit vector.
 
-use core::fmt;
-use core::ops::{Add, AddAssign, Div, Index, Mul, MulAssign, Neg, Sub, SubAssign};
+use super::vector::vector;
+use core::ops::{Div, Index, Mul, MulAssign, SubAssign};
 
 /// A vector or point in the plane, in `f32`.
 ///
@@ -22,63 +22,15 @@ pub struct Vec2 {
     pub y: f32,
 }
 
+vector!(Vec2, f32);
+
 impl Vec2 {
-    /// (0, 0).
-    pub const ZERO: Self = Self::new(0.0, 0.0);
     /// (1, 0).
     pub const X: Self = Self::new(1.0, 0.0);
     /// (0, 1).
     pub const Y: Self = Self::new(0.0, 1.0);
     /// A vector shorter than this has no direction: [`Vec2::normalized`] makes it zero.
     pub const EPSILON: f32 = 1.0e-9;
-
-    /// A vector of the two parts.
-    #[inline]
-    pub const fn new(x: f32, y: f32) -> Self {
-        Self { x, y }
-    }
-
-    /// Both parts equal.
-    #[inline]
-    pub const fn splat(value: f32) -> Self {
-        Self::new(value, value)
-    }
-
-    /// Scalar product.
-    #[inline]
-    pub fn dot(self, other: Self) -> f32 {
-        self.x * other.x + self.y * other.y
-    }
-
-    /// Signed area of the parallelogram from `self` to `other`, positive anticlockwise.
-    #[inline]
-    pub fn cross(self, other: Self) -> f32 {
-        self.x * other.y - self.y * other.x
-    }
-
-    /// Quarter turn anticlockwise.
-    #[inline]
-    pub fn perp(self) -> Self {
-        Self::new(-self.y, self.x)
-    }
-
-    /// Squared length.
-    #[inline]
-    pub fn length_sq(self) -> f32 {
-        self.dot(self)
-    }
-
-    /// Length.
-    #[inline]
-    pub fn length(self) -> f32 {
-        self.length_sq().sqrt()
-    }
-
-    /// Distance to another point.
-    #[inline]
-    pub fn distance(self, other: Self) -> f32 {
-        (self - other).length()
-    }
 
     /// The same direction with length one; zero where the vector is shorter than [`Vec2::EPSILON`].
     #[inline]
@@ -122,56 +74,6 @@ impl Vec2 {
     pub fn lerp(self, other: Self, t: f32) -> Self {
         self * (1.0 - t) + other * t
     }
-
-    /// Neither part is NaN or infinite.
-    #[inline]
-    pub fn is_finite(self) -> bool {
-        self.x.is_finite() && self.y.is_finite()
-    }
-}
-
-impl fmt::Debug for Vec2 {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "({:?}, {:?})", self.x, self.y)
-    }
-}
-
-impl fmt::Display for Vec2 {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "({}, {})", self.x, self.y)
-    }
-}
-
-impl Add for Vec2 {
-    type Output = Self;
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        Self::new(self.x + other.x, self.y + other.y)
-    }
-}
-
-impl Sub for Vec2 {
-    type Output = Self;
-    #[inline]
-    fn sub(self, other: Self) -> Self {
-        Self::new(self.x - other.x, self.y - other.y)
-    }
-}
-
-impl Neg for Vec2 {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        Self::new(-self.x, -self.y)
-    }
-}
-
-impl Mul<f32> for Vec2 {
-    type Output = Self;
-    #[inline]
-    fn mul(self, scale: f32) -> Self {
-        Self::new(self.x * scale, self.y * scale)
-    }
 }
 
 impl Mul<Vec2> for f32 {
@@ -187,13 +89,6 @@ impl Div<f32> for Vec2 {
     #[inline]
     fn div(self, divisor: f32) -> Self {
         Self::new(self.x / divisor, self.y / divisor)
-    }
-}
-
-impl AddAssign for Vec2 {
-    #[inline]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
     }
 }
 
@@ -216,18 +111,6 @@ impl Index<usize> for Vec2 {
     #[inline]
     fn index(&self, axis: usize) -> &f32 {
         if axis == 0 { &self.x } else { &self.y }
-    }
-}
-
-impl From<[f32; 2]> for Vec2 {
-    fn from([x, y]: [f32; 2]) -> Self {
-        Self::new(x, y)
-    }
-}
-
-impl From<Vec2> for [f32; 2] {
-    fn from(v: Vec2) -> Self {
-        [v.x, v.y]
     }
 }
 

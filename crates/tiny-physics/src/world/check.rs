@@ -7,7 +7,7 @@ use crate::broad_phase::ProxyId;
 use crate::describe::{BodyKind, JointKind};
 use crate::dynamics::{
     BodyInfo, Bucket, Contact, FrameLanes, IDLE, JointBucket, JointClass, JointLanes, JointPlace,
-    JointRecord, NULL, PACES, PLAIN, Place, guard,
+    JointRecord, NULL, PACES, PLAIN, Place, guard, joint_classes,
 };
 use crate::geometry::manifold::{PairClass, ShapeClass};
 use crate::simd::BLOCK;
@@ -280,14 +280,12 @@ impl World {
         let graph = &self.state.joint_graph;
         for (colour, buckets) in graph.colours.keys().zip(graph.colours.list()) {
             ensure(colour < IDLE, "a place is unknown")?;
-            self.check_joint_bucket(colour, JointClass::Distance, &buckets.distance)?;
-            self.check_joint_bucket(colour, JointClass::Revolute, &buckets.revolute)?;
-            self.check_joint_bucket(colour, JointClass::Prismatic, &buckets.prismatic)?;
-            self.check_joint_bucket(colour, JointClass::Weld, &buckets.weld)?;
-            self.check_joint_bucket(colour, JointClass::Wheel, &buckets.wheel)?;
-            self.check_joint_bucket(colour, JointClass::Drive, &buckets.drive)?;
-            self.check_joint_bucket(colour, JointClass::Pulley, &buckets.pulley)?;
-            self.check_joint_bucket(colour, JointClass::Gear, &buckets.gear)?;
+            macro_rules! check {
+                (() $($bucket:ident $class:ident $block:ident),*) => {
+                    $(self.check_joint_bucket(colour, JointClass::$class, &buckets.$bucket)?;)*
+                };
+            }
+            joint_classes!(check!());
         }
         let in_trees = graph.count_in_trees();
         ensure(graph.forest.is_stale() || graph.forest.count() == in_trees, "trees lack joints")?;

@@ -27,8 +27,6 @@
 //! The normal has unit length and is never NaN, whatever the input: coincident centres, zero
 //! extents and ties all have a fixed answer. Results have the same bits at every lane width.
 
-#![allow(dead_code, unused_imports, reason = "used by the narrow phase, which comes next")]
-
 mod boxes;
 mod capsule;
 mod circle;
@@ -49,6 +47,5 @@ pub(crate) use class::{PairClass, RoundedBox, ShapeClass};
 pub use collide::collide;
 pub use contact::{Contact, contact};
 pub(crate) use face::{collide_face, face_of, nearest_vertex, point_gap, support_height};
-pub(crate) use general::collide_general;
 pub(crate) use lane::{LaneManifold, LanePair};
 pub use points::{Manifold, ManifoldPoint};

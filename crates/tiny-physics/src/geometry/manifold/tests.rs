@@ -1,5 +1,6 @@
 //! Every pair of shapes against an oracle in 64 bits, and the properties that a solver relies on.
 
+use super::general::collide_general;
 use super::*;
 use crate::geometry::{Polygon, Shape};
 use crate::math::{Rot, Transform, Vec2};
