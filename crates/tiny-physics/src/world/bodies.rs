@@ -336,7 +336,7 @@ impl World {
 
     /// A body to change; `None` if it has been removed.
     pub fn body_mut(&mut self, id: BodyId) -> Option<BodyMut<'_>> {
-        let index = self.body_index(id).ok()?;
+        let index = self.body_index(id).map_err(|_| self.stats.stale_handles += 1).ok()?;
         Some(BodyMut { world: self, index })
     }
 

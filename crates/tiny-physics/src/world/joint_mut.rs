@@ -36,7 +36,7 @@ impl World {
     /// # }
     /// ```
     pub fn joint_mut(&mut self, id: JointId) -> Option<JointMut<'_>> {
-        let index = self.joint_index(id).ok()?;
+        let index = self.joint_index(id).map_err(|_| self.stats.stale_handles += 1).ok()?;
         Some(JointMut { world: self, id, index })
     }
 }

@@ -191,6 +191,7 @@ impl World {
         let record = &self.state.joints.records[index as usize];
         let (a, b) = (record.body_a, record.body_b);
         let def = self.place_joint(a, b, def)?;
+        self.stats.pushes += 1;
         self.wake_index(a);
         self.wake_index(b);
         self.state.joint_graph.update(&mut self.state.bodies, &mut self.state.joints, index, &def);

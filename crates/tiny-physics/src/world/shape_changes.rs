@@ -33,7 +33,7 @@ impl World {
     /// # }
     /// ```
     pub fn shape_mut(&mut self, id: ShapeId) -> Option<ShapeMut<'_>> {
-        let index = self.shape_index(id).ok()?;
+        let index = self.shape_index(id).map_err(|_| self.stats.stale_handles += 1).ok()?;
         Some(ShapeMut { world: self, index })
     }
 }

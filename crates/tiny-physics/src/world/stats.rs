@@ -67,11 +67,13 @@ pub struct Stats {
     pub frozen_bodies: usize,
     /// Steps refused because the time step was not a positive finite number, since the world was made.
     pub refused_steps: u64,
-    /// Forces, impulses and velocities that the user gave to bodies, since the world was made.
+    /// Forces, impulses and velocities that the user gave to bodies, and joints that were changed, since the world was made.
     pub pushes: u64,
     /// Calls that changed nothing because a number was not finite or beyond all measure, since the world was made:
     /// those that give no [`Error`](crate::Error).
     pub refused_numbers: u64,
+    /// Bodies, shapes and joints that were asked for to be changed and are gone, since the world was made.
+    pub stale_handles: u64,
 }
 
 impl Stats {

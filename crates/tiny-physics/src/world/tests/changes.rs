@@ -147,6 +147,21 @@ fn a_filter_opens_and_closes_the_floor() {
 }
 
 #[test]
+fn what_the_program_does_to_bodies_is_counted() {
+    let mut world = world();
+    let (a, b) = (add(&mut world, 0.0, 0.5, circle(0.5)), add(&mut world, 2.0, 0.5, circle(0.5)));
+    let rod = world.add_joint(a, b, JointDef::distance(2.0)).unwrap();
+    world.body_mut(a).unwrap().set_velocity(Vec2::X);
+    world.set_joint(rod, JointDef::distance(1.0)).unwrap();
+    assert_eq!((world.stats().pushes, world.stats().stale_handles), (2, 0));
+    let shape = shape_of(&world, a);
+    world.remove_body(a).unwrap();
+    assert!(world.body_mut(a).is_none() && world.shape_mut(shape).is_none());
+    assert!(world.joint_mut(rod).is_none() && world.body(a).is_none());
+    assert_eq!((world.stats().pushes, world.stats().stale_handles), (2, 3));
+}
+
+#[test]
 fn a_positive_group_overrides_masks() {
     let mut world = world();
     let filter = Filter { category: 1, mask: 0, group: 3 };
