@@ -72,6 +72,9 @@ codes! {
     Density "density" "masses":
         "Mass by area of each moving body against the median of all moving bodies: a factor of 1000 or more is a finding. Wrong where one \
          body is meant to be a balloon or a neutron star.";
+    /// A heavy body on a light one.
+    MassRatio "mass_ratio" "masses":
+        "Two bodies that touch or are joined differ in mass by a factor of 2000 (warning) or 50 (note), and the light one has to carry the heavy one.";
     /// Time steps too long for the speeds.
     StepTooLong "step_too_long" "time-steps":
         "A step above 1/29 s is a finding: contacts and joints get softer with the square of the step. Wrong for slow scenes that nobody looks at.";
@@ -110,9 +113,9 @@ codes! {
     DeepOverlap "deep_overlap" "overlaps":
         "A contact is deeper than 4 cm (length units) and a tenth of the thinner shape in two looks after the body's first second; a note where it passes within a quarter of a second, as a hard hit does. The cause is looked for in \
          this order: a moved body that crushes, a teleport, a mass ratio, the bound on pushing apart.";
-    /// A heavy body on a light one.
-    MassRatio "mass_ratio" "masses":
-        "Two bodies that touch or are joined differ in mass by a factor of 2000 (warning) or 50 (note), and the light one has to carry the heavy one.";
+    /// A joint beyond its limits.
+    LimitOverrun "limit_overrun" "joints":
+        "A joint's coordinate is outside its limits by more than 0.07 rad or 3 cm (length units), in two looks.";
     /// Two constraints that exclude each other.
     JointFight "joint_fight" "joints":
         "A joint stays apart by more than 2 % of its bodies' size (and 1 cm) for a second while its bodies stand still, and bears over five times their weight: \
@@ -120,9 +123,6 @@ codes! {
     /// A joint whose anchors are apart.
     JointStretch "joint_stretch" "joints":
         "What a joint holds rigid is apart by more than 3 % of its bodies' size and 2 cm (length units), in two looks.";
-    /// A joint beyond its limits.
-    LimitOverrun "limit_overrun" "joints":
-        "A joint's coordinate is outside its limits by more than 0.07 rad or 3 cm (length units), in two looks.";
     /// A motor that pushes into a limit.
     MotorAtLimit "motor_at_limit" "joints":
         "A motor drives a joint into the end of its range for a third of a second. A very strong one shakes there.";
@@ -151,6 +151,53 @@ codes! {
     Slow "slow" "it-is-slow":
         "Told by counts, not by the clock: a debug build with many bodies, one body with hundreds of contacts, sensors in great number, a level of thousands of static \
          bodies, bodies kept awake at rest, many polygons of more than four corners.";
+}
+
+impl Code {
+    /// What it brings about, where it concerns the same bodies or the whole world: findings that are told after it.
+    pub(crate) fn brings_about(self) -> &'static [Self] {
+        use Code::*;
+        match self {
+            Size | StepTooLong => &[
+                Tunnelling,
+                NearMiss,
+                SpeedLimit,
+                Stuck,
+                DeepOverlap,
+                LimitOverrun,
+                JointFight,
+                JointStretch,
+                EnergyGain,
+                RestitutionLost,
+                Jitter,
+                Sinking,
+                NeverSleeps,
+            ],
+            VariableStep => {
+                &[StepTooLong, DeepOverlap, JointStretch, EnergyGain, Jitter, Sinking, NeverSleeps]
+            }
+            Density | MassRatio => &[
+                Stuck,
+                DeepOverlap,
+                LimitOverrun,
+                JointFight,
+                JointStretch,
+                Jitter,
+                Sinking,
+                NeverSleeps,
+            ],
+            OverlapAtStart => &[Stuck, DeepOverlap, JointStretch, EnergyGain, Jitter],
+            Teleport => &[Tunnelling, Stuck, DeepOverlap, JointStretch, EnergyGain, Jitter],
+            LimitOverrun => &[JointFight, JointStretch, DeepOverlap, EnergyGain],
+            JointFight => &[JointStretch, DeepOverlap, EnergyGain, Jitter],
+            JointStretch => &[DeepOverlap],
+            // What is made fast by force hits hard and tears joints.
+            EnergyGain => &[JointStretch, DeepOverlap, NearMiss, RestitutionLost],
+            Sinking => &[Stuck, DeepOverlap],
+            Filter => &[FellOut],
+            _ => &[],
+        }
+    }
 }
 
 impl fmt::Display for Code {

@@ -1,9 +1,10 @@
 //! The doctor: glances at all, examines a few.
 
-use crate::Report;
 use crate::checks::{energy, flight, joints, overlap, rest, scale, slow, surface, time};
 use crate::look::{Findings, Look, Touch};
+use crate::round::Round;
 use crate::track::Track;
+use crate::{Finding, Report};
 use tiny_physics::{BodyId, BodyKind, JointId, World};
 
 /// Watches a run and says what is wrong with it.
@@ -16,9 +17,7 @@ pub struct Doctor {
     last_step: Option<u64>,
     tracks: Vec<Option<Track>>,
     findings: Findings,
-    /// Bodies of this round, and how far it has come.
-    round: Vec<BodyId>,
-    at: usize,
+    round: Round,
     examined: usize,
     joints: Vec<JointId>,
     joint_at: usize,
@@ -27,16 +26,27 @@ pub struct Doctor {
     energy: energy::Memory,
     slow: slow::Memory,
     ground: flight::Ground,
+    ways: flight::Ways,
     ill: Vec<BodyId>,
+    new: Vec<BodyId>,
     bodies: usize,
+    /// Step of the last look at the world as a whole, and the bodies that it had.
+    world_seen: (u64, usize),
 }
 
-/// Bodies glanced at in a step.
-const GLANCES: usize = 512;
 /// One body in so many is examined in a step, though nothing calls for it.
 const EXAMINE_ONE_IN: usize = 64;
-/// Bodies examined in a step because something calls for it; the first step has no bound.
-const ILL: usize = 12;
+/// Bodies examined in a step because something calls for it: so many and one more of each [`EXAMINE_ONE_IN`], but never more
+/// than [`MOST_ILL`].
+const ILL: usize = 4;
+const MOST_ILL: usize = 12;
+/// Bodies examined because they are new: in the first step, and in others.
+const MOST_AT_FIRST: usize = 1000;
+const MOST_NEW: usize = 64;
+/// Steps after which a body may be asked again for what it never meets.
+const UNMET_EVERY: u64 = 10;
+/// Steps between two looks at the world as a whole.
+const WORLD_EVERY: u64 = 64;
 /// One joint in so many is examined in a step.
 const JOINT_ONE_IN: usize = 24;
 
@@ -46,17 +56,20 @@ impl Doctor {
         Self::default()
     }
 
-    /// Looks at a world that has just been stepped. Does nothing where it has not.
+    /// Looks at a world that has just been stepped. Where it has not been, sees only whether a step was refused.
     pub fn watch(&mut self, world: &World) {
-        if self.last_step == Some(world.step_count()) || world.step_count() == 0 {
+        let look = Look::new(world);
+        self.time.check_refused(&look, &mut self.findings);
+        if self.last_step == Some(look.step) || look.step == 0 {
             return;
         }
         let first = self.last_step.is_none();
-        let look = Look::new(world);
-        self.time.check(&look, &mut self.findings);
+        self.time.check_length(&look, &mut self.findings);
         self.note_sleep(&look);
-        self.begin_round(&look);
+        self.round.begin(&look);
         self.glance_at_some(&look);
+        self.look_at_world(&look);
+        self.energy.check(&look, &self.round.bodies, self.joint_memory.driven, &mut self.findings);
         self.examine_some(&look, first);
         self.examine_joints(&look);
         self.last_step = Some(look.step);
@@ -69,19 +82,38 @@ impl Doctor {
         self.findings.report(self.steps, self.bodies)
     }
 
-    /// Starts over with the list of bodies, where the last one is through.
-    fn begin_round(&mut self, look: &Look<'_>) {
-        let changed = self.bodies != look.world.body_count() && self.round.len() <= GLANCES;
-        if self.at < self.round.len() && !changed {
+    /// What was seen last; of several the worst. For a line on a screen.
+    pub fn latest(&self) -> Option<&Finding> {
+        self.findings.latest()
+    }
+
+    /// Bytes that the doctor holds: by the number of bodies and joints that the world has had at once, whatever the number
+    /// of steps.
+    pub fn memory(&self) -> usize {
+        size_of::<Self>()
+            + self.tracks.capacity() * size_of::<Option<Track>>()
+            + (self.ill.capacity() + self.new.capacity()) * size_of::<BodyId>()
+            + self.joints.capacity() * size_of::<JointId>()
+            + self.round.memory()
+            + self.joint_memory.memory()
+            + self.time.memory()
+            + self.findings.memory()
+    }
+
+    /// What concerns all bodies at once: seldom, and where bodies have come or gone, unless they are very many.
+    fn look_at_world(&mut self, look: &Look<'_>) {
+        let count = look.world.body_count();
+        let (seen, bodies) = self.world_seen;
+        let pause = if bodies == count { WORLD_EVERY } else { WORLD_EVERY.min(count as u64 / 8) };
+        if seen > 0 && look.step < seen + pause {
             return;
         }
-        self.round.clear();
-        self.round.extend(look.world.body_ids());
-        self.at = 0;
+        self.world_seen = (look.step, count);
         self.ground.check(look);
-        let tracks = self.round.iter().filter_map(|id| self.tracks.get(id.index())?.as_ref());
-        scale::check_all(look, tracks, &mut self.findings);
-        self.slow.check(look, &self.round, &self.tracks, &mut self.findings);
+        let tracks = self.round.bodies.iter();
+        let tracks = tracks.filter_map(|id| self.tracks.get(id.index())?.as_ref());
+        scale::check_all(look, tracks.clone(), &mut self.findings);
+        self.slow.check(look, tracks, &mut self.findings);
     }
 
     fn note_sleep(&mut self, look: &Look<'_>) {
@@ -91,62 +123,88 @@ impl Doctor {
             }
         }
         for id in look.world.events().fell_asleep() {
-            if let Some(Some(track)) = self.tracks.get(id.index()) {
-                overlap::slept(look, track, &mut self.findings);
+            let Some(Some(track)) = self.tracks.get(id.index()) else { continue };
+            overlap::slept(look, track, &mut self.findings);
+            if let Some(body) = look.world.body(*id).filter(|_| track.free > 0.0) {
+                overlap::check_swallowed(look, &body, track, &mut self.findings);
+            }
+        }
+    }
+
+    /// Takes all bodies of the list in that are new.
+    fn admit(&mut self, look: &Look<'_>) {
+        if self.round.admitted == self.round.listed {
+            return;
+        }
+        self.round.admitted = self.round.listed;
+        for &id in &self.round.bodies {
+            if self.tracks.len() <= id.index() {
+                self.tracks.resize(id.index() + 1, None);
+            }
+            let slot = &mut self.tracks[id.index()];
+            if slot.as_ref().is_some_and(|track| track.id == id) {
+                continue;
+            }
+            if let Some(body) = look.world.body(id) {
+                *slot = Some(Track::new(look, &body, self.round.since));
+                self.energy.reset();
+                self.new.push(id);
             }
         }
     }
 
     /// Sees where bodies are, and which of them call for a thorough look.
     fn glance_at_some(&mut self, look: &Look<'_>) {
-        let world = look.world;
-        let end = (self.at + GLANCES).min(self.round.len());
-        let whole = self.at == 0 && end == self.round.len();
-        self.energy.begin();
-        for &id in &self.round[self.at..end] {
-            let Some(body) = world.body(id) else { continue };
-            if self.tracks.len() <= id.index() {
-                self.tracks.resize(id.index() + 1, None);
-            }
-            let slot = &mut self.tracks[id.index()];
-            let Some(track) = slot.as_mut().filter(|track| track.id == id) else {
-                if body.kind() != BodyKind::Static {
-                    *slot = Some(Track::new(world, &body, look.step));
-                    self.energy.reset();
-                    self.ill.push(id);
-                }
+        self.admit(look);
+        self.ways.begin(look);
+        for place in self.round.next() {
+            let id = self.round.bodies[place];
+            let Some(body) = look.world.body(id) else {
+                self.round.lacks_one();
                 continue;
             };
-            let before = *track;
-            let elapsed = (look.step - track.glance) as f32 * look.dt;
-            track.glance(&body, elapsed, look.unit);
-            track.glance = look.step;
-            self.energy.add(look, &body);
-            if !body.is_awake() && body.is_enabled() {
+            let Some(Some(track)) = self.tracks.get_mut(id.index()) else { continue };
+            if track.id != id || track.may_wait(look) {
                 continue;
             }
-            if flight::glance(look, &body, &before, track, &self.ground, &mut self.findings) {
+            if !body.is_awake() && body.is_enabled() {
+                track.sleeps(look);
+                continue;
+            }
+            if track.measured == 0 {
+                track.measure_again(look, &body);
+            }
+            let before = track.glance(look, &body);
+            let ways = &mut self.ways;
+            if flight::glance(look, &body, &before, track, (&self.ground, ways), &mut self.findings)
+            {
                 self.energy.reset();
             }
-            if rest::calls(look, &before, track) {
+            if rest::calls(look, &body, track) {
                 self.ill.push(id);
             }
         }
-        self.at = end;
-        self.energy.end(look, whole, self.joint_memory.driven, &mut self.findings);
     }
 
     /// Examines what calls for it, and a few others in turn.
     fn examine_some(&mut self, look: &Look<'_>, first: bool) {
         let mut ill = core::mem::take(&mut self.ill);
-        let most = if first { usize::MAX } else { ILL };
+        let count = self.round.bodies.len();
+        let others = (count / EXAMINE_ONE_IN).min(MOST_ILL);
+        let most = (ILL + others).min(MOST_ILL);
         ill.iter().rev().take(most).for_each(|&id| self.examine(look, id));
         ill.clear();
         self.ill = ill;
-        let count = (self.round.len() / EXAMINE_ONE_IN).clamp(1, ILL);
-        for _ in 0..count.min(self.round.len()) {
-            self.examined = (self.examined + 1) % self.round.len();
-            self.examine(look, self.round[self.examined]);
+        let mut new = core::mem::take(&mut self.new);
+        let most = if first { MOST_AT_FIRST } else { MOST_NEW };
+        new.iter().take(most).for_each(|&id| self.examine(look, id));
+        new.clear();
+        self.new = new;
+        // Where they are few, one every other step.
+        let others = others.max(usize::from(look.step.is_multiple_of(2))).min(count);
+        for _ in 0..others {
+            self.examined = (self.examined + 1) % count;
+            self.examine(look, self.round.bodies[self.examined]);
         }
     }
 
@@ -156,15 +214,20 @@ impl Doctor {
         if body.kind() == BodyKind::Static || track.id != id {
             return;
         }
-        track.measure(look.world, &body);
+        track.measure_again(look, &body);
         scale::check_one(look, &body, track, &mut self.findings);
-        overlap::check_unmet(look, &body, track, &mut self.findings);
+        if track.unmet < look.step {
+            track.unmet = look.step + UNMET_EVERY;
+            overlap::check_unmet(look, &body, track, &mut self.findings);
+        }
         if !body.is_awake() {
             return;
         }
         let touches: Vec<Touch> = body.contacts().map(|contact| Touch::of(id, &contact)).collect();
         if !touches.is_empty() {
-            track.free = 0.0;
+            (track.flew, track.free) = (track.free, 0.0);
+        } else if track.speed < 0.1 * look.unit {
+            overlap::check_swallowed(look, &body, track, &mut self.findings);
         }
         overlap::check(look, &body, track, &touches, &mut self.findings);
         rest::check(look, &body, track, &touches, &mut self.findings);
@@ -177,7 +240,7 @@ impl Doctor {
             self.joints.clear();
             self.joints.extend(look.world.joint_ids());
             self.joint_at = 0;
-            self.joint_memory.begin_round();
+            self.joint_memory.begin_round(look);
         }
         let count = (self.joints.len() / JOINT_ONE_IN).clamp(1, 64);
         let end = (self.joint_at + count).min(self.joints.len());

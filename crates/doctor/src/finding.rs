@@ -90,6 +90,22 @@ pub struct Finding {
 }
 
 impl Finding {
+    /// Are both about one body?
+    pub(crate) fn shares_with(&self, other: &Self) -> bool {
+        self.bodies.iter().any(|who| other.bodies.iter().any(|its| its.id == who.id))
+    }
+
+    /// Bytes that it holds, its own among them.
+    pub(crate) fn memory(&self) -> usize {
+        size_of::<(u64, Self)>()
+            + self.bodies.capacity() * size_of::<Who<BodyId>>()
+            + self.shapes.capacity() * size_of::<Who<ShapeId>>()
+            + self.joints.capacity() * size_of::<Who<JointId>>()
+            + self.figures.capacity() * size_of::<Figure>()
+            + self.what.capacity()
+            + self.advice.capacity()
+    }
+
     /// The measured figure by which findings of one code are compared.
     pub(crate) fn weight(&self) -> f64 {
         self.figures.first().map_or(0.0, |figure| {

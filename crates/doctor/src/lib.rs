@@ -30,6 +30,7 @@ mod doctor;
 mod finding;
 mod look;
 mod report;
+mod round;
 mod trace;
 mod track;
 

@@ -13,12 +13,15 @@ pub(crate) struct Look<'a> {
     pub(crate) dt: f32,
     /// Length unit: what metre-scaled bounds are multiplied by.
     pub(crate) unit: f32,
+    /// Length of gravity, metres a second squared.
+    pub(crate) pull: f32,
 }
 
 impl<'a> Look<'a> {
     pub(crate) fn new(world: &'a World) -> Self {
         let dt = world.stats().dt;
-        Self { world, step: world.step_count(), dt, unit: world.settings.length_unit }
+        let (unit, pull) = (world.settings.length_unit, world.gravity.length());
+        Self { world, step: world.step_count(), dt, unit, pull }
     }
 
     /// Down, unit; zero without gravity.
@@ -111,6 +114,9 @@ pub(crate) struct Words {
 /// Findings kept of one code; more are counted.
 const KEPT: usize = 16;
 
+/// Steps by which a cause may be told later than what it brings about: some are seen sooner than others.
+const SOON: u64 = 120;
+
 /// All that was found.
 #[derive(Default, Debug, Clone)]
 pub(crate) struct Findings {
@@ -144,6 +150,22 @@ impl Findings {
         self.found.get(&code).is_some_and(|kept| kept.contains_key(&about))
     }
 
+    /// Bytes of all that is kept.
+    pub(crate) fn memory(&self) -> usize {
+        let kept = self.found.values().flat_map(BTreeMap::values);
+        kept.map(Finding::memory).sum::<usize>()
+            + (self.found.len() + self.more.len()) * size_of::<(Code, BTreeMap<About, Finding>)>()
+    }
+
+    /// What was seen last; of several the worst, causes before their effects.
+    pub(crate) fn latest(&self) -> Option<&Finding> {
+        let kept = self.found.values().flat_map(BTreeMap::values);
+        kept.max_by(|a, b| {
+            let later = a.last_step.cmp(&b.last_step);
+            later.then(a.severity.cmp(&b.severity)).then(b.code.cmp(&a.code))
+        })
+    }
+
     /// One finding for each code and severity: the one that weighs most; the others are counted.
     pub(crate) fn report(&self, steps: u64, bodies: usize) -> Report {
         let mut findings: Vec<Finding> = Vec::new();
@@ -165,7 +187,29 @@ impl Findings {
             }
             findings.extend(worst.into_values());
         }
-        Report { steps, bodies, findings }.sorted()
+        let mut report = Report { steps, bodies, findings }.sorted();
+        report.put_causes_first(|cause, effect| self.brings_about(cause, effect));
+        report
+    }
+
+    /// Is a kind of finding the cause of another one here: about the same body or joint, or about the world, and not later?
+    fn brings_about(&self, cause: Code, effect: Code) -> bool {
+        let (Some(causes), Some(effects)) = (self.found.get(&cause), self.found.get(&effect))
+        else {
+            return false;
+        };
+        cause.brings_about().contains(&effect)
+            && causes.iter().any(|(about, cause)| {
+                let same = |effect: &Finding| *about == About::World || cause.shares_with(effect);
+                let late = match cause.code {
+                    Code::EnergyGain => 0,
+                    // Takes time to be seen.
+                    Code::Sinking => u64::MAX / 2,
+                    _ => SOON,
+                };
+                let soon = |effect: &Finding| cause.first_step <= effect.first_step + late;
+                effects.values().any(|effect| same(effect) && soon(effect))
+            })
     }
 }
 

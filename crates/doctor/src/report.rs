@@ -11,7 +11,7 @@ pub struct Report {
     pub steps: u64,
     /// Bodies in the world when it was last watched.
     pub bodies: usize,
-    /// The worst first; of equals, causes before their effects.
+    /// The worst first, but causes before what they bring about.
     pub findings: Vec<Finding>,
 }
 
@@ -22,6 +22,18 @@ impl Report {
             by_severity.then(a.code.cmp(&b.code)).then(b.weight().total_cmp(&a.weight()))
         });
         self
+    }
+
+    /// Moves what brings others about before them, however mild it looks by itself.
+    pub(crate) fn put_causes_first(&mut self, brings_about: impl Fn(Code, Code) -> bool) {
+        // Each cause moves at most once: what it brings about never brings it about.
+        for place in 1..self.findings.len() {
+            let code = self.findings[place].code;
+            let first = self.findings[..place].iter().position(|f| brings_about(code, f.code));
+            if let Some(first) = first {
+                self.findings[first..=place].rotate_right(1);
+            }
+        }
     }
 
     /// Is there nothing worse than a note?

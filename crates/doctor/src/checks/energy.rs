@@ -2,10 +2,14 @@
 
 use crate::look::{About, Findings, Look, Sighting, Words, figure};
 use crate::{Code, Severity};
-use tiny_physics::{Body, BodyKind};
+use tiny_physics::{Body, BodyId, BodyKind};
 
-/// Steps with growing energy before it is a finding.
-const GROWING: u32 = 30;
+/// Steps between two sums.
+const EVERY: u64 = 8;
+/// Most bodies that are summed up.
+const MOST: usize = 512;
+/// Sums with growing energy before it is a finding.
+const GROWING: u32 = 4;
 /// Factor by which kinetic energy has to pass what was there before.
 const FACTOR: f64 = 1.5;
 
@@ -34,11 +38,25 @@ impl Memory {
         (self.least, self.growing, self.peak) = (None, 0, 0.0);
     }
 
-    pub(crate) fn begin(&mut self) {
+    /// Sums up the energy of all bodies now and then, and judges it.
+    pub(crate) fn check(
+        &mut self,
+        look: &Look<'_>,
+        bodies: &[BodyId],
+        driven: bool,
+        findings: &mut Findings,
+    ) {
+        if !look.step.is_multiple_of(EVERY) || bodies.len() > MOST {
+            return;
+        }
         (self.kinetic, self.potential, self.mass, self.moved) = (0.0, 0.0, 0.0, false);
+        for body in bodies.iter().filter_map(|&id| look.world.body(id)) {
+            self.add(look, &body);
+        }
+        self.judge(look, driven, findings);
     }
 
-    pub(crate) fn add(&mut self, look: &Look<'_>, body: &Body<'_>) {
+    fn add(&mut self, look: &Look<'_>, body: &Body<'_>) {
         let velocity = body.velocity();
         if body.kind() != BodyKind::Dynamic {
             self.moved |= velocity.length_sq() > 0.0 || body.angular_velocity() != 0.0;
@@ -55,17 +73,10 @@ impl Memory {
         self.mass += mass;
     }
 
-    /// Judges the sums, where they are those of all bodies.
-    pub(crate) fn end(
-        &mut self,
-        look: &Look<'_>,
-        whole: bool,
-        driven: bool,
-        findings: &mut Findings,
-    ) {
+    fn judge(&mut self, look: &Look<'_>, driven: bool, findings: &mut Findings) {
         let gravity = look.world.gravity;
         let other = self.gravity != [gravity.x, gravity.y] || self.weighed != self.mass;
-        if !whole || driven || self.moved || other {
+        if driven || self.moved || other {
             (self.gravity, self.weighed) = ([gravity.x, gravity.y], self.mass);
             self.reset();
             return;
@@ -97,7 +108,7 @@ impl Memory {
         let pushed = look.world.stats().pushes.saturating_sub(self.pushes);
         let severity = if pushed > 0 { Severity::Note } else { Severity::Warning };
         let seen = Sighting::new(Code::EnergyGain, severity, About::World, figure);
-        let steps = self.growing;
+        let steps = u64::from(self.growing) * EVERY;
         findings.add(look, seen, || Words {
             what: if pushed > 0 {
                 format!("energy has grown by {gain:.1} J in {steps} steps, in which the program pushed {pushed} times")

@@ -8,6 +8,14 @@ use tiny_physics::{BodyId, BodyKind, JointId, JointKind, JointRef, Limits, Motor
 /// Length units and radians of a limit that may be overrun.
 const OVERRUN: [f32; 2] = [0.03, 0.07];
 
+/// Seconds for which a knock may tear a joint apart.
+const LASTING: f32 = 0.4;
+
+/// Hertz of a pin's softness below which it gives way visibly.
+const SOFT: f32 = 30.0;
+/// Parts of the smaller body's size by which a weld made of springs may give way.
+const SAG: f32 = 0.25;
+
 /// What is remembered of joints that look ill.
 #[derive(Default, Debug, Clone)]
 pub(crate) struct Memory {
@@ -21,13 +29,22 @@ pub(crate) struct Memory {
 #[derive(Clone, Copy, Debug, Default)]
 struct Ill {
     apart_since: Option<u64>,
+    /// Did it bear more than its bodies' weight when last seen awake?
+    strained: bool,
+    against_since: Option<u64>,
     over_since: Option<u64>,
     motor_since: Option<u64>,
 }
 
 impl Memory {
-    pub(crate) fn begin_round(&mut self) {
+    pub(crate) fn begin_round(&mut self, look: &Look<'_>) {
         self.driven = core::mem::take(&mut self.driven_now);
+        self.ill.retain(|&id, _| look.world.joint(id).is_some());
+    }
+
+    /// Bytes.
+    pub(crate) fn memory(&self) -> usize {
+        self.ill.len() * size_of::<(JointId, Ill)>()
     }
 }
 
@@ -88,9 +105,11 @@ fn state(look: &Look<'_>, joint: &JointRef<'_>) -> Option<State> {
         JointKind::Prismatic { limits, .. } | JointKind::Wheel { limits, .. } => {
             State { gap: across.abs(), coordinate: Some((along, false)), limits }
         }
-        JointKind::Weld { linear: None, .. } => {
-            State { gap: way.length(), coordinate: None, limits: None }
-        }
+        JointKind::Weld { .. } => State {
+            gap: way.length(),
+            coordinate: Some((frame_b.angle_from(frame_a), true)),
+            limits: None,
+        },
         JointKind::Distance { length, spring: None, limits: None, motor: None } => {
             State { gap: (way.length() - length).abs(), coordinate: None, limits: None }
         }
@@ -108,20 +127,28 @@ pub(crate) fn check(
     findings: &mut Findings,
 ) {
     let kind = &joint.def().kind;
+    if !joint.def().enabled {
+        memory.ill.remove(&joint.id());
+        return;
+    }
     memory.driven_now |= is_driven(kind) || has_spring(kind);
     let Some(state) = state(look, joint) else { return };
     let ends = [joint.bodies().0, joint.bodies().1];
     let awake = ends.iter().filter_map(|&id| look.world.body(id)).any(|body| body.is_awake());
+    let mut ill = memory.ill.get(&joint.id()).copied().unwrap_or_default();
     if !awake {
+        fell_asleep_apart(look, joint, ends, &state, ill, findings);
         memory.ill.remove(&joint.id());
         return;
     }
     check_ratio(look, joint, ends, findings);
-    let mut ill = memory.ill.get(&joint.id()).copied().unwrap_or_default();
-    check_gap(look, joint, ends, &state, &mut ill.apart_since, findings);
+    check_springs(look, joint, ends, &state, &mut ill.apart_since, findings);
+    check_gap(look, joint, ends, &state, &mut ill, findings);
+    check_rival_motor(look, joint, ends, &mut ill.against_since, findings);
     check_limits(look, joint, ends, &state, &mut ill.over_since, findings);
     check_motor(look, joint, ends, &state, &mut ill.motor_since, findings);
-    if ill.apart_since.is_some() || ill.over_since.is_some() || ill.motor_since.is_some() {
+    let since = [ill.apart_since, ill.over_since, ill.motor_since, ill.against_since];
+    if since.iter().any(Option::is_some) {
         memory.ill.insert(joint.id(), ill);
     } else {
         memory.ill.remove(&joint.id());
@@ -143,7 +170,64 @@ fn smaller(look: &Look<'_>, ends: [BodyId; 2]) -> f32 {
     moving.map(|id| 2.0 * size(look, id)).filter(|size| *size > 0.0).fold(f32::INFINITY, f32::min)
 }
 
+/// From which gap on a joint is apart, metres, and what that is told by: the size of the smaller body.
+fn gap_bound(look: &Look<'_>, ends: [BodyId; 2]) -> (f32, f32) {
+    let size = smaller(look, ends);
+    let size = if size.is_finite() { size } else { look.unit };
+    ((0.02 * size).max(0.01 * look.unit), size)
+}
+
 fn check_gap(
+    look: &Look<'_>,
+    joint: &JointRef<'_>,
+    ends: [BodyId; 2],
+    state: &State,
+    ill: &mut Ill,
+    findings: &mut Findings,
+) {
+    if is_sprung(&joint.def().kind) {
+        return;
+    }
+    let (bound, size) = gap_bound(look, ends);
+    if state.gap < bound {
+        ill.apart_since = None;
+        return;
+    }
+    let first = *ill.apart_since.get_or_insert(look.step);
+    let seconds = (look.step - first) as f32 * look.dt;
+    ill.strained = is_strained(look, joint, ends, state);
+    if seconds > 0.75 && ill.strained {
+        report_fight(look, joint, ends, [state.gap, bound], findings);
+    } else if first < look.step && state.gap > (0.03 * size).max(0.02 * look.unit) {
+        // A knock may tear a joint apart for a moment.
+        let lasts = seconds > LASTING || state.gap > 0.5 * size;
+        let severity = if lasts { Severity::Warning } else { Severity::Note };
+        report_stretch(look, joint, ends, [state.gap, bound], severity, findings);
+    }
+}
+
+/// What sleeps bears nothing any more, but it may have fallen asleep while two things tore at it.
+fn fell_asleep_apart(
+    look: &Look<'_>,
+    joint: &JointRef<'_>,
+    ends: [BodyId; 2],
+    state: &State,
+    ill: Ill,
+    findings: &mut Findings,
+) {
+    let (bound, _) = gap_bound(look, ends);
+    if ill.apart_since.is_some() && ill.strained && state.gap > bound {
+        report_fight(look, joint, ends, [state.gap, bound], findings);
+    }
+}
+
+/// Is a joint springy where it would else be rigid?
+fn is_sprung(kind: &JointKind) -> bool {
+    matches!(kind, JointKind::Weld { linear, angular } if linear.is_some() || angular.is_some())
+}
+
+/// A weld made of springs gives way by much.
+fn check_springs(
     look: &Look<'_>,
     joint: &JointRef<'_>,
     ends: [BodyId; 2],
@@ -152,23 +236,74 @@ fn check_gap(
     findings: &mut Findings,
 ) {
     let size = smaller(look, ends);
-    let size = if size.is_finite() { size } else { look.unit };
-    let bound = (0.02 * size).max(0.01 * look.unit);
-    if state.gap < bound {
+    if !is_sprung(&joint.def().kind) || !size.is_finite() {
+        return;
+    }
+    // What it has turned moves the far end of the smaller body.
+    let turned = state.coordinate.map_or(0.0, |(angle, _)| angle.abs() * size);
+    let (gap, bound) = (state.gap.max(turned), SAG * size);
+    if gap < bound {
         *since = None;
         return;
     }
     let first = *since.get_or_insert(look.step);
-    let seconds = (look.step - first) as f32 * look.dt;
-    if seconds > 0.75 && excluded(look, joint, ends) {
-        report_fight(look, joint, ends, [state.gap, bound], findings);
-    } else if first < look.step && state.gap > (0.03 * size).max(0.02 * look.unit) {
-        report_stretch(look, joint, ends, [state.gap, bound], findings);
+    if (look.step - first) as f32 * look.dt > LASTING {
+        report_stretch(look, joint, ends, [gap, bound], Severity::Note, findings);
     }
 }
 
-/// Do its bodies stand still under a load that their weight does not explain?
-fn excluded(look: &Look<'_>, joint: &JointRef<'_>, ends: [BodyId; 2]) -> bool {
+/// Do two motors between the same bodies want different speeds, so that one of them never gets its own?
+fn check_rival_motor(
+    look: &Look<'_>,
+    joint: &JointRef<'_>,
+    ends: [BodyId; 2],
+    since: &mut Option<u64>,
+    findings: &mut Findings,
+) {
+    let works = |joint: &JointRef<'_>| motor(&joint.def().kind).filter(|motor| motor.max > 0.0);
+    let body = ends.iter().filter_map(|&id| look.world.body(id));
+    let rival = works(joint).and_then(|mine| {
+        let mut others = body.flat_map(|body| body.joints()).filter_map(|id| look.world.joint(id));
+        let same = |other: &JointRef<'_>| {
+            let (a, b) = other.bodies();
+            other.id() != joint.id() && ends.contains(&a) && ends.contains(&b)
+        };
+        let differ = |other: &JointRef<'_>| {
+            works(other).is_some_and(|its| (its.speed - mine.speed).abs() > 0.2 * mine.speed.abs())
+        };
+        others.find(|other| same(other) && differ(other)).map(|other| (mine, other))
+    });
+    let Some((mine, rival)) = rival else {
+        *since = None;
+        return;
+    };
+    let seconds = (look.step - *since.get_or_insert(look.step)) as f32 * look.dt;
+    if seconds < 0.75 {
+        return;
+    }
+    let its = works(&rival).map_or(0.0, |motor| motor.speed);
+    let (apart, bound) = ((its - mine.speed).abs(), 0.2 * mine.speed.abs());
+    let figure = figure("speeds apart", apart, bound, "/s");
+    let seen = Sighting::new(Code::JointFight, Severity::Warning, About::Joint(joint.id()), figure);
+    findings.add(look, seen, || Words {
+        what: format!("the motors of {} and {} want different speeds", joint.id(), rival.id()),
+        advice: "leave one of them: two motors between the same bodies only heat each other",
+        bodies: ends.to_vec(),
+        joints: vec![joint.id(), rival.id()],
+        ..Words::default()
+    });
+}
+
+/// Do its bodies stand still under a load that their weight does not explain? A limit that is overrun, and a pin that was made
+/// soft, explain it.
+fn is_strained(look: &Look<'_>, joint: &JointRef<'_>, ends: [BodyId; 2], state: &State) -> bool {
+    let limits = state.limits.zip(state.coordinate);
+    let overrun = limits.is_some_and(|(limits, (at, turns))| {
+        turned(at, turns, limits) > if turns { OVERRUN[1] } else { OVERRUN[0] * look.unit }
+    });
+    if overrun || joint.def().softness.is_some_and(|softness| softness.hertz < SOFT) {
+        return false;
+    }
     let bodies = ends.map(|id| look.world.body(id));
     let still = bodies.iter().flatten().all(|body| {
         body.velocity().length() < 0.2 * look.unit && body.angular_velocity().abs() < 0.5
@@ -213,16 +348,18 @@ fn report_stretch(
     joint: &JointRef<'_>,
     ends: [BodyId; 2],
     [gap, bound]: [f32; 2],
+    severity: Severity,
     findings: &mut Findings,
 ) {
     let figure = figure("apart", gap, bound, " m");
-    let seen =
-        Sighting::new(Code::JointStretch, Severity::Warning, About::Joint(joint.id()), figure);
+    let seen = Sighting::new(Code::JointStretch, severity, About::Joint(joint.id()), figure);
     let masses = ends.map(|id| look.world.body(id).map_or(0.0, |body| body.mass()));
-    let soft = joint.def().softness.is_some_and(|spring| spring.hertz < 30.0);
+    let soft = joint.def().softness.is_some_and(|spring| spring.hertz < SOFT);
     findings.add(look, seen, || Words {
         what: format!("{} is apart by {gap:.3} m", joint.id()),
-        advice: if soft {
+        advice: if is_sprung(&joint.def().kind) {
+            "the spring of the weld is too soft for its load: raise its hertz, or leave it out"
+        } else if soft {
             "its softness makes it give way: leave it out, or raise its hertz"
         } else if masses[0].min(masses[1]) > 0.0
             && masses[0].max(masses[1]) > 20.0 * masses[0].min(masses[1])

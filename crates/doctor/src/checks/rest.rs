@@ -1,7 +1,8 @@
 //! Bodies that should be at rest: jitter, and what keeps them awake.
 
+use crate::finding::Figure;
 use crate::look::{About, Findings, Look, Sighting, Touch, Words, figure};
-use crate::track::{SHAKING, Track};
+use crate::track::{SHAKING, Track, VISIBLE};
 use crate::{Code, Severity};
 use tiny_physics::{Body, BodyKind, JointRef};
 
@@ -13,16 +14,23 @@ const AWAKE: f32 = 5.0;
 const WAKINGS: u32 = 10;
 
 /// Does a body call for a thorough look?
-pub(crate) fn calls(look: &Look<'_>, before: &Track, track: &Track) -> bool {
-    let change = (track.velocity - before.velocity).length();
-    let hit = change > 1.0 * look.unit + 3.0 * look.world.gravity.length() * look.dt;
-    let turn = (look.step + track.id.index() as u64).is_multiple_of(4);
-    let falling = track.free > 0.2 && track.velocity.length() > 1.0 * look.unit;
-    let shaking = track.shaking > JITTER;
-    let deep = track.deep_since.is_some();
+pub(crate) fn calls(look: &Look<'_>, body: &Body<'_>, track: &Track) -> bool {
+    let bound = 1.0 * look.unit + 3.0 * look.pull * look.dt;
+    if (track.velocity - track.before).length_sq() > bound * bound {
+        return true;
+    }
+    let turn = look.step + track.id.index() as u64;
+    if !turn.is_multiple_of(4) {
+        return false;
+    }
     let young = look.step - track.since < 6;
-    let restless = track.still > AWAKE && (look.step + track.id.index() as u64).is_multiple_of(32);
-    hit || turn && (falling || shaking || deep || young) || restless
+    let falling = track.free > 0.2 && track.velocity.length_sq() > look.unit * look.unit;
+    let restless = track.still > AWAKE && turn.is_multiple_of(32);
+    track.shaking > JITTER
+        || track.deep_since.is_some()
+        || young
+        || restless
+        || falling && body.joints().next().is_none()
 }
 
 pub(crate) fn check(
@@ -61,7 +69,10 @@ fn jitter(
     findings: &mut Findings,
 ) {
     let figure = figure("speed at rest", track.speed, SHAKING * look.unit, " m/s");
-    let seen = Sighting::new(Code::Jitter, Severity::Warning, About::Body(track.id), figure);
+    // A pile that settles may shake for a while.
+    let lasts = track.shaking > 2.0 * JITTER;
+    let severity = if lasts { Severity::Warning } else { Severity::Note };
+    let seen = Sighting::new(Code::Jitter, severity, About::Body(track.id), figure);
     let motor = motor_of(look, body);
     findings.add(look, seen, || {
         let (why, advice) = if let Some(joint) = &motor {
@@ -79,10 +90,15 @@ fn jitter(
             what: format!("{} is at rest and yet shakes at {:.2} m/s{why}", track.id, track.speed),
             advice,
             bodies: vec![track.id],
+            figures: vec![stroke(look, track)],
             joints: motor.iter().map(|joint| joint.id()).collect(),
             ..Words::default()
         }
     });
+}
+
+fn stroke(look: &Look<'_>, track: &Track) -> Figure {
+    figure("to and fro by", track.stroke(look), VISIBLE * look.unit, " m")
 }
 
 fn never_sleeps(

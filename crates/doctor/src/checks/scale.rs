@@ -3,7 +3,7 @@
 use crate::look::{About, Findings, Look, Sighting, Words, figure};
 use crate::track::Track;
 use crate::{Code, Severity};
-use tiny_physics::{Body, BodyId, BodyKind, JointId, World};
+use tiny_physics::{Body, BodyId, BodyKind, JointId};
 
 /// Length units.
 const SMALLEST: f32 = 0.02;
@@ -48,21 +48,14 @@ pub(crate) fn check_all<'a>(
     tracks: impl Iterator<Item = &'a Track>,
     findings: &mut Findings,
 ) {
-    let (mut sizes, mut stuff) = (Vec::new(), Vec::new());
-    for track in tracks {
-        let Some(body) = look.world.body(track.id) else { continue };
-        if body.kind() == BodyKind::Dynamic && track.size > 0.0 {
-            sizes.push((2.0 * track.size / look.unit, track.id));
-            stuff.extend(density(look.world, &body).map(|density| (density, track.id)));
-        }
-    }
+    let tracks = tracks.filter(|track| track.size > 0.0 && track.density > 0.0);
+    let (mut sizes, mut stuff): (Vec<_>, Vec<_>) = tracks
+        .map(|track| ((2.0 * track.size / look.unit, track.id), (track.density, track.id)))
+        .unzip();
     if sizes.is_empty() {
         return;
     }
-    sizes.sort_by(|a, b| a.0.total_cmp(&b.0));
-    stuff.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let (smallest, largest) = (sizes[0], sizes[sizes.len() - 1]);
-    let median = sizes[sizes.len() / 2].0;
+    let ([smallest, (median, _), largest], thick) = (spread(&mut sizes), spread(&mut stuff));
     if look.unit == 1.0 && median > LIKE_PIXELS {
         let seen = Sighting::new(
             Code::Size,
@@ -94,16 +87,29 @@ pub(crate) fn check_all<'a>(
             ..Words::default()
         });
     }
-    check_density(look, &stuff, findings);
+    check_density(look, stuff.len(), thick, findings);
 }
 
-fn check_density(look: &Look<'_>, stuff: &[(f32, BodyId)], findings: &mut Findings) {
-    if stuff.len() < 2 {
+/// The least, the middle one, and the greatest. Of two, the lesser counts as the middle one.
+fn spread(items: &mut [(f32, BodyId)]) -> [(f32, BodyId); 3] {
+    let by_size = |a: &(f32, BodyId), b: &(f32, BodyId)| a.0.total_cmp(&b.0);
+    let middle = (items.len() - 1) / 2;
+    let (below, &mut middle, above) = items.select_nth_unstable_by(middle, by_size);
+    let least = below.iter().copied().min_by(by_size).unwrap_or(middle);
+    let greatest = above.iter().copied().max_by(by_size).unwrap_or(middle);
+    [least, middle, greatest]
+}
+
+fn check_density(
+    look: &Look<'_>,
+    count: usize,
+    [least, (median, _), greatest]: [(f32, BodyId); 3],
+    findings: &mut Findings,
+) {
+    if count < 2 {
         return;
     }
-    // Of two, each is as usual as the other: the lighter counts as usual.
-    let median = stuff[(stuff.len() - 1) / 2].0;
-    for &(density, id) in [stuff[0], stuff[stuff.len() - 1]].iter() {
+    for (density, id) in [least, greatest] {
         let factor = if density > median { density / median } else { median / density };
         if factor < ODD_DENSITY {
             continue;
@@ -117,12 +123,6 @@ fn check_density(look: &Look<'_>, stuff: &[(f32, BodyId)], findings: &mut Findin
             ..Words::default()
         });
     }
-}
-
-fn density(world: &World, body: &Body<'_>) -> Option<f32> {
-    let solid = body.shapes().filter_map(|id| world.shape(id)).filter(|shape| !shape.is_sensor());
-    let area: f32 = solid.map(|shape| shape.shape().area()).sum();
-    (area > 0.0 && body.mass() > 0.0).then(|| body.mass() / area)
 }
 
 /// A light body that carries a heavy one.

@@ -3,7 +3,7 @@
 use crate::look::{About, Findings, Look, Sighting, Words, figure};
 use crate::track::Track;
 use crate::{Code, Severity};
-use tiny_physics::{Body, BodyId, BodyKind, Shape};
+use tiny_physics::{Body, BodyKind, Shape, ShapeRef};
 
 /// Contacts on one body.
 const HUB: usize = 200;
@@ -11,6 +11,11 @@ const HUB: usize = 200;
 const SINGLES: usize = 2000;
 /// Sensors that see others.
 const SENSORS: usize = 400;
+/// Shapes that all sensors together see.
+const SEEN: usize = 3000;
+/// Times that a contact is solved in a step, and bodies that are few enough for any number.
+const ROUNDS: usize = 50;
+const FEW: usize = 50;
 /// Bodies awake in a debug build.
 const DEBUG: usize = 300;
 /// Bodies awake that have stayed in their place.
@@ -25,19 +30,20 @@ pub(crate) struct Memory {
 }
 
 impl Memory {
-    pub(crate) fn check(
+    pub(crate) fn check<'a>(
         &mut self,
         look: &Look<'_>,
-        round: &[BodyId],
-        tracks: &[Option<Track>],
+        tracks: impl Iterator<Item = &'a Track>,
         findings: &mut Findings,
     ) {
         check_debug(look, findings);
-        check_awake(look, round, tracks, findings);
+        check_rounds(look, findings);
+        check_sight(look, findings);
+        check_awake(look, tracks, findings);
         let counts = (look.world.body_count(), look.world.shape_count());
         if counts != (self.bodies, self.shapes) {
             (self.bodies, self.shapes) = counts;
-            check_singles(look, round, findings);
+            check_singles(look, findings);
             check_shapes(look, findings);
         }
     }
@@ -71,14 +77,45 @@ fn check_debug(look: &Look<'_>, findings: &mut Findings) {
     }
 }
 
-fn check_awake(
+/// Is each contact solved again and again?
+fn check_rounds(look: &Look<'_>, findings: &mut Findings) {
+    let settings = &look.world.settings;
+    let rounds = settings.substeps as usize * settings.iterations as usize;
+    let awake = look.world.awake_body_count();
+    if rounds > ROUNDS && awake > FEW {
+        let advice = "go back to 4 substeps of 1 iteration; islands that need more get more by Settings::refine_up_to";
+        let what = format!(
+            "{} substeps of {} iterations solve every contact {rounds} times a step",
+            settings.substeps, settings.iterations
+        );
+        report(look, About::World, Severity::Note, [rounds, ROUNDS], what, advice, findings);
+    }
+}
+
+/// Do sensors see very many shapes?
+fn check_sight(look: &Look<'_>, findings: &mut Findings) {
+    let sensors = look.world.shapes().filter(ShapeRef::is_sensor).take(SENSORS);
+    let (mut seen, mut most) = (0, (0, None));
+    for sensor in sensors {
+        let count = look.world.sensor_overlaps(sensor.id()).count();
+        seen += count;
+        if count > most.0 {
+            most = (count, Some(sensor.id()));
+        }
+    }
+    let Some(widest) = most.1.filter(|_| seen > SEEN) else { return };
+    let advice =
+        "make sensors smaller or give them masks; ask for distance where one question is enough";
+    let what = format!("sensors overlap {seen} shapes in all, {widest} alone {}", most.0);
+    report(look, About::World, Severity::Note, [seen, SEEN], what, advice, findings);
+}
+
+fn check_awake<'a>(
     look: &Look<'_>,
-    round: &[BodyId],
-    tracks: &[Option<Track>],
+    tracks: impl Iterator<Item = &'a Track>,
     findings: &mut Findings,
 ) {
-    let of = |id: &BodyId| tracks.get(id.index())?.as_ref();
-    let awake = round.iter().filter_map(of).filter(|track| track.still > 10.0).count();
+    let awake = tracks.filter(|track| track.still > 10.0).count();
     if awake > AWAKE {
         let advice =
             "turn Settings::sleep on and can_sleep; see what the finding never_sleeps says";
@@ -87,10 +124,10 @@ fn check_awake(
     }
 }
 
-fn check_singles(look: &Look<'_>, round: &[BodyId], findings: &mut Findings) {
-    let fixed = round
-        .iter()
-        .filter_map(|&id| look.world.body(id))
+fn check_singles(look: &Look<'_>, findings: &mut Findings) {
+    let fixed = look
+        .world
+        .bodies()
         .filter(|body| body.kind() == BodyKind::Static && body.shapes().take(2).count() == 1);
     let count = fixed.count();
     if count > SINGLES {

@@ -7,39 +7,56 @@ use crate::{Code, Severity};
 const REMEMBERED: usize = 64;
 /// Seconds.
 const TOO_LONG: f32 = 1.0 / 29.0;
+/// Seconds: milliseconds given for seconds, or a clock that stood still.
+const ABSURD: f32 = 0.5;
 
 #[derive(Default, Debug, Clone)]
 pub(crate) struct Memory {
     lengths: Vec<f32>,
     next: usize,
     refused: u64,
+    stale: u64,
 }
 
 impl Memory {
-    pub(crate) fn check(&mut self, look: &Look<'_>, findings: &mut Findings) {
-        self.check_length(look, findings);
-        self.check_refused(look, findings);
+    /// Bytes.
+    pub(crate) fn memory(&self) -> usize {
+        self.lengths.capacity() * size_of::<f32>()
     }
 
-    fn check_length(&mut self, look: &Look<'_>, findings: &mut Findings) {
-        if look.dt > TOO_LONG {
-            let figure = figure("step", look.dt, TOO_LONG, " s");
-            let seen = Sighting::new(Code::StepTooLong, Severity::Warning, About::World, figure);
-            findings.add(look, seen, || Words {
-                what: format!("a step is {:.4} s long: contacts and joints get soft, fast bodies skip far", look.dt),
-                advice: "step by 1/60 s or less; FixedStep turns the time of a frame into whole steps",
-                ..Words::default()
-            });
-        }
+    pub(crate) fn check_length(&mut self, look: &Look<'_>, findings: &mut Findings) {
         if self.lengths.len() < REMEMBERED {
             self.lengths.push(look.dt);
-            return;
+        } else {
+            self.lengths[self.next] = look.dt;
+            self.next = (self.next + 1) % REMEMBERED;
+            if self.next == 0 {
+                self.check_variety(look, findings);
+            }
         }
-        self.lengths[self.next] = look.dt;
-        self.next = (self.next + 1) % REMEMBERED;
-        if self.next == 0 {
-            self.check_variety(look, findings);
+        if look.dt > TOO_LONG {
+            self.report_long(look, findings);
         }
+    }
+
+    fn report_long(&self, look: &Look<'_>, findings: &mut Findings) {
+        let long = self.lengths.iter().filter(|dt| **dt > TOO_LONG).count();
+        // Few among many are hitches; from somewhere on nothing holds together.
+        let severity = match () {
+            () if 2 * long < self.lengths.len() => Severity::Note,
+            () if look.dt > ABSURD => Severity::Error,
+            () => Severity::Warning,
+        };
+        let figure = figure("step", look.dt, TOO_LONG, " s");
+        let seen = Sighting::new(Code::StepTooLong, severity, About::World, figure);
+        findings.add(look, seen, || Words {
+            what: format!(
+                "a step is {:.4} s long: contacts and joints get soft, fast bodies skip far",
+                look.dt
+            ),
+            advice: "step by 1/60 s or less; FixedStep turns the time of a frame into whole steps",
+            ..Words::default()
+        });
     }
 
     fn check_variety(&self, look: &Look<'_>, findings: &mut Findings) {
@@ -63,7 +80,7 @@ impl Memory {
         }
     }
 
-    fn check_refused(&mut self, look: &Look<'_>, findings: &mut Findings) {
+    pub(crate) fn check_refused(&mut self, look: &Look<'_>, findings: &mut Findings) {
         let stats = look.world.stats();
         let refused = stats.refused_steps + stats.refused_numbers;
         let new = refused.saturating_sub(self.refused);
@@ -74,6 +91,20 @@ impl Memory {
             findings.add(look, seen, || Words {
                 what: format!("{refused} calls did nothing because a number was not finite or out of range"),
                 advice: "use the try_ calls or check your numbers: a NaN often comes from dividing by a length of zero",
+                ..Words::default()
+            });
+        }
+        let stale = stats.stale_handles.saturating_sub(self.stale);
+        self.stale = stats.stale_handles;
+        if stale > 0 {
+            let figure = figure("stale handles", stats.stale_handles as f32, 0.0, "");
+            let seen = Sighting::new(Code::RefusedInput, Severity::Note, About::World, figure);
+            findings.add(look, seen, || Words {
+                what: format!(
+                    "bodies or shapes that are gone were to be changed, {} times",
+                    stats.stale_handles
+                ),
+                advice: "drop handles of what you remove; Events tell what went",
                 ..Words::default()
             });
         }

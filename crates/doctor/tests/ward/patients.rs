@@ -275,7 +275,7 @@ fn pushed_swing() -> Case {
     let mut world = earth();
     let nail = add(&mut world, RigidBody::fixed());
     let seat = add(&mut world, thing(Shape::circle(0.2).unwrap(), 0.3, -3.0));
-    let hinge = JointDef::revolute().anchors(Vec2::ZERO, Vec2::new(0.0, 3.0));
+    let hinge = JointDef::revolute().anchors(Vec2::ZERO, Vec2::new(-0.3, 3.0));
     world.add_joint(nail, seat, hinge).unwrap();
     with(world, move |world, _| {
         let mut seat = world.body_mut(seat).unwrap();
