@@ -3,6 +3,7 @@
 use crate::args::Overlay;
 use crate::simulation::{Framing, Simulation};
 use tiny_physics::{DVec2, DebugDraw, DebugDrawOptions, Layer, World};
+use tiny_physics_doctor::Finding;
 use tiny_physics_draw::{Camera, Canvas};
 
 /// What a picture shows besides bodies.
@@ -131,9 +132,13 @@ pub fn draw_world(
     }
 }
 
-fn status_lines(simulation: &Simulation, note: &str) -> [String; 3] {
+/// Steps for which a finding stays in the status.
+const SHOWN: u64 = 120;
+
+/// The lines of the status: what the doctor found last is the last one.
+pub fn status_lines(simulation: &Simulation, note: &str) -> Vec<String> {
     let (status, world) = (simulation.status(), simulation.world());
-    [
+    let mut lines = vec![
         format!("{}   frame {}{note}", simulation.scene().name, status.frame),
         format!(
             "bodies {} ({} of {} awake)   contacts {}   joints {}",
@@ -144,5 +149,8 @@ fn status_lines(simulation: &Simulation, note: &str) -> [String; 3] {
             world.joint_count()
         ),
         format!("deepest penetration {:.2} mm", status.deepest * 1000.0),
-    ]
+    ];
+    let found = simulation.doctor().and_then(|doctor| doctor.latest(SHOWN));
+    lines.extend(found.map(Finding::line));
+    lines
 }

@@ -6,6 +6,7 @@ use core::fmt;
 use std::time::{Duration, Instant};
 use tiny_physics::record::Command;
 use tiny_physics::{Aabb, BodyKind, DVec2, Pose, Rot, Vec2, World};
+use tiny_physics_doctor::Doctor;
 use tiny_physics_scenes::{Grip, PausedScript, Run, Scene, Tape};
 
 /// A scene, its world, and a body that the mouse may hold.
@@ -14,6 +15,7 @@ pub struct Simulation {
     how: WorldArgs,
     run: Course,
     held: Option<Grip>,
+    doctor: Option<Box<Doctor>>,
 }
 
 /// How the scene runs.
@@ -99,7 +101,13 @@ impl Simulation {
         scene.check()?;
         let mut run = Run::start(&scene)?;
         Self::equip(run.world_mut(), how)?;
-        Ok(Self { scene, how: how.clone(), run: Course::Once(Box::new(run)), held: None })
+        Ok(Self {
+            scene,
+            how: how.clone(),
+            run: Course::Once(Box::new(run)),
+            held: None,
+            doctor: None,
+        })
     }
 
     /// The same, so that one can go back in the run.
@@ -112,7 +120,13 @@ impl Simulation {
         Self::equip(&mut world, how)?;
         let script = scene.script.is_some().then_some(script);
         let tape = Tape::of_world(world, script, scene.dt, MEMORY);
-        Ok(Self { scene, how: how.clone(), run: Course::Kept(Box::new(tape)), held: None })
+        Ok(Self {
+            scene,
+            how: how.clone(),
+            run: Course::Kept(Box::new(tape)),
+            held: None,
+            doctor: None,
+        })
     }
 
     fn equip(world: &mut World, how: &WorldArgs) -> Outcome {
@@ -124,6 +138,17 @@ impl Simulation {
         Ok(())
     }
 
+    /// Lets the doctor watch each step from now on.
+    pub fn watched(mut self) -> Self {
+        self.doctor = Some(Box::default());
+        self
+    }
+
+    /// The doctor, if there is one.
+    pub fn doctor(&self) -> Option<&Doctor> {
+        self.doctor.as_deref()
+    }
+
     /// Back to the start.
     ///
     /// # Errors
@@ -133,7 +158,8 @@ impl Simulation {
             Course::Once(_) => Self::new,
             Course::Kept(_) => Self::kept,
         };
-        *self = begin(self.scene.clone(), &self.how)?;
+        let again = begin(self.scene.clone(), &self.how)?;
+        *self = if self.doctor.is_some() { again.watched() } else { again };
         Ok(())
     }
 
@@ -148,6 +174,9 @@ impl Simulation {
                     tape.step();
                 }
             }
+        }
+        if let Some(doctor) = &mut self.doctor {
+            doctor.watch(self.run.world());
         }
     }
 

@@ -86,6 +86,7 @@ fn the_report_has_its_fields_and_no_others() {
         "max_penetration_m",
         "kinetic_energy_j",
         "hash",
+        "findings",
     ];
     expected.sort_unstable();
     assert_eq!(names, expected);
@@ -97,6 +98,15 @@ fn the_report_has_its_fields_and_no_others() {
     assert_eq!(report["bodies"], 24);
     let hash = report["hash"].as_str().unwrap();
     assert!(hash.len() == 16 && hash.chars().all(|c| c.is_ascii_hexdigit()), "{hash}");
+}
+
+#[test]
+fn a_run_ends_with_what_the_doctor_says() {
+    let out = good(&["run", "bowl", "--steps", "30"]);
+    assert!(out.contains("\ndoctor       warning: overlap_at_start: body "), "{out}");
+    let json = good(&["run", "bowl", "--steps", "30", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["findings"][0]["code"], "overlap_at_start");
 }
 
 #[test]

@@ -56,9 +56,14 @@ impl Doctor {
         Self::default()
     }
 
-    /// Looks at a world that has just been stepped. Where it has not been, sees only whether a step was refused.
+    /// Looks at a world that has just been stepped. Where it has not been, sees only whether a step was refused. A world that
+    /// has gone back (to a saved frame) is looked at anew; what was found stays.
     pub fn watch(&mut self, world: &World) {
         let look = Look::new(world);
+        if self.last_step.is_some_and(|last| look.step < last) {
+            let findings = core::mem::take(&mut self.findings);
+            *self = Self { findings, steps: self.steps, ..Self::default() };
+        }
         self.time.check_refused(&look, &mut self.findings);
         if self.last_step == Some(look.step) || look.step == 0 {
             return;
@@ -82,9 +87,10 @@ impl Doctor {
         self.findings.report(self.steps, self.bodies)
     }
 
-    /// What was seen last; of several the worst. For a line on a screen.
-    pub fn latest(&self) -> Option<&Finding> {
-        self.findings.latest()
+    /// What was seen last, and in the last `steps` steps; of several the worst. For a line on a screen.
+    pub fn latest(&self, steps: u64) -> Option<&Finding> {
+        let now = self.last_step?;
+        self.findings.latest().filter(|finding| finding.last_step + steps > now)
     }
 
     /// Bytes that the doctor holds: by the number of bodies and joints that the world has had at once, whatever the number

@@ -90,6 +90,14 @@ pub struct Finding {
 }
 
 impl Finding {
+    /// Severity, code and sentence: all that fits into a line.
+    pub fn line(&self) -> String {
+        let Self { severity, code, what, others, .. } = self;
+        let more =
+            if *others > 0 { format!(" (and {others} more like it)") } else { String::new() };
+        format!("{}: {code}: {what}{more}", severity.name())
+    }
+
     /// Are both about one body?
     pub(crate) fn shares_with(&self, other: &Self) -> bool {
         self.bodies.iter().any(|who| other.bodies.iter().any(|its| its.id == who.id))
@@ -116,14 +124,13 @@ impl Finding {
 
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}: {}", self.severity.name(), self.code, self.what)?;
-        if self.others > 0 {
-            write!(f, " (and {} more like it)", self.others)?;
-        }
         write!(
             f,
-            "\n    steps {} to {}, seen {} times",
-            self.first_step, self.last_step, self.count
+            "{}\n    steps {} to {}, seen {} times",
+            self.line(),
+            self.first_step,
+            self.last_step,
+            self.count
         )?;
         for figure in &self.figures {
             write!(f, "; {figure}")?;

@@ -191,6 +191,25 @@ fn memory_after(steps: u32) -> [usize; 2] {
 }
 
 #[test]
+fn a_world_that_goes_back_is_watched_on() {
+    let scene = find("bowl").unwrap().build(Options::default());
+    let mut run = Run::start(&scene).unwrap();
+    let mut doctor = Doctor::new();
+    let frame = run.world().to_bytes();
+    for _ in 0..3 {
+        for _ in 0..40 {
+            run.step();
+            doctor.watch(run.world());
+        }
+        run.world_mut().restore_bytes(&frame).unwrap();
+    }
+    let report = doctor.report();
+    assert_eq!(report.steps, 120);
+    assert_eq!(report.findings[0].code, Code::OverlapAtStart);
+    assert!(doctor.latest(60).is_some());
+}
+
+#[test]
 fn memory_stays_bounded() {
     let [early, late] = memory_after(3_000);
     assert!(late <= early + early / 10 && late < 200_000, "{early} bytes, then {late}");

@@ -1,4 +1,4 @@
-//! `run`: a scene as fast as it goes, and what came of it.
+//! `run`: a scene as fast as it goes, what came of it, and what the doctor says of it.
 
 use crate::args::RunArgs;
 use crate::failure::Outcome;
@@ -9,6 +9,7 @@ use serde::{Serialize, Serializer};
 use std::io::{IsTerminal, Write, stderr, stdout};
 use std::time::{Duration, Instant};
 use tiny_physics::Stage;
+use tiny_physics_doctor::{Doctor, Finding};
 
 /// The report, with the names of its JSON form.
 #[derive(Serialize, Debug)]
@@ -28,6 +29,7 @@ struct Report {
     max_penetration_m: f32,
     kinetic_energy_j: f64,
     hash: String,
+    findings: Vec<Finding>,
 }
 
 /// Milliseconds a step over a run.
@@ -62,10 +64,12 @@ fn measure(simulation: &mut Simulation, steps: u32) -> Report {
     let progress = Progress::new(steps);
     let mut step_ms = Vec::with_capacity(steps as usize);
     let mut stages = [0.0; Stage::ALL.len()];
+    let mut doctor = Doctor::new();
     for step in 0..steps {
         let start = Instant::now();
         simulation.step();
         step_ms.push(start.elapsed().as_secs_f64() * 1000.0);
+        doctor.watch(simulation.world());
         let stats = simulation.world().stats();
         for (sum, stage) in stages.iter_mut().zip(Stage::ALL) {
             *sum += stats.seconds(stage) * 1000.0;
@@ -79,6 +83,7 @@ fn measure(simulation: &mut Simulation, steps: u32) -> Report {
         steps,
         Times::of(step_ms),
         stages.into_iter().zip(Stage::ALL).map(mean).collect(),
+        doctor.report().findings,
     )
 }
 
@@ -87,6 +92,7 @@ fn report(
     steps: u32,
     ms_per_step: Times,
     stage_ms: Vec<(&'static str, f64)>,
+    findings: Vec<Finding>,
 ) -> Report {
     let world = simulation.world();
     Report {
@@ -105,6 +111,7 @@ fn report(
         max_penetration_m: world.max_penetration() + 0.0,
         kinetic_energy_j: world.kinetic_energy(),
         hash: format!("{:016x}", world.state_hash()),
+        findings,
     }
 }
 
@@ -142,6 +149,9 @@ fn print_table(out: &mut impl Write, report: &Report) -> Outcome {
     }
     writeln!(out, "penetration  {:.3} mm at most", report.max_penetration_m * 1000.0)?;
     writeln!(out, "energy       {:.6} J kinetic", report.kinetic_energy_j)?;
+    for finding in &report.findings {
+        writeln!(out, "doctor       {}", finding.line())?;
+    }
     writeln!(out, "hash         {}", report.hash)?;
     Ok(())
 }

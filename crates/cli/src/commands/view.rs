@@ -89,7 +89,7 @@ struct Viewer {
 impl Viewer {
     fn new(args: &ViewArgs) -> Outcome<Self> {
         let scene = source::open(&args.scene, args.world.seed)?;
-        let simulation = Simulation::kept(scene, &args.world)?;
+        let simulation = Simulation::kept(scene, &args.world)?.watched();
         Ok(Self {
             how: args.world.clone(),
             eye: Follower::on(&simulation, args.size.0, args.size.1),
@@ -207,7 +207,7 @@ impl Viewer {
             None => 0,
         };
         let scene = source::open(scenes[next].name, self.how.seed)?;
-        self.simulation = Simulation::kept(scene, &self.how)?;
+        self.simulation = Simulation::kept(scene, &self.how)?.watched();
         self.clock = FixedStep::new(self.simulation.dt());
         self.fit();
         Ok(true)
@@ -282,6 +282,19 @@ mod tests {
         assert_eq!(viewer.simulation.status().frame, 0);
         press(&mut viewer, Key::Char('q'));
         assert!(viewer.quit);
+    }
+
+    #[test]
+    fn the_status_shows_what_the_doctor_found_last() {
+        let world = WorldArgs { seed: 1, threads: 1, simd: None };
+        let args = ViewArgs { scene: "bowl".into(), size: (320, 200), paused: true, world };
+        let mut viewer = Viewer::new(&args).unwrap();
+        let last = |viewer: &Viewer| picture::status_lines(&viewer.simulation, "").pop().unwrap();
+        assert!(last(&viewer).starts_with("deepest"));
+        press(&mut viewer, Key::Right);
+        assert!(last(&viewer).starts_with("warning: overlap_at_start"), "{}", last(&viewer));
+        press(&mut viewer, Key::Char('r'));
+        assert!(last(&viewer).starts_with("deepest"));
     }
 
     #[test]
