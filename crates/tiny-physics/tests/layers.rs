@@ -199,6 +199,26 @@ fn the_engine_keeps_the_rules_of_the_house() {
     assert!(violations.is_empty(), "\n{}\n", violations.join("\n"));
 }
 
+/// Files that the page names, by their paths below `src`.
+fn named_files(page: &str) -> Vec<&str> {
+    let quoted = page.split('`').skip(1).step_by(2);
+    quoted.filter(|name| name.ends_with(".rs") && name.contains('/')).collect()
+}
+
+#[test]
+fn files_that_the_architecture_names_are_there() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    for page in ["ARCHITECTURE.md", "CONTRIBUTING.md"] {
+        let text = std::fs::read_to_string(root.join("../..").join(page)).expect("a page");
+        let files = named_files(&text);
+        assert!(files.len() > 10, "{page} names only {files:?}");
+        let places = ["src", ".", "../.."].map(|place| root.join(place));
+        let there = |file: &&str| places.iter().any(|place| place.join(file).exists());
+        let gone: Vec<_> = files.into_iter().filter(|file| !there(file)).collect();
+        assert!(gone.is_empty(), "{page} names files that are not there: {gone:?}");
+    }
+}
+
 #[test]
 fn every_module_of_the_crate_has_a_layer() {
     for source in sources().iter().filter(|source| source.module() != "lib") {

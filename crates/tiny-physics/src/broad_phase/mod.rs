@@ -29,8 +29,8 @@
 //! tenth over SSE2: what costs is branches that cannot be predicted (draining hits without them
 //! took a third off) and memory.
 
-mod boxes;
 mod cast;
+mod node_boxes;
 mod proxies;
 mod stack;
 mod tree;

@@ -7,7 +7,7 @@
 //! Invariants: a proxy is in the tree of its kind under its own number; it is flagged as moved
 //! exactly when it is in the buffer; nodes hold the fat boxes below them.
 
-use super::boxes::WIDTH;
+use super::node_boxes::WIDTH;
 use super::{BoxCast, DynamicTree, clamped, sort_pairs};
 use crate::codec::{Data, Reader, Sink, bad, data_enum, record, store};
 use crate::error::Error;

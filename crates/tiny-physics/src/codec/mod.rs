@@ -16,7 +16,7 @@ mod store;
 
 pub(crate) use bytes::{Reader, Sink};
 pub(crate) use hash::hash_bytes;
-pub(crate) use store::{Serial, clone_by_field, data, data_enum, field, holds, record, store};
+pub(crate) use store::{Generations, clone_by_field, data, data_enum, field, holds, record, store};
 
 use crate::error::Error;
 use crate::footprint::MemoryUse;

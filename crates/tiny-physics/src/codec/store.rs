@@ -190,9 +190,9 @@ pub(crate) const fn holds<S, T: Data>(_: fn(&S) -> &T) -> bool {
 /// in the time that was undone never means something else. It is no part of the state: it is not
 /// hashed and does not make two worlds differ.
 #[derive(Debug, Default)]
-pub(crate) struct Serial(u32);
+pub(crate) struct Generations(u32);
 
-impl Serial {
+impl Generations {
     /// The generation of a new record.
     pub(crate) fn next(&mut self) -> u32 {
         self.0 = self.0.wrapping_add(1);
@@ -200,7 +200,7 @@ impl Serial {
     }
 }
 
-impl Data for Serial {
+impl Data for Generations {
     fn save(&self, sink: &mut Sink) {
         sink.apart(self.0);
     }
@@ -209,7 +209,7 @@ impl Data for Serial {
     }
 }
 
-impl Clone for Serial {
+impl Clone for Generations {
     fn clone(&self) -> Self {
         Self(self.0)
     }
@@ -222,7 +222,7 @@ impl Clone for Serial {
     }
 }
 
-impl PartialEq for Serial {
+impl PartialEq for Generations {
     fn eq(&self, _: &Self) -> bool {
         true
     }

@@ -1,7 +1,7 @@
 //! Bodies: hot rows for the solver, poses, and everything else.
 
 use super::pace::PLAIN;
-use crate::codec::{Serial, record, store};
+use crate::codec::{Generations, record, store};
 use crate::describe::{BodyKind, Locks};
 use crate::error::Error;
 use crate::math::{DVec2, Pose, Rot, Vec2};
@@ -152,7 +152,7 @@ store! {
         pub(crate) count: usize,
         /// Bodies of another pace than the plain one, sleeping ones too.
         pub(crate) refined: usize,
-        serial: Serial,
+        generations: Generations,
     }
     load with Bodies::settle
 }
@@ -179,7 +179,7 @@ impl Bodies {
             free: Vec::new(),
             count: 0,
             refined: 0,
-            serial: Serial::default(),
+            generations: Generations::default(),
         }
     }
 
@@ -197,7 +197,7 @@ impl Bodies {
     pub(crate) fn insert(&mut self, mut info: BodyInfo, pose: Pose) -> u32 {
         self.count += 1;
         info.alive = true;
-        info.generation = self.serial.next();
+        info.generation = self.generations.next();
         if let Some(index) = self.free.pop() {
             let i = index as usize;
             self.infos[i] = info;

@@ -3,7 +3,7 @@
 use super::bodies::{Bodies, NULL};
 use super::edges::{self, edges};
 use super::joint_blocks::{Impulses, JointClass};
-use crate::codec::{Serial, data_enum, record, store};
+use crate::codec::{Generations, data_enum, record, store};
 use crate::describe::JointDef;
 use crate::math::Vec2;
 
@@ -86,7 +86,7 @@ store! {
         pub(crate) breakable: Vec<u32>,
         pub(crate) free: Vec<u32>,
         pub(crate) count: usize,
-        serial: Serial,
+        generations: Generations,
     }
 }
 
@@ -105,7 +105,7 @@ impl Joints {
     pub(crate) fn insert(&mut self, bodies: &mut Bodies, mut record: JointRecord) -> u32 {
         self.count += 1;
         record.alive = true;
-        record.generation = self.serial.next();
+        record.generation = self.generations.next();
         let index = if let Some(index) = self.free.pop() {
             self.records[index as usize] = record;
             index

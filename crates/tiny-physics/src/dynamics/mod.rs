@@ -40,7 +40,7 @@ pub(crate) use joint_graph::{JointBlocks, JointBucket, JointColour, JointGraph, 
 pub(crate) use joints::{JointLoad, JointPlace, JointRecord, Joints};
 pub(crate) use pace::{JOINTED, PACES, PLAIN, REFINEMENT, ROUNDS};
 #[cfg(test)]
-use schedule::Stage;
+use schedule::PlaceRuns;
 pub(crate) use schedule::{Run, Schedule};
 pub(crate) use sensors::{Overlap, Sensors};
 pub(crate) use shapes::{ShapeRecord, Shapes, guard};

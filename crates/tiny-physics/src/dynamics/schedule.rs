@@ -21,7 +21,7 @@ pub(crate) struct Run {
 /// The runs of one place, which are worked on at the same time: no two share a moving body, unless the place
 /// is an overflow, whose runs are for one member alone.
 #[derive(Clone, Debug)]
-pub(crate) struct Stage<'a> {
+pub(crate) struct PlaceRuns<'a> {
     pub(crate) place: usize,
     /// Where in the graph's list the buckets of the place are.
     pub(crate) buckets: Range<usize>,
@@ -140,8 +140,8 @@ impl Schedule {
     }
 
     /// The stages.
-    pub(crate) fn stages(&self) -> impl Iterator<Item = Stage<'_>> {
-        self.stages.iter().map(|stage| Stage {
+    pub(crate) fn stages(&self) -> impl Iterator<Item = PlaceRuns<'_>> {
+        self.stages.iter().map(|stage| PlaceRuns {
             place: stage.place,
             buckets: stage.buckets.clone(),
             runs: &self.runs[stage.runs.clone()],
@@ -161,10 +161,10 @@ impl Graph {
     pub(crate) fn for_each_run(
         &mut self,
         team: &Team,
-        stage: &Stage<'_>,
+        stage: &PlaceRuns<'_>,
         work: impl Fn(PairClass, Blocks<'_>) + Sync,
     ) {
-        let Stage { runs, chunk, .. } = *stage;
+        let PlaceRuns { runs, chunk, .. } = *stage;
         let buckets = &mut self.buckets.list_mut()[stage.buckets.clone()];
         let first = stage.buckets.start;
         if team.member_count() == 1 || runs.len() <= chunk {

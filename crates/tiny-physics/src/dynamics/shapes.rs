@@ -2,7 +2,7 @@
 
 use super::bodies::NULL;
 use crate::broad_phase::ProxyId;
-use crate::codec::{Serial, record, store};
+use crate::codec::{Generations, record, store};
 use crate::describe::{ChainLink, Filter, Material};
 use crate::geometry::Shape;
 use crate::geometry::manifold::ShapeClass;
@@ -111,7 +111,7 @@ store! {
         pub(crate) changed_ground: Vec<Aabb>,
         pub(crate) free: Vec<u32>,
         pub(crate) count: usize,
-        serial: Serial,
+        generations: Generations,
     }
 }
 
@@ -149,7 +149,7 @@ impl Shapes {
     fn insert_record(&mut self, mut record: ShapeRecord) -> u32 {
         self.count += 1;
         record.alive = true;
-        record.generation = self.serial.next();
+        record.generation = self.generations.next();
         if let Some(index) = self.free.pop() {
             self.records[index as usize] = record;
             self.rows[index as usize] = [0.0; 8];

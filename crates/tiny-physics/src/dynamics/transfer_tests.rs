@@ -200,7 +200,7 @@ fn listed_blocks_make_runs_of_neighbours() {
     let listed = listed.map(|((place, class), block)| (place as u8, class as u8, block));
     let mut schedule = Schedule::default();
     schedule.fill_with(&stores.graph, &listed, 8);
-    let runs = |stage: Stage<'_>| -> Vec<_> {
+    let runs = |stage: PlaceRuns<'_>| -> Vec<_> {
         assert_eq!(stage.buckets.len(), if stage.place == first.0 { 2 } else { 1 });
         let run = |run: &Run| ((stage.place, run.class as usize), run.blocks.clone());
         stage.runs.iter().map(run).collect()

@@ -3,7 +3,7 @@
 use super::World;
 use super::descriptions::{check_body, check_shape};
 use super::ids::{BodyId, ShapeId, TileGridId};
-use crate::codec::{Data, Reader, Serial, Sink, bad, store};
+use crate::codec::{Data, Generations, Reader, Sink, bad, store};
 use crate::describe::{BLOCK_CELLS, Piece, ShapeDef, TileGrid};
 use crate::error::Error;
 use crate::footprint::MemoryUse;
@@ -16,7 +16,7 @@ store! {
         slots: Vec<Slot>,
         /// The slot of every block's body, ascending by body.
         owners: Vec<(BodyId, u32)>,
-        serial: Serial,
+        generations: Generations,
     }
 }
 
@@ -116,7 +116,7 @@ impl World {
             slots.push(Slot { generation: 0, grid: None });
             slots.len() - 1
         });
-        slots[index].generation = self.state.tiles.serial.next();
+        slots[index].generation = self.state.tiles.generations.next();
         slots[index].grid = Some(Placed { grid, blocks });
         let id = TileGridId::new(index as u32, slots[index].generation);
         for y in 0..rows {

@@ -1,7 +1,7 @@
 //! Building trees anew, and where full nodes are cut.
 
 use super::super::NONE;
-use super::super::boxes::WIDTH;
+use super::super::node_boxes::WIDTH;
 use super::{Branch, DynamicTree};
 use crate::math::Aabb;
 

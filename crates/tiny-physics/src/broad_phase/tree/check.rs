@@ -1,7 +1,7 @@
 //! Is a tree one?
 
 use super::super::NONE;
-use super::super::boxes::WIDTH;
+use super::super::node_boxes::WIDTH;
 use super::DynamicTree;
 use crate::math::Aabb;
 

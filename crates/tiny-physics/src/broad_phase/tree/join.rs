@@ -1,7 +1,7 @@
 //! Which boxes of two trees overlap.
 
 use super::super::NONE;
-use super::super::boxes::WIDTH;
+use super::super::node_boxes::WIDTH;
 use super::DynamicTree;
 
 impl DynamicTree {

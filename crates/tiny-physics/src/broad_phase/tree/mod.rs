@@ -13,7 +13,7 @@ mod build;
 mod check;
 mod join;
 
-use super::boxes::{Boxes, WIDTH};
+use super::node_boxes::{Boxes, WIDTH};
 use super::stack::Stack;
 use super::{BoxCast, NONE, clamped};
 use crate::codec::{Data, Reader, Sink, store};

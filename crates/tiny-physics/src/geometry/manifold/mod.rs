@@ -27,7 +27,7 @@
 //! The normal has unit length and is never NaN, whatever the input: coincident centres, zero
 //! extents and ties all have a fixed answer. Results have the same bits at every lane width.
 
-mod boxes;
+mod box_box;
 mod capsule;
 mod circle;
 mod class;
@@ -40,7 +40,7 @@ mod points;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use boxes::box_box;
+pub(crate) use box_box::box_box;
 pub(crate) use capsule::{box_capsule, capsule_capsule};
 pub(crate) use circle::{box_circle, capsule_circle, circle_circle};
 pub(crate) use class::{PairClass, RoundedBox, ShapeClass};
