@@ -2,8 +2,8 @@
 # What the engine weighs: lines, crates, time to build, wasm, compiled kernels. Beside each the budget.
 #
 # Usage: scripts/budget.sh [--no-builds]
-# Times are CPU-seconds of clean builds of the engine alone, its dependencies left out. Needs python3; for wasm the
-# target wasm32-unknown-unknown.
+# Times are CPU-seconds of clean builds of the engine alone, its dependencies left out. The wasm module is that of the npm
+# package, which scripts/web.sh builds: it says what that needs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scratch=$(mktemp -d)
@@ -38,4 +38,14 @@ row "dev build, CPU-s" "$(cpu_seconds "$scratch/dev")" ""
 row "dev build with opt-level 3, CPU-s" \
   "$(cpu_seconds "$scratch/dev3" --config 'profile.dev.package.tiny-physics.opt-level=3')" 45
 library=$(find "$scratch/release/release" -maxdepth 1 -name 'libtiny_physics.rlib')
+row "rlib of the release build, kB" "$(($(stat -c %s "$library") / 1024))" ""
 row "compiled kernels" "$(nm -C "$library" 2>/dev/null | grep -c 'fearless_simd.*vectorize' || true)" 50
+
+# "PATH: N bytes, M gzip". Only where its compiler is: installing that is for scripts/web.sh by itself.
+if dpkg -s rustc-web >/dev/null 2>&1 && wasm=$(scripts/web.sh npm 2>"$scratch/wasm.log" | grep -E ': [0-9]+ bytes, [0-9]+ gzip'); then
+  read -r raw _ gzip _ <<<"${wasm##*: }"
+  row "wasm module, whole API, kB" "$((raw / 1000))" ""
+  row "wasm module, whole API, gzip, kB" "$((gzip / 1000))" 150
+else
+  row "wasm module, whole API, gzip, kB" "?" "150 (run scripts/web.sh once: it installs what it needs)"
+fi
