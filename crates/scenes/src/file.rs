@@ -142,7 +142,11 @@ impl Defaults {
     }
 
     fn omit(&self, scene: &mut Node<'_>) -> Result<(), SceneError> {
-        let parse = |text| Node::parse(text).ok_or_else(unreadable);
+        let parse = |text| {
+            let mut node = Node::parse(text).ok_or_else(unreadable)?;
+            node.omit_nulls();
+            Ok::<_, SceneError>(node)
+        };
         let (body, shape, joint) = (parse(&self.body)?, parse(&self.shape)?, parse(&self.joint)?);
         for node in scene.field_mut("bodies").map_or(&mut [][..], Node::items_mut) {
             for node in node.field_mut("shapes").map_or(&mut [][..], Node::items_mut) {

@@ -10,7 +10,7 @@ use core::fmt;
 use serde::de::value::{MapAccessDeserializer, StrDeserializer};
 use serde::de::{DeserializeSeed, Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
-use tiny_physics::{BodyKind, Error, JointDef, RigidBody, Settings, Vec2};
+use tiny_physics::{BodyKind, Error, JointDef, RigidBody, Settings, Vec2, World};
 
 /// A world before its first step, described without an engine.
 ///
@@ -73,6 +73,39 @@ impl Scene {
     /// An empty scene: gravity (0, -9.8), default settings, 600 steps of 1/60 s.
     pub fn new(name: impl Into<String>, description: impl Into<String>) -> Self {
         Self { name: name.into(), description: description.into(), ..Self::default() }
+    }
+
+    /// A scene that begins as a world is now: for editors, and to show a problem to others. Bodies and joints come in the
+    /// order of their indices. What waits to happen (forces of the next step, warm starts, one-way platforms that somebody is
+    /// passing) is not in it, nor are tile maps as such: their pieces are shapes.
+    ///
+    /// ```
+    /// use tiny_physics::prelude::*;
+    /// use tiny_physics_scenes::Scene;
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let mut world = World::new((0.0, -9.8));
+    /// let hook = world.add_body(RigidBody::fixed())?;
+    /// let ball = world.add_body(RigidBody::dynamic().position((1.0, 0.0)).shape(Shape::circle(0.3)?))?;
+    /// world.add_joint(hook, ball, JointDef::distance(1.0))?;
+    /// let scene = Scene::of_world("pendulum", &world);
+    /// assert_eq!((scene.bodies.len(), scene.joints.len()), (2, 1));
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn of_world(name: impl Into<String>, world: &World) -> Self {
+        let ids: Vec<_> = world.body_ids().collect();
+        let place = |id| ids.binary_search(&id).ok();
+        let joints = world.joints().filter_map(|joint| {
+            let (a, b) = joint.bodies();
+            Some(SceneJoint { a: place(a)?, b: place(b)?, def: *joint.def() })
+        });
+        Self {
+            gravity: world.gravity,
+            settings: world.settings,
+            bodies: world.bodies().map(|body| body.describe()).collect(),
+            joints: joints.collect(),
+            ..Self::new(name, "")
+        }
     }
 
     /// Adds a body and gives its index.

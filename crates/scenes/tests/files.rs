@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use tiny_physics::{ChainLink, JointDef, Locks, RigidBody, Shape, ShapeDef, Vec2};
-use tiny_physics_scenes::{Options, Problem, Scene, SceneJoint, Script, all, find, tags};
+use tiny_physics_scenes::{
+    Options, PausedScript, Problem, Scene, SceneJoint, Script, all, find, tags,
+};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
@@ -272,4 +274,28 @@ fn the_page_shows_a_scene_that_loads() {
     let text = page.split("```json").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
     let scene = Scene::from_json(text).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(scene.bodies.len(), 3);
+}
+
+/// A scene taken from a world in the middle of its run goes on as the world does: from a file, too.
+#[test]
+fn a_world_becomes_a_scene() {
+    let built = find("ragdoll").unwrap().build(Options::default());
+    let mut world = PausedScript::start(&built).unwrap().1;
+    (0..30).for_each(|_| world.step(built.dt));
+    let scene = Scene::of_world("frozen", &world);
+    assert_eq!(scene.counts().joints, world.joint_count());
+    let read = Scene::from_json(&scene.to_json().unwrap()).unwrap();
+    let mut again = PausedScript::start(&read).unwrap().1;
+    assert_eq!(again.body_count(), world.body_count());
+    assert_eq!(again.shape_count(), world.shape_count());
+    for _ in 0..5 {
+        world.step(built.dt);
+        again.step(built.dt);
+    }
+    for (a, b) in world.bodies().zip(again.bodies()) {
+        let off = (a.position() - b.position()).length();
+        // Warm starts are not in it.
+        assert!(off < 0.01, "{off} m after five steps");
+        assert_eq!(a.mass(), b.mass());
+    }
 }

@@ -15,12 +15,17 @@ use tiny_physics::record::{
 use tiny_physics::*;
 
 /// Functions that change a world and need no command, with the reason.
-const WITHOUT_COMMAND: [(&str, &str); 12] = [
+const WITHOUT_COMMAND: [(&str, &str); 17] = [
     ("World::step", "every step is recorded"),
     ("World::try_step", "the same"),
     ("World::body_mut", "what it gives has commands"),
     ("World::shape_mut", "what it gives has commands"),
     ("World::joint_mut", "what it gives does what SetJoint does"),
+    ("World::body_pair_mut", "what it gives has commands"),
+    ("ShapeMut::set_friction", "what SetMaterial does"),
+    ("ShapeMut::set_restitution", "what SetMaterial does"),
+    ("ShapeMut::set_density", "what SetMaterial does"),
+    ("CharacterMover::lead_body", "what SetPose and SetShape do"),
     ("World::set_threads", "changes no results"),
     ("World::set_simd", "changes no results"),
     ("World::time_stages", "changes no results"),
@@ -87,7 +92,7 @@ struct Draw {
 }
 
 /// Kinds of commands that are done to the world, a body, a shape.
-const KINDS: [usize; 3] = [22, 25, 8];
+const KINDS: [usize; 3] = [22, 27, 8];
 
 /// Mostly sensible, now and then hostile.
 fn number() -> impl Strategy<Value = f32> {
@@ -319,6 +324,8 @@ fn body_command(kind: usize, draw: &Draw) -> BodyCommand {
         21 => BodyCommand::SetCanSleep(flag),
         22 => BodyCommand::SetSleepSpeed(n[0]),
         23 => BodyCommand::SetBullet(flag),
+        24 => BodyCommand::SetCenter(flag.then_some(v)),
+        25 => BodyCommand::SetInertia(flag.then_some(n[0].abs())),
         _ => BodyCommand::SetUserData(which[1] as u64),
     }
 }

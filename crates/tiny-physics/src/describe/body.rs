@@ -70,6 +70,10 @@ pub struct RigidBody {
     /// Total mass, kilograms. `None` takes it from the densities of the shapes; `Some` scales that mass
     /// and its moment of inertia to the value.
     pub mass: Option<f32>,
+    /// Centre of mass in the body's frame, metres. `None` takes it from the shapes.
+    pub center: Option<Vec2>,
+    /// Moment of inertia about the centre of mass, kilogram square metres. `None` takes it from the shapes and the mass.
+    pub inertia: Option<f32>,
     /// May its island fall asleep?
     pub can_sleep: bool,
     /// Does it start awake?
@@ -99,6 +103,8 @@ impl Default for RigidBody {
             locks: Locks::default(),
             shapes: Vec::new(),
             mass: None,
+            center: None,
+            inertia: None,
             can_sleep: true,
             awake: true,
             sleep_speed: 0.05,
@@ -181,6 +187,18 @@ impl RigidBody {
     /// Sets [`RigidBody::mass`].
     pub fn mass(mut self, kilograms: f32) -> Self {
         self.mass = Some(kilograms);
+        self
+    }
+
+    /// Sets [`RigidBody::center`]: a boat or a doll that rights itself has it low.
+    pub fn center(mut self, center: impl Into<Vec2>) -> Self {
+        self.center = Some(center.into());
+        self
+    }
+
+    /// Sets [`RigidBody::inertia`]: what has much is slow to turn.
+    pub fn inertia(mut self, inertia: f32) -> Self {
+        self.inertia = Some(inertia);
         self
     }
 

@@ -58,6 +58,31 @@ impl ChainDef {
         Self { closed: true, ..Self::open(points) }
     }
 
+    /// Ground of which the heights at even distances are known, from left to right: a height field. The first is at
+    /// x = 0, all in metres.
+    ///
+    /// ```
+    /// use tiny_physics::prelude::*;
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let mut world = World::new((0.0, -10.0));
+    /// let hills: Vec<f32> = (0..100).map(|i| (0.3 * i as f32).sin()).collect();
+    /// let ground = RigidBody::fixed().position((-50.0, 0.0)).chain(&ChainDef::heights(1.0, &hills))?;
+    /// world.add_body(ground)?;
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn heights(spacing: f32, heights: &[f32]) -> Self {
+        let points = heights.iter().enumerate().map(|(i, &y)| Vec2::new(i as f32 * spacing, y));
+        Self::open(&points.rev().collect::<Vec<_>>())
+    }
+
+    /// Ground without hills: a line through `point`, solid from the side that `normal` points to, that goes 1000 m
+    /// each way. A flat floor is `RigidBody::fixed().chain(&ChainDef::half_space((0.0, 0.0), (0.0, 1.0)))?`.
+    pub fn half_space(point: impl Into<Vec2>, normal: impl Into<Vec2>) -> Self {
+        let (point, way) = (point.into(), normal.into().normalized().perp() * 1000.0);
+        Self::open(&[point - way, point + way])
+    }
+
     /// Sets one material for all segments.
     pub fn material(mut self, material: Material) -> Self {
         self.materials = vec![material];

@@ -9,7 +9,15 @@ use crate::codec::{data, data_enum};
 data_enum!(BodyKind { 0 => Static, 1 => Kinematic, 2 => Dynamic });
 data!(Locks { x, y, rotation });
 data!(Filter { category, mask, group });
-data!(Material { density, friction, restitution, rolling_resistance, tangent_speed });
+data!(Material {
+    density,
+    friction,
+    restitution,
+    rolling_resistance,
+    tangent_speed,
+    friction_mix,
+    restitution_mix,
+});
 data_enum!(Mix { 0 => GeometricMean, 1 => Average, 2 => Min, 3 => Max, 4 => Multiply });
 data!(Settings {
     substeps,
@@ -35,6 +43,7 @@ data!(ShapeDef {
     material,
     filter,
     sensor,
+    sees_sensors,
     one_way,
     contact_events,
     hit_events,
@@ -53,6 +62,8 @@ data!(RigidBody {
     locks,
     shapes,
     mass,
+    center,
+    inertia,
     can_sleep,
     awake,
     sleep_speed,

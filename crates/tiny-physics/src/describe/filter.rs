@@ -23,6 +23,10 @@ impl Default for Filter {
 }
 
 impl Filter {
+    /// Collides with nothing and is seen by nothing, for a shape that is to be switched off for a while: give it this
+    /// one, and later its own again. Its mass stays.
+    pub const NONE: Self = Self { category: 0, mask: 0, group: 0 };
+
     /// Do shapes with these filters collide?
     #[inline]
     pub fn collides(&self, other: &Self) -> bool {

@@ -3,7 +3,7 @@
 use crate::error::Error;
 
 /// How two materials make one coefficient.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, PartialOrd, Ord, Eq, Debug, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Mix {
@@ -21,6 +21,11 @@ pub enum Mix {
 }
 
 impl Mix {
+    /// The rule of a pair of which each may have its own, and else the world's.
+    pub(crate) fn of(a: Option<Self>, b: Option<Self>, world: Self) -> Self {
+        a.max(b).unwrap_or(world)
+    }
+
     /// The coefficient of a pair.
     #[inline]
     pub fn apply(self, a: f32, b: f32) -> f32 {

@@ -1,6 +1,6 @@
 //! A shape on a body: geometry, place, material, filter.
 
-use super::Filter;
+use super::{Filter, Mix};
 use crate::geometry::Shape;
 use crate::math::Vec2;
 
@@ -20,6 +20,11 @@ pub struct Material {
     /// Speed of the surface along itself, metres a second: a conveyor belt. It runs clockwise round the shape,
     /// so what lies on top goes to the right.
     pub tangent_speed: f32,
+    /// How its friction mixes with that of others, instead of [`Settings::friction_mix`](crate::Settings::friction_mix).
+    /// Where both of a pair say so, the rule counts that comes later in [`Mix`].
+    pub friction_mix: Option<Mix>,
+    /// How its restitution mixes with that of others, likewise. A trampoline takes [`Mix::Max`]: everything bounces.
+    pub restitution_mix: Option<Mix>,
 }
 
 impl Default for Material {
@@ -30,6 +35,8 @@ impl Default for Material {
             restitution: 0.0,
             rolling_resistance: 0.0,
             tangent_speed: 0.0,
+            friction_mix: None,
+            restitution_mix: None,
         }
     }
 }
@@ -75,6 +82,9 @@ pub struct ShapeDef {
     /// A sensor sees what overlaps it and collides with nothing.
     #[cfg_attr(feature = "serde", serde(default))]
     pub sensor: bool,
+    /// Does this sensor see other sensors too?
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub sees_sensors: bool,
     /// For a one-way platform: the direction, in the body's frame, out of its solid side. Others pass
     /// through from behind. `None` is solid from everywhere.
     #[cfg_attr(feature = "serde", serde(default))]
@@ -103,6 +113,7 @@ impl ShapeDef {
             material: Material::default(),
             filter: Filter::default(),
             sensor: false,
+            sees_sensors: false,
             one_way: None,
             link: None,
             contact_events: false,
@@ -113,8 +124,7 @@ impl ShapeDef {
 
     /// Sets [`ShapeDef::offset`].
     pub fn offset(mut self, offset: impl Into<Vec2>) -> Self {
-        let offset = offset.into();
-        self.offset = offset;
+        self.offset = offset.into();
         self
     }
 
@@ -154,6 +164,12 @@ impl ShapeDef {
         self
     }
 
+    /// Sets [`Material::friction_mix`] and [`Material::restitution_mix`].
+    pub fn mix(mut self, friction: Option<Mix>, restitution: Option<Mix>) -> Self {
+        (self.material.friction_mix, self.material.restitution_mix) = (friction, restitution);
+        self
+    }
+
     /// Sets [`ShapeDef::filter`].
     pub fn filter(mut self, filter: Filter) -> Self {
         self.filter = filter;
@@ -166,10 +182,15 @@ impl ShapeDef {
         self
     }
 
+    /// Makes it a sensor that sees other sensors too: a blade that meets a zone where one is hurt.
+    pub fn sensor_of_sensors(mut self) -> Self {
+        (self.sensor, self.sees_sensors) = (true, true);
+        self
+    }
+
     /// Sets [`ShapeDef::one_way`].
     pub fn one_way(mut self, direction: impl Into<Vec2>) -> Self {
-        let direction = direction.into();
-        self.one_way = Some(direction);
+        self.one_way = Some(direction.into());
         self
     }
 

@@ -72,6 +72,8 @@ record! {
         pub(crate) inertia: f32,
         /// Mass given by the user, if any.
         pub(crate) fixed_mass: Option<f32>,
+        pub(crate) fixed_center: Option<Vec2>,
+        pub(crate) fixed_inertia: Option<f32>,
         pub(crate) generation: u32 as apart,
         pub(crate) shape_count: u32,
         /// First contact edge: contact index * 2 + side.
@@ -105,6 +107,8 @@ impl Default for BodyInfo {
             mass: 0.0,
             inertia: 0.0,
             fixed_mass: None,
+            fixed_center: None,
+            fixed_inertia: None,
             force: Vec2::ZERO,
             torque: 0.0,
             gravity_scale: 1.0,

@@ -23,6 +23,7 @@ record! {
         pub(crate) class: ShapeClass,
         pub(crate) alive: bool,
         pub(crate) sensor: bool,
+        pub(crate) sees_sensors: bool,
         pub(crate) contact_events: bool,
         pub(crate) hit_events: bool,
         pub(crate) filter: Filter,

@@ -10,6 +10,7 @@
 /// assert!((clock.alpha() - 0.4).abs() < 1e-4);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FixedStep {
     dt: f32,
     max_steps: u32,

@@ -3,9 +3,7 @@
 //! Nothing here is kept in the world: call the functions before every step in which the force is to act. Each
 //! works on bodies in index order, so results do not depend on anything but the world.
 
-use crate::{
-    Aabb, BodyId, BodyKind, BodyMut, DVec2, Pose, QueryFilter, Shape, ShapeId, Vec2, World,
-};
+use crate::{Aabb, BodyKind, BodyMut, DVec2, Pose, QueryFilter, Shape, ShapeId, Vec2, World};
 
 /// A blast: impulses away from a point.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -221,12 +219,7 @@ impl World {
     /// Lets the force of a zone act on all dynamic bodies that overlap it with a shape that the filter shows,
     /// each once, during the next step, which is `dt` seconds long.
     pub fn apply_zone(&mut self, zone: &ForceZone, filter: &QueryFilter<'_>, dt: f32) {
-        let shapes = self.overlap_shape(&zone.shape, zone.pose, filter);
-        let mut bodies: Vec<BodyId> =
-            shapes.into_iter().filter_map(|shape| Some(self.shape(shape)?.body())).collect();
-        bodies.sort_unstable();
-        bodies.dedup();
-        for body in bodies {
+        for body in self.overlap_bodies(&zone.shape, zone.pose, filter) {
             let Some(mut body) = self.body_mut(body) else { continue };
             let view = body.as_ref();
             if view.kind() == BodyKind::Dynamic && (zone.wakes || view.is_awake()) {

@@ -18,5 +18,5 @@ pub use debug_draw::{
 };
 pub use fixed_step::FixedStep;
 pub use forces::{Explosion, ForceZone, Water, Wind, ZoneForce};
-pub use mover::{CharacterMover, MoverGround, MoverInput};
+pub use mover::{CharacterMover, MoverGround, MoverHit, MoverInput};
 pub use spatial_hash::SpatialHash;

@@ -16,6 +16,8 @@ use crate::{
     World,
 };
 
+mod own;
+
 /// Most casts of one movement.
 const MAX_CASTS: u32 = 6;
 /// Motion along a surface counts as parting from it down to this sine of an angle.
@@ -55,10 +57,26 @@ pub struct MoverGround {
     local: Vec2,
 }
 
+/// What stopped a character on its way.
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct MoverHit {
+    /// The body.
+    pub body: BodyId,
+    /// The shape.
+    pub shape: ShapeId,
+    /// Where, on its surface: world, metres.
+    pub point: DVec2,
+    /// Unit normal out of it, world.
+    pub normal: Vec2,
+}
+
 /// A capsule that walks, climbs slopes and steps, jumps, rides on platforms and pushes things.
 ///
 /// A plain value beside the world: clone it with the world, or throw it away. It is not a body, so others
-/// do not collide with it; it gets out of their way. Call [`CharacterMover::update`] after each step.
+/// do not collide with it; it gets out of their way. Call [`CharacterMover::update`] after each step. What is to
+/// notice it, such as pickups and doors, meets its [`CharacterMover::body`].
 ///
 /// ```
 /// use tiny_physics::{CharacterMover, MoverInput, RigidBody, Shape, Vec2, World};
@@ -102,7 +120,19 @@ pub struct CharacterMover {
     pub skin: f32,
     /// What it collides with.
     pub filter: Filter,
+    /// A body of its own, which it does not collide with and takes along: see [`CharacterMover::describe_body`].
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub body: Option<BodyId>,
     ground: Option<MoverGround>,
+    /// Where it was before the last update.
+    #[cfg_attr(feature = "serde", serde(default))]
+    previous: DVec2,
+    /// What stopped it in the last update.
+    #[cfg_attr(feature = "serde", serde(default))]
+    hits: Vec<MoverHit>,
+    /// The velocity with which the next update leaves the ground.
+    #[cfg_attr(feature = "serde", serde(default))]
+    launched: Option<Vec2>,
     /// Horizontal speed taken along from a platform, until it lands.
     drift: f32,
     /// Ignores one-way platforms, until it has come through.
@@ -135,6 +165,7 @@ struct Push {
 }
 
 data!(MoverGround { body, shape, normal, point, local });
+data!(MoverHit { body, shape, point, normal });
 data!(Push { body, expected, resistance });
 data!(CharacterMover {
     position,
@@ -149,7 +180,11 @@ data!(CharacterMover {
     gravity_scale,
     skin,
     filter,
+    body,
     ground,
+    previous,
+    hits,
+    launched,
     drift,
     dropping,
     pushed,
@@ -166,11 +201,22 @@ struct Frame {
     pushed: Option<Push>,
 }
 
+impl Frame {
+    /// Of a movement that takes no time.
+    fn of(world: &World) -> Self {
+        let (down, strength) = world.gravity.direction_and_length();
+        let up = if strength > 0.0 { -down } else { Vec2::Y };
+        let right = Vec2::new(up.y, 0.0 - up.x);
+        Self { up, right, gravity: Vec2::ZERO, dt: 0.0, pushed: None }
+    }
+}
+
 impl CharacterMover {
     /// A character of a height and radius (metres) with its middle at a place.
     pub fn new(position: impl Into<DVec2>, height: f32, radius: f32) -> Self {
+        let position = position.into();
         Self {
-            position: position.into(),
+            position,
             velocity: Vec2::ZERO,
             height,
             radius,
@@ -182,7 +228,11 @@ impl CharacterMover {
             gravity_scale: 1.0,
             skin: 0.01,
             filter: Filter::default(),
+            body: None,
             ground: None,
+            previous: position,
+            hits: Vec::new(),
+            launched: None,
             drift: 0.0,
             dropping: false,
             pushed: None,
@@ -205,20 +255,24 @@ impl CharacterMover {
         if !finite || dt <= 0.0 || self.radius < MIN_EXTENT {
             return;
         }
-        let (down, strength) = world.gravity.direction_and_length();
-        let up = if strength > 0.0 { -down } else { Vec2::Y };
         let gravity = world.gravity * self.gravity_scale;
-        let right = Vec2::new(up.y, 0.0 - up.x);
-        let frame = Frame { up, right, gravity, dt, pushed: self.pushed.take() };
+        let frame = Frame { gravity, dt, pushed: self.pushed.take(), ..Frame::of(world) };
+        let Frame { up, right, .. } = frame;
+        self.previous = self.position;
+        self.hits.clear();
         self.dropping = input.drop || self.dropping && self.is_at_one_way(world, frame);
 
         self.ride(world, frame);
         self.push_out(world, frame);
         let mut carried = Vec2::ZERO;
+        if let Some(velocity) = self.launched.take().filter(|velocity| velocity.is_finite()) {
+            (self.velocity, self.drift) = (velocity, velocity.dot(right));
+            self.ground = None;
+        }
         if self.ground.is_some() && input.jump > 0.0 {
             // It has gone along with the platform in this step already.
             carried = self.ground_velocity(world);
-            self.drift = carried.dot(frame.right);
+            self.drift = carried.dot(right);
             self.velocity = up * (input.jump + carried.dot(up));
             self.ground = None;
         }
@@ -232,6 +286,7 @@ impl CharacterMover {
             self.fall(world, frame, input.walk, carried * -dt);
         }
         self.weigh(world, frame);
+        self.lead_body(world);
     }
 
     /// Goes along with what it stands on.
@@ -267,6 +322,7 @@ impl CharacterMover {
                 return;
             };
             self.position += rest * hit.fraction;
+            self.note(&hit);
             rest *= 1.0 - hit.fraction;
             planes[cast] = hit.normal;
             rest -= hit.normal * hit.normal.dot(rest);
@@ -297,7 +353,9 @@ impl CharacterMover {
             if self.is_walkable(hit.normal, up) && hit.normal.dot(normal) < 1.0 - 1.0e-6 {
                 self.stand(world, &hit);
             } else {
-                self.step_up(world, frame, way);
+                if !self.step_up(world, frame, way) {
+                    self.note(&hit);
+                }
                 break;
             }
         }
@@ -359,6 +417,7 @@ impl CharacterMover {
                 break;
             };
             self.position += rest * hit.fraction;
+            self.note(&hit);
             left *= 1.0 - hit.fraction;
             rest *= 1.0 - hit.fraction;
             if velocity.dot(hit.normal) < 0.0
@@ -369,6 +428,9 @@ impl CharacterMover {
                 return;
             }
             rest -= hit.normal * hit.normal.dot(rest);
+            if self.drift * right.dot(hit.normal) < -PARALLEL {
+                self.drift = 0.0;
+            }
             let into = hit.normal.dot(velocity);
             if into < 0.0 {
                 velocity -= hit.normal * into;
@@ -389,6 +451,11 @@ impl CharacterMover {
 
     fn stand(&mut self, world: &World, hit: &Obstacle) {
         let Obstacle { normal, point, shape, body, .. } = *hit;
+        self.stand_on(world, &MoverHit { body, shape, point, normal });
+    }
+
+    fn stand_on(&mut self, world: &World, hit: &MoverHit) {
+        let MoverHit { body, shape, point, normal } = *hit;
         let local = world.body(body).map_or(Vec2::ZERO, |body| body.pose().unapply(point));
         self.ground = Some(MoverGround { body, shape, normal, point, local });
     }
@@ -403,7 +470,7 @@ impl CharacterMover {
             return false;
         }
         let (beside, above, below) = (0.1 * self.radius, 0.3 * self.radius, 0.1 * self.radius);
-        let filter = QueryFilter::from(self.filter);
+        let filter = self.query();
         [beside, -beside].into_iter().any(|side| {
             let origin = hit.point + (right * side + up * above);
             let floor = world.ray_cast(origin, up * -(above + below), &filter);
@@ -628,8 +695,19 @@ impl CharacterMover {
 
     /// Shapes whose fat boxes overlap a box and that its filter lets it collide with, in index order.
     fn obstacles<'a>(&self, world: &'a World, bounds: Aabb) -> Vec<ShapeRef<'a>> {
-        let near = world.shapes_near(bounds, &QueryFilter::from(self.filter));
+        let near = world.shapes_near(bounds, &self.query());
         near.into_iter().filter_map(|shape| world.shape(shape)).collect()
+    }
+
+    /// What it meets.
+    fn query(&self) -> QueryFilter<'static> {
+        QueryFilter { exclude_body: self.body, ..QueryFilter::from(self.filter) }
+    }
+
+    /// Keeps what stopped it, for those who ask.
+    fn note(&mut self, hit: &Obstacle) {
+        let Obstacle { normal, point, shape, body, .. } = *hit;
+        self.hits.push(MoverHit { body, shape, point, normal });
     }
 
     /// Is a shape solid for something that moves this way? One-way platforms are from above, chains from

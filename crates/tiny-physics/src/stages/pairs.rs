@@ -5,7 +5,7 @@
 //! overlap with their fat boxes while 1,200 contacts began.
 
 use crate::broad_phase::{BroadPhase, ProxyId, sort_pairs};
-use crate::describe::Settings;
+use crate::describe::{Mix, Settings};
 use crate::dynamics::{
     Bodies, Contact, Contacts, Graph, Joints, NULL, Place, SavedPoint, Schedule, Shapes, Waiting,
 };
@@ -365,9 +365,12 @@ pub(crate) fn mix_materials(contact: &mut Contact, settings: &Settings, shapes: 
         contact.events = shape_a.contact_events || shape_b.contact_events;
     }
     contact.hit_events = shape_a.hit_events || shape_b.hit_events;
-    contact.friction = settings.friction_mix.apply(material_a.friction, material_b.friction);
-    contact.restitution =
-        settings.restitution_mix.apply(material_a.restitution, material_b.restitution);
+    let (a_mix, b_mix) = (material_a.friction_mix, material_b.friction_mix);
+    let mix = Mix::of(a_mix, b_mix, settings.friction_mix);
+    contact.friction = mix.apply(material_a.friction, material_b.friction);
+    let (a_mix, b_mix) = (material_a.restitution_mix, material_b.restitution_mix);
+    let mix = Mix::of(a_mix, b_mix, settings.restitution_mix);
+    contact.restitution = mix.apply(material_a.restitution, material_b.restitution);
     contact.rolling_resistance = larger(
         material_a.rolling_resistance * radius(a),
         material_b.rolling_resistance * radius(b),

@@ -1,6 +1,6 @@
 //! Sensors: which shapes overlap them, after everything has moved.
 //!
-//! A sensor sees the shapes of other bodies that are no sensors and whose filters let them collide with
+//! A sensor sees the shapes of other bodies that are no sensors (others too, where it says so) and whose filters let them collide with
 //! it, dynamic and kinematic, awake and asleep; static ones too unless it is itself on a static body:
 //! neither of them moves. A fast body that went through a sensor within the step is seen in that step.
 //!
@@ -131,7 +131,8 @@ impl Scene<'_> {
 
     fn may_see(&self, sensor: &ShapeRecord, other: &ShapeRecord) -> bool {
         let kind = |record: &ShapeRecord| self.bodies.infos[record.body as usize].kind;
-        !other.sensor
+        sensor.sensor
+            && (!other.sensor || sensor.sees_sensors)
             && other.body != sensor.body
             && sensor.filter.collides(&other.filter)
             && (kind(sensor) != BodyKind::Static || kind(other) != BodyKind::Static)
@@ -155,7 +156,9 @@ impl Scene<'_> {
             let moving = sweep.child(record.central);
             let mut meet = |other: u32| {
                 work::note();
-                overlaps.extend(self.on_the_way(fast, (shape, &moving), other));
+                for pair in [(shape, other), (other, shape)] {
+                    overlaps.extend(self.on_the_way(fast, (shape, &moving), other, pair));
+                }
             };
             if !record.sensor && self.sensors.shapes.len() <= FEW {
                 // These are looked at themselves, not all that is near.
@@ -176,17 +179,17 @@ impl Scene<'_> {
         fat.is_some_and(|fat| fat.overlaps(bounds))
     }
 
-    /// The overlap of a swept shape with another, if one of them is a sensor that sees the other and they
+    /// The overlap of a swept shape with another, if the first of the pair is a sensor that sees the second and they
     /// met on the way. What they had before the step and lost is none.
     fn on_the_way(
         &self,
         fast: &FastBody,
         (shape, moving): (u32, &Sweep),
         other: u32,
+        (sensor, visitor): (u32, u32),
     ) -> Option<Overlap> {
         let record = |i: u32| &self.shapes.records[i as usize];
-        let (sensor, visitor) = if record(shape).sensor { (shape, other) } else { (other, shape) };
-        if !record(sensor).sensor || !self.may_see(record(sensor), record(visitor)) {
+        if !self.may_see(record(sensor), record(visitor)) {
             return None;
         }
         let overlap = self.overlap(sensor, visitor);

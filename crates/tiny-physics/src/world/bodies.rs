@@ -327,7 +327,47 @@ impl BodyMut<'_> {
     }
 }
 
+/// Two bodies of one world, to change in turn.
+///
+/// ```
+/// use tiny_physics::prelude::*;
+/// # fn main() -> Result<(), tiny_physics::Error> {
+/// let mut world = World::new((0.0, 0.0));
+/// let ship = |x: f64| Ok::<_, Error>(RigidBody::dynamic().position((x, 0.0)).shape(Shape::circle(0.5)?).mass(2.0));
+/// let (a, b) = (world.add_body(ship(-1.0)?)?, world.add_body(ship(1.0)?)?);
+/// let mut pair = world.body_pair_mut(a, b).unwrap();
+/// let pull = pair.b().position() - pair.a().position();
+/// pair.a().apply_impulse_to_center(pull);
+/// pair.b().apply_impulse_to_center(-pull);
+/// assert_eq!(pair.a().velocity(), -pair.b().velocity());
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug)]
+pub struct BodyPair<'a> {
+    world: &'a mut World,
+    bodies: [u32; 2],
+}
+
+impl BodyPair<'_> {
+    /// The first.
+    pub fn a(&mut self) -> BodyMut<'_> {
+        BodyMut { world: self.world, index: self.bodies[0] }
+    }
+
+    /// The second.
+    pub fn b(&mut self) -> BodyMut<'_> {
+        BodyMut { world: self.world, index: self.bodies[1] }
+    }
+}
+
 impl World {
+    /// Two bodies to change; `None` if one of them has been removed.
+    pub fn body_pair_mut(&mut self, a: BodyId, b: BodyId) -> Option<BodyPair<'_>> {
+        let bodies = [self.body_mut(a)?.index, self.body_mut(b)?.index];
+        Some(BodyPair { world: self, bodies })
+    }
+
     /// A body to read; `None` if it has been removed.
     pub fn body(&self, id: BodyId) -> Option<Body<'_>> {
         let index = self.body_index(id).ok()?;

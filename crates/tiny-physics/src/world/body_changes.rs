@@ -2,6 +2,7 @@
 
 use super::World;
 use super::bodies::{Body, BodyMut};
+use super::descriptions::{check_center, check_inertia};
 use super::ids::{BodyId, JointId};
 use crate::describe::{BodyKind, Locks};
 use crate::dynamics::NULL;
@@ -131,6 +132,32 @@ impl BodyMut<'_> {
         }
         self.accept(&[]);
         self.info().fixed_mass = mass;
+        self.world.update_mass(self.index);
+        Ok(())
+    }
+
+    /// Sets the centre of mass in the body's frame, metres; the body stays where it is. `None` takes it from the
+    /// shapes. Wakes it.
+    ///
+    /// # Errors
+    /// The point is not finite or beyond 1e6.
+    pub fn set_center(&mut self, center: Option<Vec2>) -> Result<(), Error> {
+        check_center(center)?;
+        self.accept(&[]);
+        self.info().fixed_center = center;
+        self.world.update_mass(self.index);
+        Ok(())
+    }
+
+    /// Sets the moment of inertia about the centre of mass, kilogram square metres. `None` takes it from the shapes and
+    /// the mass. Wakes it.
+    ///
+    /// # Errors
+    /// It is not finite, or outside of 1e-9 to 1e12.
+    pub fn set_inertia(&mut self, inertia: Option<f32>) -> Result<(), Error> {
+        check_inertia(inertia)?;
+        self.accept(&[]);
+        self.info().fixed_inertia = inertia;
         self.world.update_mass(self.index);
         Ok(())
     }

@@ -31,6 +31,8 @@ impl World {
             can_sleep: body.can_sleep,
             locks: body.locks,
             fixed_mass: body.mass,
+            fixed_center: body.center,
+            fixed_inertia: body.inertia,
             gravity_scale: body.gravity_scale,
             linear_damping: body.linear_damping,
             angular_damping: body.angular_damping,
@@ -178,6 +180,7 @@ impl World {
             material: def.material,
             filter: def.filter,
             sensor: def.sensor,
+            sees_sensors: def.sees_sensors,
             one_way: def.one_way,
             link: def.link,
             contact_events: def.contact_events,
@@ -244,8 +247,16 @@ impl World {
             None if total.mass > 0.0 => total.mass,
             None => 1.0,
         };
-        info.inertia = if dynamic { total.inertia * scale } else { 0.0 };
-        let center = if dynamic { total.center } else { Vec2::ZERO };
+        info.inertia = match (info.fixed_inertia, info.fixed_center) {
+            _ if !dynamic => 0.0,
+            (Some(inertia), _) => inertia,
+            (None, Some(center)) => {
+                let off = if total.mass > 0.0 { center.distance(total.center) } else { 0.0 };
+                total.inertia * scale + info.mass * off * off
+            }
+            (None, None) => total.inertia * scale,
+        };
+        let center = if dynamic { info.fixed_center.unwrap_or(total.center) } else { Vec2::ZERO };
         let shifted = core::mem::replace(&mut info.local_center, center) != center;
         self.state.bodies.set_origin_pose(index, origin.p, origin.q);
         self.state.bodies.update_inverse_masses(index);

@@ -15,6 +15,7 @@ use crate::threads::Team;
 
 /// One point of a contact.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactPoint {
     /// World, metres.
     pub position: DVec2,
@@ -31,6 +32,7 @@ pub struct ContactPoint {
 
 /// A contact as of the last step.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactView {
     /// First shape.
     pub shape_a: ShapeId,

@@ -2,7 +2,8 @@
 
 use crate::describe::{RigidBody, ShapeDef};
 use crate::error::Error;
-use crate::geometry::Shape;
+use crate::geometry::{Shape, check_point};
+use crate::math::Vec2;
 
 /// Coordinates beyond this are refused: 64-bit positions would lose millimetres.
 pub(super) const MAX_COORDINATE: f64 = 1.0e12;
@@ -29,7 +30,20 @@ pub(super) fn check_body(body: &RigidBody) -> Result<(), Error> {
         Error::check_positive("mass", mass)?;
         check_range("mass", mass)?;
     }
+    check_center(body.center)?;
+    check_inertia(body.inertia)?;
     body.shapes.iter().try_for_each(check_shape)
+}
+
+pub(super) fn check_center(center: Option<Vec2>) -> Result<(), Error> {
+    center.map_or(Ok(()), |center| check_point("center", center))
+}
+
+pub(super) fn check_inertia(inertia: Option<f32>) -> Result<(), Error> {
+    inertia.map_or(Ok(()), |inertia| {
+        Error::check_positive("inertia", inertia)?;
+        check_range("inertia", inertia)
+    })
 }
 
 pub(super) fn check_shape(shape: &ShapeDef) -> Result<(), Error> {

@@ -28,7 +28,7 @@ mod tiles;
 mod validate;
 mod waking;
 
-pub use bodies::{Body, BodyMut};
+pub use bodies::{Body, BodyMut, BodyPair};
 pub use contacts::{ContactPoint, ContactView};
 pub use events::{
     ContactBegin, ContactEnd, Events, Hit, JointBreak, SensorBegin, SensorEnd, UserData,
@@ -38,7 +38,7 @@ pub use ids::{BodyId, JointId, ShapeId, TileGridId};
 pub use joint_mut::JointMut;
 pub use joints::JointRef;
 pub use memory::{Memory, MemoryUse};
-pub use queries::{ClosestPoint, QueryFilter, RayCast, RayCastHit, ShapeCastHit};
+pub use queries::{ClosestPoint, QueryFilter, RayCast, RayCastHit, ShapeCastHit, ShapeDistance};
 pub use shape_changes::ShapeMut;
 pub use shapes::ShapeRef;
 pub use stats::{Stage, Stats};

@@ -1,7 +1,7 @@
 //! Going through all that a world holds, and printing it.
 
 use super::{Body, BodyMut, JointMut, JointRef, ShapeMut, ShapeRef, World};
-use crate::describe::BodyKind;
+use crate::describe::{BodyKind, RigidBody};
 use core::fmt;
 
 impl World {
@@ -31,6 +31,50 @@ impl World {
     /// All joints, in index order.
     pub fn joints(&self) -> impl Iterator<Item = JointRef<'_>> {
         self.joint_ids().filter_map(|id| self.joint(id))
+    }
+}
+
+impl Body<'_> {
+    /// The body as it is now, as a description: for copies, prefabs, editors. Added to a world it is the same body, but
+    /// for the last bits of its angle, forces that wait for the next step, and what joints and others do to it.
+    ///
+    /// ```
+    /// use tiny_physics::prelude::*;
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let mut world = World::new((0.0, -10.0));
+    /// let barrel = RigidBody::dynamic().shape(Shape::circle(0.4)?).friction(0.3).user_data(7);
+    /// let barrel = world.add_body(barrel)?;
+    /// world.step(1.0 / 60.0);
+    /// let copy = world.body(barrel).unwrap().describe().position((3.0, 0.0));
+    /// let copy = world.add_body(copy)?;
+    /// assert_eq!(world.body(copy).unwrap().velocity(), world.body(barrel).unwrap().velocity());
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn describe(&self) -> RigidBody {
+        let info = self.info();
+        let shapes = self.shapes().filter_map(|id| self.world.shape(id));
+        RigidBody {
+            kind: info.kind,
+            position: self.position_f64(),
+            angle: self.angle(),
+            velocity: self.velocity(),
+            angular_velocity: self.angular_velocity(),
+            linear_damping: info.linear_damping,
+            angular_damping: info.angular_damping,
+            gravity_scale: info.gravity_scale,
+            locks: info.locks,
+            shapes: shapes.map(|shape| shape.describe()).collect(),
+            mass: info.fixed_mass,
+            center: info.fixed_center,
+            inertia: info.fixed_inertia,
+            can_sleep: info.can_sleep,
+            awake: info.awake || info.kind == BodyKind::Static,
+            sleep_speed: info.sleep_speed,
+            bullet: info.bullet,
+            enabled: info.enabled,
+            user_data: info.user_data,
+        }
     }
 }
 

@@ -90,6 +90,30 @@ impl ShapeMut<'_> {
         Ok(())
     }
 
+    /// Changes the friction alone: see [`ShapeMut::set_material`].
+    ///
+    /// # Errors
+    /// It is not finite or below 0.
+    pub fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
+        self.set_material(Material { friction, ..self.as_ref().material() })
+    }
+
+    /// Changes the restitution alone: see [`ShapeMut::set_material`].
+    ///
+    /// # Errors
+    /// It is not finite or below 0.
+    pub fn set_restitution(&mut self, restitution: f32) -> Result<(), Error> {
+        self.set_material(Material { restitution, ..self.as_ref().material() })
+    }
+
+    /// Changes the density alone, kilograms a square metre; mass and inertia of the body follow.
+    ///
+    /// # Errors
+    /// It is out of range.
+    pub fn set_density(&mut self, density: f32) -> Result<(), Error> {
+        self.set_material(Material { density, ..self.as_ref().material() })
+    }
+
     /// Changes what it collides with. Contacts that are no longer allowed end.
     pub fn set_filter(&mut self, filter: Filter) {
         let (world, index) = (&mut *self.world, self.index);

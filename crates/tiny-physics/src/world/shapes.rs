@@ -2,7 +2,7 @@
 
 use super::World;
 use super::ids::{BodyId, ShapeId};
-use crate::describe::{ChainLink, Filter, Material};
+use crate::describe::{ChainLink, Filter, Material, ShapeDef};
 use crate::dynamics::ShapeRecord;
 use crate::geometry::Shape;
 use crate::math::{Aabb, Pose, Transform, Vec2};
@@ -68,6 +68,25 @@ impl<'a> ShapeRef<'a> {
     /// Its frame in the world.
     pub fn pose(&self) -> Pose {
         self.world.state.bodies.poses[self.record.body as usize].compose(self.record.central)
+    }
+
+    /// The shape as it is now, as a description.
+    pub fn describe(&self) -> ShapeDef {
+        let record = self.record;
+        ShapeDef {
+            shape: record.shape,
+            offset: record.local.p,
+            angle: record.local.q.angle(),
+            material: record.material,
+            filter: record.filter,
+            sensor: record.sensor,
+            sees_sensors: record.sees_sensors,
+            one_way: record.one_way,
+            link: record.link,
+            contact_events: record.contact_events,
+            hit_events: record.hit_events,
+            user_data: record.user_data,
+        }
     }
 
     /// The user's number.

@@ -28,6 +28,7 @@ use crate::{Aabb, BodyKind, DVec2, Rot, Shape, Transform, Vec2};
 
 /// A colour: red, green, blue and opacity, 0 to 255 each, sRGB, not premultiplied.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Color {
     /// Red.
     pub r: u8,
@@ -112,6 +113,7 @@ impl Layer {
 
 /// Colours of everything that is drawn.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Palette {
     /// Static bodies.
     pub fixed: Color,
@@ -196,6 +198,7 @@ pub fn depth_color(depth: f32) -> Color {
 
 /// What to draw, and in which colours.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DebugDrawOptions {
     /// Shapes of bodies.
     pub shapes: bool,
@@ -218,6 +221,9 @@ pub struct DebugDrawOptions {
     pub point_size: f32,
     /// The world point that is (0, 0) in what is drawn, usually the camera's centre.
     pub origin: DVec2,
+    /// Bodies are drawn between the start (0) and the end (1) of the last step: see
+    /// [`FixedStep::alpha`](crate::FixedStep::alpha).
+    pub alpha: f32,
     /// Leave out what is outside this box (relative to the origin).
     pub clip: Option<Aabb>,
     /// The colours.
@@ -237,6 +243,7 @@ impl Default for DebugDrawOptions {
             depth_tint: true,
             point_size: 6.0,
             origin: DVec2::ZERO,
+            alpha: 1.0,
             clip: None,
             palette: Palette::default(),
         }

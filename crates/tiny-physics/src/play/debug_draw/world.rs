@@ -80,12 +80,15 @@ impl World {
             let (a, b) = joint.bodies();
             let (Some(a), Some(b)) = (self.body(a), self.body(b)) else { continue };
             let def = joint.def();
-            let (anchor_a, anchor_b) = (a.pose().apply(def.anchor_a), b.pose().apply(def.anchor_b));
+            let (pose_a, pose_b) = (pen.pose(&a), pen.pose(&b));
+            let (anchor_a, anchor_b) = (pose_a.apply(def.anchor_a), pose_b.apply(def.anchor_b));
+            let center = |pose: Pose, body: &Body<'_>| pose.apply(body.local_center());
+            let (center_a, center_b) = (center(pose_a, &a), center(pose_b, &b));
             let color = pen.options.palette.joint;
             match def.kind {
                 // Pulled to a point of the world, not to A.
                 JointKind::Mouse { target, .. } => {
-                    pen.line(b.center(), anchor_b, color);
+                    pen.line(center_b, anchor_b, color);
                     pen.line(anchor_b, target, color);
                     continue;
                 }
@@ -101,10 +104,10 @@ impl World {
             }
             // The way to static bodies would be a web over the whole picture.
             if a.kind() != BodyKind::Static {
-                pen.line(a.center(), anchor_a, color);
+                pen.line(center_a, anchor_a, color);
             }
             if b.kind() != BodyKind::Static {
-                pen.line(b.center(), anchor_b, color);
+                pen.line(center_b, anchor_b, color);
             }
             pen.line(anchor_a, anchor_b, color);
             let anchor = pen.local(anchor_a);
@@ -143,6 +146,12 @@ impl Pen<'_> {
         Transform::new(self.local(pose.p), pose.q)
     }
 
+    /// Where a body is drawn.
+    fn pose(&self, body: &Body<'_>) -> Pose {
+        let alpha = self.options.alpha;
+        if alpha == 1.0 { body.pose() } else { body.interpolated_pose(alpha) }
+    }
+
     fn sees(&self, bounds: &Aabb) -> bool {
         self.options.clip.is_none_or(|clip| clip.overlaps(bounds))
     }
@@ -155,7 +164,7 @@ impl Pen<'_> {
     }
 
     fn shape(&mut self, body: &Body<'_>, shape: &ShapeRef<'_>, depth: f32) {
-        let frame = self.frame(body.pose()).compose(shape.local());
+        let frame = self.frame(self.pose(body)).compose(shape.local());
         if !self.sees(&shape.shape().aabb(frame)) {
             return;
         }
@@ -180,14 +189,15 @@ impl Pen<'_> {
         if body.kind() == BodyKind::Static {
             return;
         }
-        let (center, palette) = (self.local(body.center()), self.options.palette);
+        let center = self.local(self.pose(body).apply(body.local_center()));
+        let palette = self.options.palette;
         let reach = AXIS_LENGTH * self.unit;
         if !self.sees(&Aabb::from_center(center, Vec2::splat(reach))) {
             return;
         }
         if self.options.mass {
             self.draw.layer(Layer::Mass);
-            let rotation: Rot = body.rotation();
+            let rotation: Rot = self.pose(body).q;
             self.draw.segment(center, center + rotation.x_axis() * reach, Color::rgb(240, 90, 90));
             self.draw.segment(center, center + rotation.y_axis() * reach, Color::rgb(90, 220, 90));
             self.draw.point(center, 0.6 * self.options.point_size, palette.mass);

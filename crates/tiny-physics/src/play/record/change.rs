@@ -48,6 +48,10 @@ pub enum BodyCommand {
     SetLocks(Locks),
     /// [`BodyMut::set_mass`].
     SetMass(Option<f32>),
+    /// [`BodyMut::set_center`].
+    SetCenter(Option<Vec2>),
+    /// [`BodyMut::set_inertia`].
+    SetInertia(Option<f32>),
     /// [`BodyMut::set_gravity_scale`].
     SetGravityScale(f32),
     /// [`BodyMut::set_damping`]: linear and angular.
@@ -85,6 +89,8 @@ impl BodyCommand {
             Self::SetEnabled(enabled) => body.set_enabled(enabled),
             Self::SetLocks(locks) => body.set_locks(locks),
             Self::SetMass(mass) => return body.set_mass(mass),
+            Self::SetCenter(center) => return body.set_center(center),
+            Self::SetInertia(inertia) => return body.set_inertia(inertia),
             Self::SetGravityScale(scale) => body.set_gravity_scale(scale),
             Self::SetDamping(linear, angular) => body.set_damping(linear, angular),
             Self::SetCanSleep(can_sleep) => body.set_can_sleep(can_sleep),

@@ -105,7 +105,7 @@ pub struct FilterData {
 impl FilterData {
     fn to_filter(self) -> QueryFilter<'static> {
         let Self { filter, exclude_body, sensors } = self;
-        QueryFilter { filter, exclude_body, sensors, predicate: None }
+        QueryFilter { filter, exclude_body, sensors, ..QueryFilter::new() }
     }
 }
 

@@ -95,6 +95,8 @@ variants!(BodyCommand: "a command to a body is unknown" {
     22 => SetSleepSpeed(speed),
     23 => SetBullet(bullet),
     24 => SetUserData(data),
+    25 => SetCenter(center),
+    26 => SetInertia(inertia),
 });
 
 variants!(ShapeCommand: "a command to a shape is unknown" {

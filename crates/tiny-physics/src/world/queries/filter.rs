@@ -23,6 +23,9 @@ pub struct QueryFilter<'a> {
     pub exclude_body: Option<BodyId>,
     /// Are sensors seen too?
     pub sensors: bool,
+    /// Does a ray hit a shape in which it begins? It does so at fraction 0, against its direction. Otherwise it goes on
+    /// to what it enters.
+    pub solid: bool,
     /// Called for shapes that pass all else, in no fixed order and perhaps not for all: `false` hides the
     /// shape. For batches it is called on several threads. It has to give the same answer for the same shape.
     pub predicate: Option<&'a (dyn Fn(ShapeId) -> bool + Sync)>,
@@ -38,7 +41,7 @@ impl<'a> QueryFilter<'a> {
     /// Sees everything but sensors.
     pub const fn new() -> Self {
         let filter = Filter { category: u64::MAX, mask: u64::MAX, group: 0 };
-        Self { filter, exclude_body: None, sensors: false, predicate: None }
+        Self { filter, exclude_body: None, sensors: false, solid: false, predicate: None }
     }
 
     /// Sets what the query is, as bits: shapes whose mask has none of them are not seen.
@@ -71,6 +74,12 @@ impl<'a> QueryFilter<'a> {
         self
     }
 
+    /// Lets rays hit what they begin in: see [`QueryFilter::solid`].
+    pub fn solid(mut self) -> Self {
+        self.solid = true;
+        self
+    }
+
     /// Sets [`QueryFilter::predicate`].
     pub fn predicate(mut self, predicate: &'a (dyn Fn(ShapeId) -> bool + Sync)) -> Self {
         self.predicate = Some(predicate);
@@ -95,6 +104,7 @@ impl fmt::Debug for QueryFilter<'_> {
             .field("filter", &self.filter)
             .field("exclude_body", &self.exclude_body)
             .field("sensors", &self.sensors)
+            .field("solid", &self.solid)
             .field("predicate", &self.predicate.is_some())
             .finish()
     }

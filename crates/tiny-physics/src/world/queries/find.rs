@@ -1,10 +1,12 @@
 //! The searches behind the queries: the broad phase offers shapes, the filter and the geometry decide.
 
-use super::{ClosestPoint, QueryFilter, RayCastHit, ShapeCastHit};
+use super::{ClosestPoint, QueryFilter, RayCastHit, ShapeCastHit, ShapeDistance};
 use crate::broad_phase::BoxCast;
 use crate::dynamics::ShapeRecord;
-use crate::geometry::{Ray, RayHit, Shape, distance, shape_cast};
-use crate::math::{Aabb, DVec2, Pose, Vec2};
+use crate::geometry::{
+    Ray, RayHit, Shape, Sweep, ToiState, distance, shape_cast, time_of_impact_to,
+};
+use crate::math::{Aabb, DVec2, Pose, Transform, Vec2};
 use crate::world::World;
 use core::ops::ControlFlow;
 
@@ -22,6 +24,16 @@ const TOUCH: f32 = 2.0e-4;
 pub(super) struct Finder<'a> {
     pub(super) world: &'a World,
     pub(super) filter: &'a QueryFilter<'a>,
+}
+
+/// A shape that is moved and turned about the origin of its frame.
+#[derive(Clone, Copy)]
+pub(super) struct Way<'a> {
+    pub(super) shape: &'a Shape,
+    pub(super) pose: Pose,
+    pub(super) translation: Vec2,
+    /// Radians.
+    pub(super) turn: f32,
 }
 
 /// The best of several hits: the smallest key, then the smallest index.
@@ -64,6 +76,10 @@ impl Finder<'_> {
     fn ray_hit(&self, index: u32, origin: DVec2, translation: Vec2) -> Option<RayHit> {
         let (record, pose) = self.place(index);
         let ray = Ray::new(pose.unapply(origin), pose.q.unrotate(translation));
+        if self.filter.solid && record.shape.contains(ray.origin) {
+            let normal = (-translation).direction_and_length().0;
+            return Some(RayHit { fraction: 0.0, normal });
+        }
         let hit = record.shape.ray_cast(&ray)?;
         Some(RayHit { normal: pose.q.rotate(hit.normal), ..hit })
     }
@@ -106,6 +122,18 @@ impl Finder<'_> {
         best.hit.map(|hit| self.report_ray(shape, hit, origin, translation))
     }
 
+    pub(super) fn visit_ray(
+        &self,
+        origin: DVec2,
+        translation: Vec2,
+        mut visit: impl FnMut(RayCastHit) -> ControlFlow<()>,
+    ) {
+        self.walk_ray(origin, translation, |index, hit, limit| {
+            let flow = visit(self.report_ray(index, hit, origin, translation));
+            if flow.is_break() { 0.0 } else { limit }
+        });
+    }
+
     pub(super) fn any_on_ray(&self, origin: DVec2, translation: Vec2) -> bool {
         let mut found = false;
         self.walk_ray(origin, translation, |_, _, _| {
@@ -125,61 +153,108 @@ impl Finder<'_> {
         hits
     }
 
-    pub(super) fn first_on_way(
-        &self,
-        shape: &Shape,
-        pose: Pose,
-        translation: Vec2,
-    ) -> Option<ShapeCastHit> {
-        if !pose.is_finite() || !translation.is_finite() || shape.validate().is_err() {
-            return None;
-        }
-        let bounds = shape.world_aabb(pose);
-        let reach = bounds.half_extents() + Vec2::splat(TOUCH);
-        let cast = box_cast(bounds.center().into(), translation, reach);
+    pub(super) fn first_on_way(&self, way: Way<'_>) -> Option<ShapeCastHit> {
         let mut best = Best::new();
-        self.world.state.broad_phase.cast(&cast, 1.0, self.filter.tree_mask(), |index, limit| {
-            let hit =
-                if self.sees(index) { self.way_hit(index, shape, pose, translation) } else { None };
-            let Some(hit) = hit else { return limit };
-            let fraction = hit.fraction;
-            best.offer(fraction, index, hit);
-            narrower(limit, fraction)
+        self.walk_way(way, |index, hit, limit| {
+            best.offer(hit.fraction, index, hit);
+            narrower(limit, hit.fraction)
         });
         best.hit
     }
 
-    fn way_hit(
-        &self,
-        index: u32,
-        shape: &Shape,
-        pose: Pose,
-        translation: Vec2,
-    ) -> Option<ShapeCastHit> {
+    pub(super) fn all_on_way(&self, way: Way<'_>) -> Vec<ShapeCastHit> {
+        let mut hits = Vec::new();
+        self.walk_way(way, |_, hit, limit| {
+            hits.push(hit);
+            limit
+        });
+        hits.sort_unstable_by(|a, b| a.fraction.total_cmp(&b.fraction).then(a.shape.cmp(&b.shape)));
+        hits
+    }
+
+    /// Offers every seen shape that a moved shape touches, with the hit; the visitor gives how far to look on.
+    fn walk_way(&self, way: Way<'_>, mut visit: impl FnMut(u32, ShapeCastHit, f32) -> f32) {
+        let Way { shape, pose, translation, turn } = way;
+        let finite = pose.is_finite() && translation.is_finite() && turn.is_finite();
+        if !finite || shape.validate().is_err() {
+            return;
+        }
+        let bounds = if turn == 0.0 {
+            shape.world_aabb(pose)
+        } else {
+            let core = shape.core();
+            let reach = Vec2::splat(core.reach(Vec2::ZERO) + core.radius);
+            Aabb::from_center(pose.p.to_vec2(), reach)
+        };
+        let reach = bounds.half_extents() + Vec2::splat(TOUCH);
+        let cast = box_cast(bounds.center().into(), translation, reach);
+        self.world.state.broad_phase.cast(&cast, 1.0, self.filter.tree_mask(), |index, limit| {
+            let hit = if self.sees(index) { self.way_hit(index, way) } else { None };
+            hit.map_or(limit, |hit| visit(index, hit, limit))
+        });
+    }
+
+    fn way_hit(&self, index: u32, way: Way<'_>) -> Option<ShapeCastHit> {
+        let Way { shape, pose, translation, turn } = way;
         let (record, place) = self.place(index);
-        let start = pose.relative_to(place);
-        let hit = shape_cast(&record.shape, shape, start, place.q.unrotate(translation))?;
-        Some(ShapeCastHit {
-            shape: self.world.shape_id(index),
-            body: self.world.body_id(record.body),
-            point: place.apply(hit.point),
-            normal: place.q.rotate(hit.normal),
-            fraction: hit.fraction,
-        })
+        let (point, normal, fraction) = if turn == 0.0 {
+            let start = pose.relative_to(place);
+            let hit = shape_cast(&record.shape, shape, start, place.q.unrotate(translation))?;
+            (place.apply(hit.point), place.q.rotate(hit.normal), hit.fraction)
+        } else {
+            // Both seen from where the moved shape begins.
+            let still = Sweep::fixed(Transform::new(place.p.relative_to(pose.p), place.q));
+            let frame = Transform::new(Vec2::ZERO, pose.q);
+            let moved = Sweep::new(frame, Vec2::ZERO, translation, turn);
+            let toi = time_of_impact_to(&record.shape, &still, shape, &moved, 1.0, 0.5 * TOUCH);
+            if toi.state == ToiState::Separated {
+                return None;
+            }
+            (pose.p + toi.point, toi.normal, toi.fraction)
+        };
+        let (shape, body) = (self.world.shape_id(index), self.world.body_id(record.body));
+        Some(ShapeCastHit { shape, body, point, normal, fraction })
     }
 
     /// The seen shapes that pass a test and whose fat boxes overlap a box, in index order.
     fn collect(&self, bounds: &Aabb, passes: impl Fn(&ShapeRecord, Pose) -> bool) -> Vec<u32> {
         let mut found = Vec::new();
-        self.world.state.broad_phase.query(bounds, self.filter.tree_mask(), |index| {
-            let (record, place) = self.place(index);
-            if self.sees(index) && passes(record, place) {
-                found.push(index);
-            }
+        self.walk_box(bounds, passes, |index| {
+            found.push(index);
             ControlFlow::Continue(())
         });
         found.sort_unstable();
         found
+    }
+
+    /// The same, one by one, in no order.
+    fn walk_box(
+        &self,
+        bounds: &Aabb,
+        passes: impl Fn(&ShapeRecord, Pose) -> bool,
+        mut visit: impl FnMut(u32) -> ControlFlow<()>,
+    ) {
+        self.world.state.broad_phase.query(bounds, self.filter.tree_mask(), |index| {
+            let (record, place) = self.place(index);
+            if self.sees(index) && passes(record, place) {
+                return visit(index);
+            }
+            ControlFlow::Continue(())
+        });
+    }
+
+    pub(super) fn visit_overlapping(
+        &self,
+        shape: &Shape,
+        pose: Pose,
+        visit: impl FnMut(u32) -> ControlFlow<()>,
+    ) {
+        if pose.is_finite() && shape.validate().is_ok() {
+            let overlaps = |record: &ShapeRecord, place: Pose| {
+                distance(&record.shape, shape, pose.relative_to(place)).separation <= 0.0
+            };
+            self.walk_box(&shape.world_aabb(pose), overlaps, visit);
+        }
     }
 
     fn ids(&self, found: Vec<u32>) -> Vec<super::ShapeId> {
@@ -187,12 +262,12 @@ impl Finder<'_> {
     }
 
     pub(super) fn overlapping(&self, shape: &Shape, pose: Pose) -> Vec<super::ShapeId> {
-        if !pose.is_finite() || shape.validate().is_err() {
-            return Vec::new();
-        }
-        let found = self.collect(&shape.world_aabb(pose), |record, place| {
-            distance(&record.shape, shape, pose.relative_to(place)).separation <= 0.0
+        let mut found = Vec::new();
+        self.visit_overlapping(shape, pose, |index| {
+            found.push(index);
+            ControlFlow::Continue(())
         });
+        found.sort_unstable();
         self.ids(found)
     }
 
@@ -222,6 +297,17 @@ impl Finder<'_> {
             record.shape.contains(place.unapply(point))
         });
         self.ids(found)
+    }
+
+    pub(super) fn between(&self, a: u32, b: u32) -> ShapeDistance {
+        let ((a, place_a), (b, place_b)) = (self.place(a), self.place(b));
+        let gap = distance(&a.shape, &b.shape, place_b.relative_to(place_a));
+        ShapeDistance {
+            separation: gap.separation,
+            normal: place_a.q.rotate(gap.normal),
+            point_a: place_a.apply(gap.point_a),
+            point_b: place_a.apply(gap.point_b),
+        }
     }
 
     /// Looks in a small box first, then in larger ones: the nearest is usually near.

@@ -14,12 +14,15 @@ pub use filter::QueryFilter;
 
 use super::World;
 use super::ids::{BodyId, ShapeId};
+use super::shapes::ShapeRef;
 use crate::geometry::Shape;
 use crate::math::{Aabb, DVec2, Pose, Vec2};
-use find::Finder;
+use core::ops::ControlFlow;
+use find::{Finder, Way};
 
 /// A ray in the world, for [`World::ray_casts`].
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RayCast {
     /// Start: world, metres.
     pub origin: DVec2,
@@ -36,6 +39,7 @@ impl RayCast {
 
 /// Where a ray enters a shape.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RayCastHit {
     /// What it enters.
     pub shape: ShapeId,
@@ -51,6 +55,7 @@ pub struct RayCastHit {
 
 /// Where a moved shape first touches another.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ShapeCastHit {
     /// What it touches.
     pub shape: ShapeId,
@@ -64,8 +69,23 @@ pub struct ShapeCastHit {
     pub fraction: f32,
 }
 
+/// How far two shapes are apart.
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ShapeDistance {
+    /// Metres between the surfaces; negative is the depth of an overlap.
+    pub separation: f32,
+    /// Unit, world, from A to B, along the shortest way.
+    pub normal: Vec2,
+    /// Closest point of A (the deepest inside B where they overlap): world, metres.
+    pub point_a: DVec2,
+    /// Closest point of B.
+    pub point_b: DVec2,
+}
+
 /// The point of a shape that is closest to another point.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClosestPoint {
     /// The shape.
     pub shape: ShapeId,
@@ -82,7 +102,7 @@ const CHUNK: usize = 16;
 
 impl World {
     /// The first shape that a ray enters on its way from `origin` along `translation` (metres). Shapes
-    /// that hold the origin are not entered, so they are not hit.
+    /// that hold the origin are not entered, so they are not hit; [`QueryFilter::solid`] hits them there.
     ///
     /// ```
     /// use tiny_physics::{QueryFilter, RigidBody, Shape, Vec2, World};
@@ -112,6 +132,36 @@ impl World {
         filter: &QueryFilter<'_>,
     ) -> Vec<RayCastHit> {
         Finder { world: self, filter }.all_on_ray(origin.into(), translation.into())
+    }
+
+    /// Calls `visit` with every shape that a ray enters, in no order to rely on, until it breaks off. Unlike
+    /// [`World::ray_cast_all`] it makes no list.
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use tiny_physics::prelude::*;
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let mut world = World::new((0.0, 0.0));
+    /// for x in 1..9 {
+    ///     world.add_body(RigidBody::fixed().position((f64::from(x), 0.0)).shape(Shape::circle(0.1)?))?;
+    /// }
+    /// let mut seen = 0;
+    /// world.visit_ray((0.0, 0.0), (4.5, 0.0), &QueryFilter::new(), |_hit| {
+    ///     seen += 1;
+    ///     ControlFlow::Continue(())
+    /// });
+    /// assert_eq!(seen, 4);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn visit_ray(
+        &self,
+        origin: impl Into<DVec2>,
+        translation: impl Into<Vec2>,
+        filter: &QueryFilter<'_>,
+        visit: impl FnMut(RayCastHit) -> ControlFlow<()>,
+    ) {
+        Finder { world: self, filter }.visit_ray(origin.into(), translation.into(), visit);
     }
 
     /// Does a ray enter any shape? Cheaper than [`World::ray_cast`]: for lines of sight.
@@ -165,7 +215,54 @@ impl World {
         translation: impl Into<Vec2>,
         filter: &QueryFilter<'_>,
     ) -> Option<ShapeCastHit> {
-        Finder { world: self, filter }.first_on_way(shape, pose.into(), translation.into())
+        let way = Way { shape, pose: pose.into(), translation: translation.into(), turn: 0.0 };
+        Finder { world: self, filter }.first_on_way(way)
+    }
+
+    /// All shapes that a moved shape touches, nearest first: see [`World::cast_shape`].
+    pub fn cast_shape_all(
+        &self,
+        shape: &Shape,
+        pose: impl Into<Pose>,
+        translation: impl Into<Vec2>,
+        filter: &QueryFilter<'_>,
+    ) -> Vec<ShapeCastHit> {
+        let way = Way { shape, pose: pose.into(), translation: translation.into(), turn: 0.0 };
+        Finder { world: self, filter }.all_on_way(way)
+    }
+
+    /// The first shape that a shape touches when it is moved along `translation` (metres) and turned evenly by `turn`
+    /// (radians, about the origin of its frame) on the way: a sword, a door, a car that swerves.
+    ///
+    /// ```
+    /// use tiny_physics::prelude::*;
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let mut world = World::new((0.0, 0.0));
+    /// world.add_body(RigidBody::fixed().position((0.0, 1.0)).shape(Shape::circle(0.1)?))?;
+    /// let sword = Shape::segment(Vec2::ZERO, Vec2::new(2.0, 0.0))?;
+    /// let quarter = std::f32::consts::FRAC_PI_2;
+    /// let hit = world.cast_shape_turning(&sword, Transform::IDENTITY, (0.0, 0.0), quarter, &QueryFilter::new());
+    /// let hit = hit.unwrap();
+    /// assert!((hit.fraction * quarter - 1.47).abs() < 0.01, "the edge of the post, at 84 degrees");
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn cast_shape_turning(
+        &self,
+        shape: &Shape,
+        pose: impl Into<Pose>,
+        translation: impl Into<Vec2>,
+        turn: f32,
+        filter: &QueryFilter<'_>,
+    ) -> Option<ShapeCastHit> {
+        let way = Way { shape, pose: pose.into(), translation: translation.into(), turn };
+        Finder { world: self, filter }.first_on_way(way)
+    }
+
+    /// How far two shapes are apart, and where. `None` where one of them has been removed.
+    pub fn shape_distance(&self, a: ShapeId, b: ShapeId) -> Option<ShapeDistance> {
+        let (a, b) = (self.shape_index(a).ok()?, self.shape_index(b).ok()?);
+        Some(Finder { world: self, filter: &QueryFilter::new() }.between(a, b))
     }
 
     /// The shapes that overlap a shape, in index order. Touching counts.
@@ -190,6 +287,36 @@ impl World {
         filter: &QueryFilter<'_>,
     ) -> Vec<ShapeId> {
         Finder { world: self, filter }.overlapping(shape, pose.into())
+    }
+
+    /// Calls `visit` with every shape that overlaps a shape, in no order to rely on, until it breaks off. Unlike
+    /// [`World::overlap_shape`] it makes no list.
+    pub fn visit_overlaps(
+        &self,
+        shape: &Shape,
+        pose: impl Into<Pose>,
+        filter: &QueryFilter<'_>,
+        mut visit: impl FnMut(ShapeRef<'_>) -> ControlFlow<()>,
+    ) {
+        let finder = Finder { world: self, filter };
+        finder.visit_overlapping(shape, pose.into(), |index| visit(ShapeRef::new(self, index)));
+    }
+
+    /// The bodies that overlap a shape with any of theirs, each once, in index order.
+    pub fn overlap_bodies(
+        &self,
+        shape: &Shape,
+        pose: impl Into<Pose>,
+        filter: &QueryFilter<'_>,
+    ) -> Vec<BodyId> {
+        let mut bodies = Vec::new();
+        self.visit_overlaps(shape, pose, filter, |shape| {
+            bodies.push(shape.body());
+            ControlFlow::Continue(())
+        });
+        bodies.sort_unstable();
+        bodies.dedup();
+        bodies
     }
 
     /// The shapes that overlap a box (world, metres), in index order. The shapes themselves count, not
