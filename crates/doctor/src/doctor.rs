@@ -70,6 +70,7 @@ impl Doctor {
         }
         let first = self.last_step.is_none();
         self.time.check_length(&look, &mut self.findings);
+        self.slow.note_time(&look);
         self.note_sleep(&look);
         self.round.begin(&look);
         self.glance_at_some(&look);

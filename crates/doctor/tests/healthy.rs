@@ -22,7 +22,11 @@ const TRUE: &[(&str, Code, &str)] = &[
     ("joints", Code::LimitOverrun, "a slider begins 1 m outside its limits"),
     ("changing", Code::Stuck, "a ball grows into what lies about it"),
     ("changing", Code::DeepOverlap, "the same"),
-    ("game", Code::JointStretch, "the rope is torn by 16 cm where the hero runs into it"),
+    (
+        "game",
+        Code::JointStretch,
+        "the rope is thrown onto the one-way plank that it hangs from, and a pin is 11 cm apart there",
+    ),
     ("bullet_wall", Code::Stuck, "a turning bullet stays in the wall at a speed of 160 m/s"),
     (
         "blast",
@@ -71,7 +75,7 @@ fn ill_among(names: &[&'static str], steps: u32) -> Vec<&'static str> {
 
 #[test]
 fn show_scenes_are_healthy() {
-    assert_eq!(ill_among(&resolve("show").unwrap(), 600), [""; 0]);
+    assert_eq!(ill_among(&resolve("show").unwrap(), u32::MAX), [""; 0]);
 }
 
 #[test]

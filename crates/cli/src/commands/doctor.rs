@@ -5,10 +5,12 @@ use crate::failure::{Failure, Outcome};
 use crate::picture::{self, Overlays};
 use crate::simulation::Simulation;
 use crate::source;
-use std::io::{Write, stdout};
+use std::io::{Write, stderr, stdout};
 use std::path::Path;
 use tiny_physics::record::{Player, Recording};
-use tiny_physics::{BodyId, DVec2, World};
+use tiny_physics::{
+    BodyId, BodyKind, Color, DVec2, DebugDraw, Layer, Pose, Rot, World, draw_shape,
+};
 use tiny_physics_doctor::{Code, Doctor, Finding, Report, Severity, Trace};
 use tiny_physics_draw::{Camera, Canvas};
 
@@ -16,6 +18,9 @@ use tiny_physics_draw::{Camera, Canvas};
 const PICTURES: usize = 8;
 /// Width and height of a picture, pixels.
 const SIZE: (u32, u32) = (960, 600);
+/// Colours of the bodies that a finding speaks of.
+const FIRST: Color = Color::rgb(255, 150, 40);
+const SECOND: Color = Color::rgb(110, 230, 120);
 /// What a picture shows around a body, metres at least and sizes of the body.
 const AROUND: (f64, f64) = (3.0, 6.0);
 
@@ -131,8 +136,38 @@ fn take_picture(canvas: &mut Canvas, world: &World, finding: &Finding, path: &Pa
     let camera = Camera::fit(center - corner, center + corner, SIZE.0, SIZE.1);
     let text = [format!("{}   step {}", finding.code, finding.first_step), finding.what.clone()];
     picture::draw_world(canvas, world, &camera, &Overlays::default(), &text);
+    mark(canvas, world, &camera, finding);
     std::fs::write(path, canvas.to_png()?)?;
-    Ok(writeln!(stdout(), "{}", path.display())?)
+    // Not among the report's lines, which a program may read.
+    Ok(writeln!(stderr(), "{}", path.display())?)
+}
+
+/// Shows what a finding speaks of: its bodies in colours of their own with their names, the first one also where the step began,
+/// the way between, and the anchors of its joints.
+fn mark(canvas: &mut Canvas, world: &World, camera: &Camera, finding: &Finding) {
+    let near = |point: DVec2| point.relative_to(camera.center);
+    canvas.layer(Layer::Contact);
+    let bodies = finding.bodies.iter().filter_map(|who| world.body(who.id));
+    for (body, color) in bodies.zip([FIRST, SECOND]).filter(|(b, _)| b.kind() != BodyKind::Static) {
+        let (from, to) = (body.interpolated_pose(0.0), body.pose());
+        for shape in body.shapes().filter_map(|id| world.shape(id)) {
+            for (pose, color) in [(from, color.with_alpha(70)), (to, color)] {
+                let pose = pose
+                    .compose(shape.local())
+                    .relative_to(Pose::new(camera.center, Rot::IDENTITY));
+                draw_shape(canvas, shape.shape(), &pose, color);
+            }
+        }
+        let way = [from, to].map(|pose| near(pose.apply(body.local_center())));
+        canvas.segment(way[0], way[1], color);
+        canvas.text(way[1], &body.id().to_string(), color);
+    }
+    for joint in finding.joints.iter().filter_map(|who| world.joint(who.id)) {
+        let (a, b) = joint.anchors();
+        canvas.segment(near(a), near(b), FIRST);
+        canvas.point(near(a), 7.0, FIRST);
+        canvas.point(near(b), 7.0, SECOND);
+    }
 }
 
 /// Where a body is, and how much around it to show, metres.

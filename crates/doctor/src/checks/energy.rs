@@ -2,12 +2,14 @@
 
 use crate::look::{About, Findings, Look, Sighting, Words, figure};
 use crate::{Code, Severity};
-use tiny_physics::{Body, BodyId, BodyKind};
+use tiny_physics::{Body, BodyId, BodyKind, JointId};
 
 /// Steps between two sums.
 const EVERY: u64 = 8;
 /// Most bodies that are summed up.
 const MOST: usize = 512;
+/// Most bodies and joints of an island that are named.
+const ISLAND: usize = 8;
 /// Sums with growing energy before it is a finding.
 const GROWING: u32 = 4;
 /// Factor by which kinetic energy has to pass what was there before.
@@ -98,30 +100,68 @@ impl Memory {
     }
 
     fn report(&self, look: &Look<'_>, gain: f64, bound: f64, findings: &mut Findings) {
-        let bodies = look.world.body_ids().filter_map(|id| look.world.body(id));
-        let energy =
-            |body: &Body<'_>| f64::from(body.mass()) * f64::from(body.velocity().length_sq());
-        let fastest = bodies
-            .filter(|body| body.kind() == BodyKind::Dynamic)
-            .max_by(|a, b| energy(a).total_cmp(&energy(b)));
         let figure = figure("energy gained", gain as f32, bound as f32, " J");
         let pushed = look.world.stats().pushes.saturating_sub(self.pushes);
         let severity = if pushed > 0 { Severity::Note } else { Severity::Warning };
         let seen = Sighting::new(Code::EnergyGain, severity, About::World, figure);
         let steps = u64::from(self.growing) * EVERY;
-        findings.add(look, seen, || Words {
-            what: if pushed > 0 {
-                format!("energy has grown by {gain:.1} J in {steps} steps, in which the program pushed {pushed} times")
-            } else {
-                format!("energy has grown by {gain:.1} J in {steps} steps without a motor, a moved body or a push")
-            },
-            advice: if pushed > 0 {
-                "bound the forces and velocities that are set in each step, or add damping"
-            } else {
-                "look for joints made out of place or against each other, and restitution near 1"
-            },
-            bodies: fastest.map(|body| body.id()).into_iter().collect(),
-            ..Words::default()
+        findings.add(look, seen, || {
+            let (bodies, joints) = island(look);
+            let source = source(look, &bodies, pushed);
+            let size = bodies.len();
+            Words {
+                what: format!("energy has grown by {gain:.1} J in {steps} steps: {source}; most of it is in an island of {size} bodies"),
+                advice: if pushed > 0 {
+                    "bound the forces and velocities that are set in each step, or add damping"
+                } else {
+                    "look for restitution above 1, for joints made out of place or against each other, and for what a hook sets"
+                },
+                bodies,
+                joints,
+                ..Words::default()
+            }
         });
+    }
+}
+
+/// The body with the most energy of motion, and what touches it or is joined to it, near ones first.
+fn island(look: &Look<'_>) -> (Vec<BodyId>, Vec<JointId>) {
+    let energy = |body: &Body<'_>| body.mass() * body.velocity().length_sq();
+    let moving = look.world.bodies().filter(|body| body.kind() == BodyKind::Dynamic);
+    let fastest = moving.max_by(|a, b| energy(a).total_cmp(&energy(b)));
+    let (mut bodies, mut joints) = (Vec::new(), Vec::new());
+    bodies.extend(fastest.map(|body| body.id()));
+    let mut at = 0;
+    while let Some(body) = bodies.get(at).and_then(|&id| look.world.body(id)) {
+        let touched = body.contacts().map(|contact| [contact.body_a, contact.body_b]);
+        let mut others: Vec<BodyId> = touched.flatten().collect();
+        for joint in body.joints().filter_map(|id| look.world.joint(id)) {
+            others.extend([joint.bodies().0, joint.bodies().1]);
+            if !joints.contains(&joint.id()) && joints.len() < ISLAND {
+                joints.push(joint.id());
+            }
+        }
+        for id in others {
+            let moves = look.world.body(id).is_some_and(|body| body.kind() == BodyKind::Dynamic);
+            if moves && bodies.len() < ISLAND && !bodies.contains(&id) {
+                bodies.push(id);
+            }
+        }
+        at += 1;
+    }
+    (bodies, joints)
+}
+
+/// Where energy comes from, as far as it can be seen.
+fn source(look: &Look<'_>, bodies: &[BodyId], pushed: u64) -> String {
+    let shapes = bodies.iter().filter_map(|&id| look.world.body(id)).flat_map(|body| body.shapes());
+    let mut shapes = shapes.filter_map(|id| look.world.shape(id));
+    if pushed > 0 {
+        format!("the program pushed {pushed} times meanwhile")
+    } else if let Some(shape) = shapes.find(|shape| shape.material().restitution > 1.0) {
+        let restitution = shape.material().restitution;
+        format!("{} gives back {restitution:.2} times what it gets", shape.id())
+    } else {
+        "no motor, moved body or push does that work".to_owned()
     }
 }

@@ -132,12 +132,8 @@ fn seconds_deep(look: &Look<'_>, track: &Track) -> f32 {
 pub(crate) fn slept(look: &Look<'_>, track: &Track, findings: &mut Findings) {
     let (bound, within) = (0.5 * track.thin, track.overlap);
     let sinks = findings.has(Code::Sinking, About::Body(track.id));
-    if sinks
-        || track.crushed.is_some()
-        || track.deep_since.is_none()
-        || within < bound
-        || bound == 0.0
-    {
+    let seen = track.deep_since.is_some() && look.step - track.deep_seen <= GAP;
+    if sinks || track.crushed.is_some() || !seen || within < bound || bound == 0.0 {
         return;
     }
     let figure = figure("overlap", within, bound, " m");

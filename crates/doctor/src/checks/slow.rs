@@ -3,7 +3,7 @@
 use crate::look::{About, Findings, Look, Sighting, Words, figure};
 use crate::track::Track;
 use crate::{Code, Severity};
-use tiny_physics::{Body, BodyKind, Shape, ShapeRef};
+use tiny_physics::{Body, BodyKind, Shape, ShapeRef, Stage};
 
 /// Contacts on one body.
 const HUB: usize = 200;
@@ -27,15 +27,48 @@ const POLYGONS: usize = 1500;
 pub(crate) struct Memory {
     bodies: usize,
     shapes: usize,
+    /// Seconds of each stage, smoothed, where the program has them timed.
+    seconds: [f64; Stage::ALL.len()],
 }
 
 impl Memory {
+    /// Takes in what the stages of a step took.
+    pub(crate) fn note_time(&mut self, look: &Look<'_>) {
+        let stats = look.world.stats();
+        if stats.total_seconds() > 0.0 {
+            for (smooth, stage) in self.seconds.iter_mut().zip(Stage::ALL) {
+                *smooth += (stats.seconds(stage) - *smooth) * 0.05;
+            }
+        }
+    }
+
+    /// Does a step take longer than the time that it stands for?
+    fn check_time(&self, look: &Look<'_>, findings: &mut Findings) {
+        let total: f64 = self.seconds.iter().sum();
+        let worst = self.seconds.iter().zip(Stage::ALL).max_by(|a, b| a.0.total_cmp(b.0));
+        let Some((most, stage)) = worst.filter(|_| total > f64::from(look.dt)) else { return };
+        let share = 100.0 * most / total;
+        let figure = figure("step", total as f32, look.dt, " s");
+        let seen = Sighting::new(Code::Slow, Severity::Note, About::World, figure);
+        findings.add(look, seen, || Words {
+            what: format!(
+                "a step takes {:.1} ms and stands for {:.1}: {share:.0} % of it are in the stage {}",
+                1000.0 * total,
+                1000.0 * look.dt,
+                stage.name()
+            ),
+            advice: "more threads (World::set_threads), fewer bodies that are awake; the guide's page on performance has what each stage costs",
+            ..Words::default()
+        });
+    }
+
     pub(crate) fn check<'a>(
         &mut self,
         look: &Look<'_>,
         tracks: impl Iterator<Item = &'a Track>,
         findings: &mut Findings,
     ) {
+        self.check_time(look, findings);
         check_debug(look, findings);
         check_rounds(look, findings);
         check_sight(look, findings);

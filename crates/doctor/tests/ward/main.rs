@@ -96,8 +96,9 @@ fn examine_all(mut patients: Vec<Patient>) -> [usize; 3] {
             _ => "MISSED",
         };
         println!("{mark:<6} {code:<16} {:<42} told {}", patient.name, told.join(", "));
-        if !is_first {
-            println!("{report}\n");
+        match report.findings.first() {
+            Some(finding) if is_first => println!("       {finding}"),
+            _ => println!("{report}\n"),
         }
         named += usize::from(is_named);
         first += usize::from(is_first);
