@@ -11,6 +11,10 @@ const MOST_LINES: usize = 24_800;
 /// Lines of a file. One subject needs no more.
 const MOST_LINES_OF_A_FILE: usize = 600;
 
+/// Lines of a function, and of the median one.
+const MOST_LINES_OF_A_FUNCTION: usize = 80;
+const MEDIAN_LINES_OF_A_FUNCTION: usize = 8;
+
 fn lines(source: &Source) -> usize {
     source.code.lines().filter(|line| !line.trim().is_empty()).count()
 }
@@ -23,6 +27,7 @@ fn the_engine_is_no_larger_than_its_budget() {
         let module = source.path.split(['/', '.']).next().unwrap_or_default();
         *modules.entry(module.to_owned()).or_default() += lines(&source);
     }
+    println!();
     modules.iter().for_each(|(module, lines)| println!("{lines:>7}  {module}"));
     let total: usize = modules.values().sum();
     println!("{total:>7}  together, of {MOST_LINES}");
@@ -35,4 +40,59 @@ fn files_have_one_subject() {
     let long = sources().into_iter().map(|source| (lines(&source), source.path));
     let long: Vec<_> = long.filter(|&(lines, _)| lines > MOST_LINES_OF_A_FILE).collect();
     assert!(long.is_empty(), "files of more than {MOST_LINES_OF_A_FILE} lines: {long:?}");
+}
+
+/// Lines of each function with a body, by its name.
+fn functions(code: &str) -> Vec<(usize, String)> {
+    let mut found = Vec::new();
+    for (start, _) in code.match_indices("fn ") {
+        let inside_a_word = code[..start].ends_with(|c: char| c.is_alphanumeric() || c == '_');
+        let name = code[start + 3..].split(|c: char| !(c.is_alphanumeric() || c == '_')).next();
+        let name = name.filter(|name| !name.is_empty() && !inside_a_word);
+        if let (Some(name), Some(length)) = (name, function_length(&code[start..])) {
+            let lines = code[start..start + length].lines();
+            found.push((lines.filter(|line| !line.trim().is_empty()).count(), name.to_owned()));
+        }
+    }
+    found
+}
+
+/// To the end of the braces; `None` for one that is only declared.
+fn function_length(code: &str) -> Option<usize> {
+    let (mut braces, mut brackets) = (0, 0);
+    for (i, c) in code.char_indices() {
+        match c {
+            '(' | '[' => brackets += 1,
+            ')' | ']' => brackets -= 1,
+            ';' if braces == 0 && brackets == 0 => return None,
+            '{' => braces += 1,
+            '}' if braces == 1 => return Some(i + 1),
+            '}' => braces -= 1,
+            _ => {}
+        }
+    }
+    None
+}
+
+#[test]
+fn functions_are_short() {
+    let of = |source: &Source| {
+        let path = source.path.clone();
+        let named = move |(lines, name)| (lines, format!("{path}: {name}"));
+        functions(&source.code).into_iter().map(named)
+    };
+    let mut all: Vec<_> = sources().iter().flat_map(of).collect();
+    all.sort_unstable();
+    assert!(all.len() > 1000, "found only {} functions", all.len());
+    let (median, longest) = (all[all.len() / 2].0, &all[all.len() - 1]);
+    println!("{} functions, of {median} lines in the median; the longest: {longest:?}", all.len());
+    assert!(longest.0 <= MOST_LINES_OF_A_FUNCTION, "{longest:?}");
+    assert!(median <= MEDIAN_LINES_OF_A_FUNCTION, "{median} lines in the median");
+}
+
+#[test]
+fn functions_are_measured_by_their_braces() {
+    let code = "fn one() {}\ntrait T {\n fn none(x: [u8; 2]);\n}\nfn three() {\n if x { y }\n}\n";
+    let source = Source::new("a.rs", code);
+    assert_eq!(functions(&source.code), [(1, "one".to_owned()), (3, "three".to_owned())]);
 }

@@ -79,12 +79,14 @@ macro_rules! lane_pair_kernel {
 
 lane_pair_kernel!(
     BoxBox = box_box,
-    BoxCapsule = box_capsule,
     BoxCircle = box_circle,
-    CapsuleCapsule = capsule_capsule,
     CapsuleCircle = capsule_circle,
     CircleCircle = circle_circle
 );
+
+/// A capsule's core is a box without height: one kernel for all of these.
+type BoxCapsule = BoxBox;
+type CapsuleCapsule = BoxBox;
 
 /// Pairs with a general polygon: one after the other.
 struct General;

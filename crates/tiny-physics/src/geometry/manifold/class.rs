@@ -1,7 +1,7 @@
 //! Which kernel a pair belongs to, and shapes as rounded boxes.
 
 use super::{LaneManifold, LanePair};
-use super::{box_box, box_capsule, box_circle, capsule_capsule, capsule_circle, circle_circle};
+use super::{box_box, box_circle, capsule_circle, circle_circle};
 use crate::geometry::{Polygon, Shape};
 use crate::math::{Rot, Transform, Vec2};
 use crate::simd::Lanes;
@@ -99,10 +99,11 @@ impl PairClass {
         max_separation: L,
     ) -> LaneManifold<L> {
         match self {
-            Self::BoxBox | Self::General => box_box(token, pair, max_separation),
-            Self::BoxCapsule => box_capsule(token, pair, max_separation),
+            // A capsule's core is a box without height.
+            Self::BoxBox | Self::BoxCapsule | Self::CapsuleCapsule | Self::General => {
+                box_box(token, pair, max_separation)
+            }
             Self::BoxCircle => box_circle(token, pair, max_separation),
-            Self::CapsuleCapsule => capsule_capsule(token, pair, max_separation),
             Self::CapsuleCircle => capsule_circle(token, pair, max_separation),
             Self::CircleCircle => circle_circle(token, pair, max_separation),
         }

@@ -28,7 +28,6 @@
 //! extents and ties all have a fixed answer. Results have the same bits at every lane width.
 
 mod box_box;
-mod capsule;
 mod circle;
 mod class;
 mod collide;
@@ -41,7 +40,6 @@ mod points;
 mod tests;
 
 pub(crate) use box_box::box_box;
-pub(crate) use capsule::{box_capsule, capsule_capsule};
 pub(crate) use circle::{box_circle, capsule_circle, circle_circle};
 pub(crate) use class::{PairClass, RoundedBox, ShapeClass};
 pub use collide::collide;
