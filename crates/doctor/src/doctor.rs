@@ -59,7 +59,7 @@ impl Doctor {
     /// Looks at a world that has just been stepped. Where it has not been, sees only whether a step was refused. A world that
     /// has gone back (to a saved frame) is looked at anew; what was found stays.
     pub fn watch(&mut self, world: &World) {
-        let look = Look::new(world);
+        let mut look = Look::new(world);
         if self.last_step.is_some_and(|last| look.step < last) {
             let findings = core::mem::take(&mut self.findings);
             *self = Self { findings, steps: self.steps, ..Self::default() };
@@ -69,6 +69,7 @@ impl Doctor {
             return;
         }
         let first = self.last_step.is_none();
+        look.pushed = self.time.note_pushes(&look);
         self.time.check_length(&look, &mut self.findings);
         self.slow.note_time(&look);
         self.note_sleep(&look);

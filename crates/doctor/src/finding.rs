@@ -43,7 +43,7 @@ impl fmt::Display for Figure {
 }
 
 /// A number in three digits.
-struct Short(f64);
+pub(crate) struct Short(pub(crate) f64);
 
 impl fmt::Display for Short {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

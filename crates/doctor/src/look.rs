@@ -15,13 +15,15 @@ pub(crate) struct Look<'a> {
     pub(crate) unit: f32,
     /// Length of gravity, metres a second squared.
     pub(crate) pull: f32,
+    /// Does the program push bodies in every step?
+    pub(crate) pushed: bool,
 }
 
 impl<'a> Look<'a> {
     pub(crate) fn new(world: &'a World) -> Self {
         let dt = world.stats().dt;
         let (unit, pull) = (world.settings.length_unit, world.gravity.length());
-        Self { world, step: world.step_count(), dt, unit, pull }
+        Self { world, step: world.step_count(), dt, unit, pull, pushed: false }
     }
 
     /// Down, unit; zero without gravity.

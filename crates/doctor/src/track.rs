@@ -1,7 +1,7 @@
 //! What the doctor remembers of a body.
 
 use crate::look::Look;
-use tiny_physics::{Body, BodyId, BodyKind, DVec2, Vec2, World};
+use tiny_physics::{Body, BodyId, BodyKind, DVec2, ShapeId, Vec2, World};
 
 /// A body as it was seen last.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +45,10 @@ pub(crate) struct Track {
     pub(crate) deep_seen: u64,
     /// What has pushed it in since then and cannot be stopped.
     pub(crate) crushed: Option<BodyId>,
+    /// Its deepest contact at the last thorough look: the other shape, and the normal out of it.
+    pub(crate) normal: Option<(ShapeId, Vec2)>,
+    /// How often that normal has flipped since it is in its place.
+    pub(crate) normal_flips: u32,
     /// Looks in a row in which it had sunk.
     pub(crate) sunk: u32,
     /// Deepest overlap since then, metres.
@@ -113,6 +117,8 @@ impl Track {
             deep_seen: 0,
             sunk: 0,
             crushed: None,
+            normal: None,
+            normal_flips: 0,
             deepest: 0.0,
             shaking: 0.0,
             placed: None,

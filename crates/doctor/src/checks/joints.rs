@@ -353,6 +353,10 @@ fn report_stretch(
 ) {
     let figure = figure("apart", gap, bound, " m");
     let seen = Sighting::new(Code::JointStretch, severity, About::Joint(joint.id()), figure);
+    let led = ends
+        .iter()
+        .filter_map(|&id| look.world.body(id))
+        .any(|body| body.kind() == BodyKind::Kinematic && body.velocity().length() > 0.0);
     let masses = ends.map(|id| look.world.body(id).map_or(0.0, |body| body.mass()));
     let soft = joint.def().softness.is_some_and(|spring| spring.hertz < SOFT);
     findings.add(look, seen, || Words {
@@ -361,6 +365,8 @@ fn report_stretch(
             "the spring of the weld is too soft for its load: raise its hertz, or leave it out"
         } else if soft {
             "its softness makes it give way: leave it out, or raise its hertz"
+        } else if led {
+            "one of its bodies goes where it is led, and the other one cannot follow: lead it by forces, or let the joint break"
         } else if masses[0].min(masses[1]) > 0.0
             && masses[0].max(masses[1]) > 20.0 * masses[0].min(masses[1])
         {

@@ -229,7 +229,8 @@ fn cause(
     findings: &Findings,
 ) -> Cause {
     let world = look.world;
-    let crusher = touches.iter().map(|touch| touch.body).find(|&id| is_driven(look, id, track));
+    let mut others = touches.iter().map(|touch| touch.body).chain([track.id]);
+    let crusher = others.find(|&id| is_driven(look, id, track));
     if let Some(crusher) = track.crushed.or(crusher) {
         return Cause::Crushed(crusher);
     }
@@ -264,7 +265,9 @@ fn report_deep(
     findings: &mut Findings,
 ) {
     let figure = figure("overlap", touch.overlap, bound(look, touch), " m");
-    let passes = PASSING + track.deepest / (PUSH * look.unit);
+    // What is driven in is not pushed out.
+    let pushed = matches!(cause, Cause::Push | Cause::Weight(_));
+    let passes = PASSING + if pushed { track.deepest / (PUSH * look.unit) } else { 0.0 };
     let lasts = seconds_deep(look, track) > passes;
     let severity = if lasts { Severity::Warning } else { Severity::Note };
     let seen = Sighting::new(Code::DeepOverlap, severity, About::Body(track.id), figure);
@@ -272,7 +275,11 @@ fn report_deep(
         let start = format!("{} is {:.3} m inside {}", track.id, touch.overlap, touch.body);
         let (what, advice) = match cause {
             Cause::Crushed(by) => (
-                format!("{start}: {by}, which nothing can stop, pushes it against something else"),
+                if *by == track.id {
+                    format!("{start}: a motor drives it there")
+                } else {
+                    format!("{start}: {by}, which nothing can stop, pushes it against something else")
+                },
                 "let the moved body stop or turn back when it meets resistance: make it dynamic and drive it by a motor of bounded force",
             ),
             Cause::Placed => (

@@ -36,15 +36,29 @@ pub(crate) fn calls(look: &Look<'_>, body: &Body<'_>, track: &Track) -> bool {
 pub(crate) fn check(
     look: &Look<'_>,
     body: &Body<'_>,
-    track: &Track,
+    track: &mut Track,
     touches: &[Touch],
     findings: &mut Findings,
 ) {
+    note_normal(track, touches);
     let shaking = track.shaking > JITTER;
     if shaking && !touches_moved(look, touches) {
         jitter(look, body, track, touches, findings);
     } else if track.still > AWAKE {
         never_sleeps(look, body, track, touches, findings);
+    }
+}
+
+/// Counts how often the normal of its deepest contact, if that is with the same shape, has turned by over 20 degrees.
+fn note_normal(track: &mut Track, touches: &[Touch]) {
+    let deepest = touches.iter().max_by(|a, b| a.overlap.total_cmp(&b.overlap));
+    let now = deepest.map(|touch| (touch.shape, touch.normal));
+    if let (Some((shape, normal)), Some((before, old))) = (now, track.normal) {
+        track.normal_flips += u32::from(shape == before && normal.dot(old) < 0.94);
+    }
+    track.normal = now;
+    if track.still == 0.0 {
+        track.normal_flips = 0;
     }
 }
 
@@ -79,6 +93,10 @@ fn jitter(
             (format!("; {} drives it", joint.id()), "lower the motor's greatest force, or turn the motor off at its limit")
         } else if body.joints().next().is_some() {
             (", and joints hold it".to_owned(), "look for joints that exclude each other or are too stiff; add damping or joint friction")
+        } else if track.normal_flips > 2 {
+            ("; the normal of a contact flips".to_owned(), "it lies on a corner or between two faces: give it room or a rounder shape, and look at --trace")
+        } else if look.pushed {
+            (", and the program pushes bodies in every step".to_owned(), "a force or velocity that is set in each step overshoots: leave a range in which nothing is set, or damp it")
         } else if track.size < 0.05 * look.unit {
             ("; it is very small".to_owned(), "set Settings::length_unit to the size of a usual body")
         } else if touches.is_empty() {
@@ -191,6 +209,13 @@ fn what_keeps_awake(
         return (
             "it never gets slow enough".to_owned(),
             "raise sleep_speed for it, or find what shakes it",
+            Severity::Warning,
+        );
+    }
+    if look.pushed {
+        return (
+            "the program pushes bodies in every step".to_owned(),
+            "call apply_force, set_velocity and the like only where something has to change",
             Severity::Warning,
         );
     }

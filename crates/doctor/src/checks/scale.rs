@@ -1,5 +1,6 @@
 //! Sizes, units and masses.
 
+use crate::finding::Short;
 use crate::look::{About, Findings, Look, Sighting, Words, figure};
 use crate::track::Track;
 use crate::{Code, Severity};
@@ -33,7 +34,7 @@ pub(crate) fn check_one(look: &Look<'_>, body: &Body<'_>, track: &Track, finding
         what: format!(
             "{} is {} length units wide, far {} than what contacts are made for",
             track.id,
-            size,
+            Short(size.into()),
             if small { "smaller" } else { "larger" }
         ),
         advice: "scale the world so that moving bodies are 0.1 to 10 units, or set Settings::length_unit to the size of a usual one",
@@ -117,7 +118,11 @@ fn check_density(
         let figure = figure("density by the median", factor, ODD_DENSITY, "");
         let seen = Sighting::new(Code::Density, Severity::Warning, About::Body(id), figure);
         findings.add(look, seen, || Words {
-            what: format!("{id} has {density:.4} kg by square metre where {median:.4} is usual"),
+            what: format!(
+                "{id} has {} kg by square metre where {} is usual",
+                Short(density.into()),
+                Short(median.into())
+            ),
             advice: "leave out `mass` and give materials a density: masses then follow from sizes",
             bodies: vec![id],
             ..Words::default()

@@ -7,6 +7,8 @@ use crate::{Code, Severity};
 const REMEMBERED: usize = 64;
 /// Seconds.
 const TOO_LONG: f32 = 1.0 / 29.0;
+/// Steps in a row with pushes that are every step.
+const PUSHING: u32 = 30;
 /// Seconds: milliseconds given for seconds, or a clock that stood still.
 const ABSURD: f32 = 0.5;
 
@@ -15,6 +17,9 @@ pub(crate) struct Memory {
     lengths: Vec<f32>,
     next: usize,
     refused: u64,
+    pushes: u64,
+    /// Steps in a row before which the program pushed.
+    pushing: u32,
     stale: u64,
 }
 
@@ -22,6 +27,14 @@ impl Memory {
     /// Bytes.
     pub(crate) fn memory(&self) -> usize {
         self.lengths.capacity() * size_of::<f32>()
+    }
+
+    /// Takes in whether the program has pushed bodies since the last step; says whether it does so in every step.
+    pub(crate) fn note_pushes(&mut self, look: &Look<'_>) -> bool {
+        let pushes = look.world.stats().pushes;
+        self.pushing = if pushes > self.pushes { self.pushing.saturating_add(1) } else { 0 };
+        self.pushes = pushes;
+        self.pushing > PUSHING
     }
 
     pub(crate) fn check_length(&mut self, look: &Look<'_>, findings: &mut Findings) {
@@ -89,8 +102,12 @@ impl Memory {
             let figure = figure("calls that did nothing", refused as f32, 0.0, "");
             let seen = Sighting::new(Code::RefusedInput, Severity::Error, About::World, figure);
             findings.add(look, seen, || Words {
-                what: format!("{refused} calls did nothing because a number was not finite or out of range"),
-                advice: "use the try_ calls or check your numbers: a NaN often comes from dividing by a length of zero",
+                what: match (stats.refused_steps, stats.refused_numbers) {
+                    (steps, 0) => format!("{steps} steps were not made: their length was not above 0, or gravity or a setting was no sensible number"),
+                    (0, calls) => format!("{calls} calls did nothing because a number was not finite or out of range"),
+                    (steps, calls) => format!("{steps} steps were not made and {calls} calls did nothing because a number was not finite or out of range"),
+                },
+                advice: "use the try_ calls (try_step says why) or check your numbers: a NaN often comes from dividing by a length of zero",
                 ..Words::default()
             });
         }
