@@ -25,7 +25,7 @@ fn question(shelf: &Shelf) -> Outcome<Question> {
 
 fn sees(filter: FilterData) -> QueryFilter<'static> {
     let FilterData { filter, exclude_body, sensors } = filter;
-    QueryFilter { filter, exclude_body, sensors, predicate: None }
+    QueryFilter { filter, exclude_body, sensors, ..QueryFilter::new() }
 }
 
 fn hit(shape: ShapeId, body: BodyId, at: DVec2, normal: Vec2, fraction: f32) -> [f64; 7] {

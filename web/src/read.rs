@@ -5,7 +5,7 @@ use crate::outcome::{Outcome, words};
 use crate::session::Session;
 use crate::views::{Views, state};
 use crate::with;
-use tiny_physics::{Body, BodyId, BodyKind, DVec2, Error, JointId, ShapeDef, ShapeId, World};
+use tiny_physics::{Body, BodyId, BodyKind, DVec2, Error, JointId, ShapeId, World};
 
 /// Brings the rows of all bodies up to date, between the start (`alpha` 0) and the end (1) of the last step. The numbers
 /// are how many there are, and the addresses of handles, poses, velocities and states.
@@ -73,17 +73,7 @@ pub extern "C" fn tp_shape(session: u32, shape: f64) -> bool {
     with(session, |session, shelf| {
         let id = ShapeId::of(shape);
         let shape = session.world().shape(id).ok_or_else(|| words(Error::from(id)))?;
-        let def = ShapeDef {
-            offset: shape.local().p,
-            angle: shape.local().q.angle(),
-            material: shape.material(),
-            filter: shape.filter(),
-            sensor: shape.is_sensor(),
-            one_way: shape.one_way(),
-            user_data: shape.user_data(),
-            ..ShapeDef::new(*shape.shape())
-        };
-        shelf.say(serde_json::to_vec(&def).map_err(words)?);
+        shelf.say(serde_json::to_vec(&shape.describe()).map_err(words)?);
         shelf.count([shape.body().number()]);
         Ok(())
     })

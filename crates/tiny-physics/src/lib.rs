@@ -1,13 +1,11 @@
 //! A small, fast 2D rigid-body physics engine: walls hold, stacks stand, same bits everywhere.
 //!
 //! ```
-//! use tiny_physics::{RigidBody, Shape, Vec2, World};
+//! use tiny_physics::prelude::*;
 //! # fn main() -> Result<(), tiny_physics::Error> {
-//! let mut world = World::new(Vec2::new(0.0, -9.8));
-//! let ground = Shape::Aabb { half_extents: Vec2::new(20.0, 1.0) };
-//! world.add_body(RigidBody::new(ground, Vec2::new(0.0, -1.0), 0.0))?; // mass 0 is static
-//! let ball = RigidBody::new(Shape::Circle { radius: 0.5 }, Vec2::new(0.0, 4.0), 1.0);
-//! let ball = world.add_body(ball)?;
+//! let mut world = World::new((0.0, -9.8));
+//! world.add_body(RigidBody::fixed().position((0.0, -1.0)).shape(Shape::rect(20.0, 1.0)?))?;
+//! let ball = world.add_body(RigidBody::dynamic().position((0.0, 4.0)).shape(Shape::circle(0.5)?))?;
 //! for _ in 0..300 {
 //!     world.step(1.0 / 60.0);
 //! }
@@ -23,7 +21,10 @@
 //! | make a world, add to it, step it | [`World`], [`Settings`] |
 //! | describe a body and its shapes | [`RigidBody`], [`ShapeDef`], [`Material`], [`Filter`], [`Shape`], [`Polygon`] |
 //! | describe a joint | [`JointDef`], [`JointKind`] |
+//! | draw ground | [`ChainDef`], [`TileGrid`] |
+//! | let somebody walk | [`CharacterMover`] |
 //! | read a body, change it | [`Body`], [`BodyMut`], by its [`BodyId`] |
+//! | read a joint, change it | [`JointRef`], [`JointMut`], by its [`JointId`] |
 //! | read shapes and contacts | [`ShapeRef`], [`ContactView`] |
 //! | learn what happened in a step | [`Events`], [`Stats`] |
 //! | ask what is where | [`World::ray_cast`], [`World::cast_shape`], [`World::overlap_shape`], [`World::closest_point`], [`QueryFilter`] |
@@ -102,6 +103,8 @@ mod guide {
     mod debug_drawing {}
     #[doc = include_str!("../../../docs/guide/events.md")]
     mod events {}
+    #[doc = include_str!("../../../docs/guide/faq.md")]
+    mod faq {}
     #[doc = include_str!("../../../docs/guide/filters-and-sensors.md")]
     mod filters_and_sensors {}
     #[doc = include_str!("../../../docs/guide/first-steps.md")]

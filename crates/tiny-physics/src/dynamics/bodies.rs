@@ -1,7 +1,7 @@
 //! Bodies: hot rows for the solver, poses, and everything else.
 
 use super::pace::PLAIN;
-use crate::codec::{Generations, record, store};
+use crate::codec::{Data, Generations, Reader, Sink, record, store};
 use crate::describe::{BodyKind, Locks};
 use crate::error::Error;
 use crate::math::{DVec2, Pose, Rot, Vec2};
@@ -71,9 +71,9 @@ record! {
         pub(crate) mass: f32,
         pub(crate) inertia: f32,
         /// Mass given by the user, if any.
-        pub(crate) fixed_mass: Option<f32>,
+        pub(crate) fixed_mass: Given,
         pub(crate) fixed_center: Option<Vec2>,
-        pub(crate) fixed_inertia: Option<f32>,
+        pub(crate) fixed_inertia: Given,
         pub(crate) generation: u32 as apart,
         pub(crate) shape_count: u32,
         /// First contact edge: contact index * 2 + side.
@@ -89,6 +89,30 @@ record! {
 }
 
 const _: () = assert!(core::mem::offset_of!(BodyInfo, local_center) <= 64);
+const _: () = assert!(size_of::<BodyInfo>() == 128);
+
+/// A number above 0 that the user has given, or none, in four bytes.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub(crate) struct Given(f32);
+
+impl Given {
+    pub(crate) fn new(number: Option<f32>) -> Self {
+        Self(number.unwrap_or(0.0))
+    }
+
+    pub(crate) fn get(self) -> Option<f32> {
+        (self.0 != 0.0).then_some(self.0)
+    }
+}
+
+impl Data for Given {
+    fn save(&self, sink: &mut Sink) {
+        self.get().save(sink);
+    }
+    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        Option::load(reader).map(Self::new)
+    }
+}
 
 impl Default for BodyInfo {
     fn default() -> Self {
@@ -106,9 +130,9 @@ impl Default for BodyInfo {
             local_center: Vec2::ZERO,
             mass: 0.0,
             inertia: 0.0,
-            fixed_mass: None,
+            fixed_mass: Given::default(),
             fixed_center: None,
-            fixed_inertia: None,
+            fixed_inertia: Given::default(),
             force: Vec2::ZERO,
             torque: 0.0,
             gravity_scale: 1.0,

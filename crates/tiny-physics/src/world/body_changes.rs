@@ -5,7 +5,7 @@ use super::bodies::{Body, BodyMut};
 use super::descriptions::{check_center, check_inertia};
 use super::ids::{BodyId, JointId};
 use crate::describe::{BodyKind, Locks};
-use crate::dynamics::NULL;
+use crate::dynamics::{Given, NULL};
 use crate::error::Error;
 use crate::math::{Pose, Vec2};
 
@@ -131,7 +131,7 @@ impl BodyMut<'_> {
             Error::check_positive("mass", mass)?;
         }
         self.accept(&[]);
-        self.info().fixed_mass = mass;
+        self.info().fixed_mass = Given::new(mass);
         self.world.update_mass(self.index);
         Ok(())
     }
@@ -157,7 +157,7 @@ impl BodyMut<'_> {
     pub fn set_inertia(&mut self, inertia: Option<f32>) -> Result<(), Error> {
         check_inertia(inertia)?;
         self.accept(&[]);
-        self.info().fixed_inertia = inertia;
+        self.info().fixed_inertia = Given::new(inertia);
         self.world.update_mass(self.index);
         Ok(())
     }

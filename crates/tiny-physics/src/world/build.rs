@@ -6,7 +6,7 @@ use super::ids::{BodyId, ShapeId};
 use super::state::State;
 use crate::broad_phase::{ProxyDef, ProxyKind};
 use crate::describe::{BodyKind, ChainDef, RigidBody, ShapeDef};
-use crate::dynamics::{BodyInfo, NULL, ShapeRecord};
+use crate::dynamics::{BodyInfo, Given, NULL, ShapeRecord};
 use crate::error::Error;
 use crate::geometry::manifold::{RoundedBox, ShapeClass};
 use crate::geometry::{MassProperties, Shape};
@@ -30,9 +30,9 @@ impl World {
             bullet: body.bullet,
             can_sleep: body.can_sleep,
             locks: body.locks,
-            fixed_mass: body.mass,
+            fixed_mass: Given::new(body.mass),
             fixed_center: body.center,
-            fixed_inertia: body.inertia,
+            fixed_inertia: Given::new(body.inertia),
             gravity_scale: body.gravity_scale,
             linear_damping: body.linear_damping,
             angular_damping: body.angular_damping,
@@ -236,18 +236,18 @@ impl World {
         let info = &mut self.state.bodies.infos[index as usize];
         info.never_turns = never_turns;
         let dynamic = info.kind == BodyKind::Dynamic;
-        let scale = match info.fixed_mass {
+        let scale = match info.fixed_mass.get() {
             Some(mass) if total.mass > 0.0 => mass / total.mass,
             _ => 1.0,
         };
-        info.mass = match info.fixed_mass {
+        info.mass = match info.fixed_mass.get() {
             _ if !dynamic => 0.0,
             Some(mass) => mass,
             // Something that forces are to move needs a mass.
             None if total.mass > 0.0 => total.mass,
             None => 1.0,
         };
-        info.inertia = match (info.fixed_inertia, info.fixed_center) {
+        info.inertia = match (info.fixed_inertia.get(), info.fixed_center) {
             _ if !dynamic => 0.0,
             (Some(inertia), _) => inertia,
             (None, Some(center)) => {
