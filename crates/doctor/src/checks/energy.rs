@@ -108,9 +108,13 @@ impl Memory {
         findings.add(look, seen, || {
             let (bodies, joints) = island(look);
             let source = source(look, &bodies, pushed);
-            let size = bodies.len();
+            let fastest = bodies.first().map_or("nothing".to_owned(), BodyId::to_string);
+            let others = match bodies.len() {
+                0 | 1 => String::new(),
+                more => format!(" and {} bodies about it", more - 1),
+            };
             Words {
-                what: format!("energy has grown by {gain:.1} J in {steps} steps: {source}; most of it is in an island of {size} bodies"),
+                what: format!("energy has grown by {gain:.1} J in {steps} steps: {source}; most of it is in {fastest}{others}"),
                 advice: if pushed > 0 {
                     "bound the forces and velocities that are set in each step, or add damping"
                 } else {
