@@ -47,7 +47,7 @@ impl MassProperties {
         for part in parts {
             let (mass, center) = (f64::from(part.mass), DVec2::from(part.center) - origin);
             sum.area += mass;
-            sum.first = sum.first + center * mass;
+            sum.first += center * mass;
             sum.second += f64::from(part.inertia) + mass * center.length_sq();
             (centers, count) = (centers + center, count + 1.0);
         }
@@ -127,7 +127,7 @@ impl Moments {
     fn add_triangle(&mut self, p: DVec2, q: DVec2) {
         let doubled = p.x * q.y - p.y * q.x;
         self.area += doubled / 2.0;
-        self.first = self.first + (p + q) * (doubled / 6.0);
+        self.first += (p + q) * (doubled / 6.0);
         self.second += doubled / 12.0 * (p.length_sq() + p.dot(q) + q.length_sq());
     }
 
@@ -138,7 +138,7 @@ impl Moments {
         let area = length_sq.sqrt() * thickness;
         let center = (start + end) * 0.5 + normal * (0.5 * thickness);
         self.area += area;
-        self.first = self.first + center * area;
+        self.first += center * area;
         self.second += area * ((length_sq + thickness * thickness) / 12.0 + center.length_sq());
     }
 
@@ -228,7 +228,7 @@ mod tests {
             if shape.contains(point) {
                 let point = DVec2::from(point);
                 sum.area += area;
-                sum.first = sum.first + point * area;
+                sum.first += point * area;
                 sum.second += point.length_sq() * area;
             }
         }

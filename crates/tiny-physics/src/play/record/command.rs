@@ -62,6 +62,7 @@ pub enum Command {
 #[derive(Clone, PartialEq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
+#[allow(clippy::large_enum_variant, reason = "one a command, and none is kept in a list")]
 #[non_exhaustive]
 pub enum Made {
     /// Nothing new.
