@@ -581,39 +581,9 @@ impl BroadPhase {
         pairs && clamped(a.1).overlaps(&clamped(b.1))
     }
 
-    /// Checks that nothing of what was read leads out of the lists.
+    /// Refuses what was read where it is no broad phase.
     fn check_loaded(&mut self) -> Result<(), Error> {
-        let mut seen = vec![false; self.proxies.len()];
-        for &id in &self.free {
-            match (self.proxies.get(id as usize), seen.get_mut(id as usize)) {
-                (Some(proxy), Some(seen)) if proxy.kind.is_none() && !*seen => *seen = true,
-                _ => return Err(bad("the free proxies are not")),
-            }
-        }
-        let alive = |kind: ProxyKind| self.proxies.iter().filter(|p| p.kind == Some(kind)).count();
-        let kinds = [ProxyKind::Static, ProxyKind::Kinematic, ProxyKind::Dynamic];
-        if self.free.len() + kinds.iter().map(|&kind| alive(kind)).sum::<usize>() != seen.len() {
-            return Err(bad("proxies are neither used nor free"));
-        }
-        for (kind, tree) in kinds.into_iter().zip(&self.trees) {
-            tree.check_loaded().map_err(bad)?;
-            let in_tree =
-                |(id, proxy): (usize, &Proxy)| proxy.kind != Some(kind) || tree.contains(id as u32);
-            if tree.len() != alive(kind) || !self.proxies.iter().enumerate().all(in_tree) {
-                return Err(bad("a tree holds other proxies than there are"));
-            }
-        }
-        let mut buffered = vec![false; self.proxies.len()];
-        for id in &self.moved {
-            match buffered.get_mut(id.0 as usize) {
-                Some(buffered) if !*buffered => *buffered = true,
-                _ => return Err(bad("the moved proxies are wrong")),
-            }
-        }
-        if self.proxies.iter().zip(&buffered).any(|(proxy, &buffered)| proxy.moved != buffered) {
-            return Err(bad("the moved proxies are not those that are marked"));
-        }
-        Ok(())
+        self.check().map_err(bad)
     }
 
     /// Checks every invariant. For tests.
@@ -622,26 +592,44 @@ impl BroadPhase {
     ///
     /// Says what is wrong.
     pub fn validate(&self) -> Result<(), String> {
-        for tree in &self.trees {
-            tree.validate()?;
+        self.check().map_err(|what| {
+            // Trees tell more by themselves.
+            let told = self.trees.iter().find_map(|tree| tree.validate().err());
+            told.unwrap_or(what.into())
+        })
+    }
+
+    /// Nothing leads out of the lists, and each proxy is where it should be.
+    fn check(&self) -> Result<(), &'static str> {
+        let mut seen = vec![false; self.proxies.len()];
+        for &id in &self.free {
+            match (self.proxies.get(id as usize), seen.get_mut(id as usize)) {
+                (Some(proxy), Some(seen)) if proxy.kind.is_none() && !*seen => *seen = true,
+                _ => return Err("the free proxies are not"),
+            }
         }
-        let mut buffered = vec![0_u32; self.proxies.len()];
+        let alive = |kind: ProxyKind| self.proxies.iter().filter(|p| p.kind == Some(kind)).count();
+        let kinds = [ProxyKind::Static, ProxyKind::Kinematic, ProxyKind::Dynamic];
+        if self.free.len() + kinds.iter().map(|&kind| alive(kind)).sum::<usize>() != seen.len() {
+            return Err("proxies are neither used nor free");
+        }
+        for (kind, tree) in kinds.into_iter().zip(&self.trees) {
+            tree.check_loaded()?;
+            let in_tree =
+                |(id, proxy): (usize, &Proxy)| proxy.kind != Some(kind) || tree.contains(id as u32);
+            if tree.len() != alive(kind) || !self.proxies.iter().enumerate().all(in_tree) {
+                return Err("a tree holds other proxies than there are");
+            }
+        }
+        let mut buffered = vec![false; self.proxies.len()];
         for id in &self.moved {
-            buffered[id.0 as usize] += 1;
-        }
-        let mut counts = [0; 3];
-        for (index, proxy) in self.proxies.iter().enumerate() {
-            if buffered[index] != u32::from(proxy.moved) {
-                return Err(format!("proxy {index} is {} times in the buffer", buffered[index]));
-            }
-            let Some(kind) = proxy.kind else { continue };
-            counts[kind as usize] += 1;
-            if !self.trees[kind as usize].contains(index as u32) {
-                return Err(format!("proxy {index} is not in its tree"));
+            match buffered.get_mut(id.0 as usize) {
+                Some(buffered) if !*buffered => *buffered = true,
+                _ => return Err("the moved proxies are wrong"),
             }
         }
-        if counts != [0, 1, 2].map(|kind| self.trees[kind].len()) {
-            return Err(format!("{counts:?} proxies, but the trees have others"));
+        if self.proxies.iter().zip(&buffered).any(|(proxy, &buffered)| proxy.moved != buffered) {
+            return Err("the moved proxies are not those that are marked");
         }
         Ok(())
     }
