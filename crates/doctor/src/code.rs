@@ -128,7 +128,7 @@ codes! {
          the bound on pushing apart.";
     /// A joint beyond its limits.
     LimitOverrun "limit_overrun" "joints":
-        "A joint's coordinate is outside its limits by more than 0.07 rad or 3 cm (length units), in two looks.";
+        "A joint's coordinate is outside its limits by more than 0.07 rad or 3 cm (length units) in two looks, or by three times that in one.";
     /// Two constraints that exclude each other.
     JointFight "joint_fight" "joints":
         "A joint stays apart by more than 2 % of its smaller body (and 1 cm) for 0.75 s, or as its bodies fall asleep, while \

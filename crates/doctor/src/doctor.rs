@@ -44,7 +44,7 @@ const MOST_ILL: usize = 12;
 const MOST_AT_FIRST: usize = 1000;
 const MOST_NEW: usize = 64;
 /// Steps after which a body may be asked again for what it never meets.
-const UNMET_EVERY: u64 = 10;
+const UNMET_EVERY: u64 = 16;
 /// Steps between two looks at the world as a whole.
 const WORLD_EVERY: u64 = 64;
 /// One joint in so many is examined in a step.
@@ -250,7 +250,9 @@ impl Doctor {
             self.joint_at = 0;
             self.joint_memory.begin_round(look);
         }
-        let count = (self.joints.len() / JOINT_ONE_IN).clamp(1, 64);
+        // Where they are few, one every other step.
+        let count = (self.joints.len() / JOINT_ONE_IN).min(64);
+        let count = count.max(usize::from(look.step.is_multiple_of(2)));
         let end = (self.joint_at + count).min(self.joints.len());
         for &id in &self.joints[self.joint_at..end] {
             if let Some(joint) = look.world.joint(id) {

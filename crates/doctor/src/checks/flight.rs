@@ -86,10 +86,11 @@ pub(crate) fn glance(
     let reach = (speed.max(before.velocity.length()) * 1.5 + look.pull * time) * time;
     // What has not been looked at for long may have been hit meanwhile.
     // What moved and was not looked at may have been hit meanwhile. What is pushed out of others moves a little further than it is fast; kinematic bodies do not.
-    let room = if body.kind() == BodyKind::Dynamic { 0.05 * track.size } else { 0.0 };
+    let room = || if body.kind() == BodyKind::Dynamic { 0.05 * track.size } else { 0.0 };
     let seen = before.glance + 1 == look.step || before.rested && look.step - before.glance <= 3;
     let placed = seen
-        && way > reach + room.max(0.002 * look.unit)
+        && way > reach
+        && way > reach + room().max(0.002 * look.unit)
         && check_teleport(look, body, before, track, findings);
     if placed {
         track.placed = Some(look.step);

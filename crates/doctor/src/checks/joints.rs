@@ -402,7 +402,8 @@ fn check_limits(
         *since = None;
         return;
     }
-    if *since.get_or_insert(look.step) == look.step {
+    // By a little it may be knocked for a moment.
+    if *since.get_or_insert(look.step) == look.step && over < 3.0 * bound {
         return;
     }
     let figure = figure("beyond its limit", over, bound, if turns { " rad" } else { " m" });
