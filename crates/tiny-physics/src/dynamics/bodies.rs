@@ -1,6 +1,6 @@
 //! Bodies: hot rows for the solver, poses, and everything else.
 
-use super::pace::PLAIN;
+use super::pace::{JOINTED, PLAIN};
 use crate::codec::{Data, Generations, Reader, Sink, record, store};
 use crate::describe::{BodyKind, Locks};
 use crate::error::Error;
@@ -280,6 +280,13 @@ impl Bodies {
         let (a, b) = (&self.infos[a as usize], &self.infos[b as usize]);
         let dynamic = a.kind == BodyKind::Dynamic && b.kind == BodyKind::Dynamic;
         dynamic && a.pace != b.pace
+    }
+
+    /// Is a body in a tree of joints that is not solved together with contacts yet? Its joints have no colours then.
+    pub(crate) fn hangs_in_tree(&self, index: u32) -> bool {
+        let info = &self.infos[index as usize];
+        let joined = info.first_joint != NULL && info.joint_colours == 0;
+        joined && info.kind == BodyKind::Dynamic && usize::from(info.pace) != JOINTED
     }
 
     /// The pace at which what joins two bodies is solved.

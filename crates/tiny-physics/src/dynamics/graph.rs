@@ -284,12 +284,6 @@ impl Graph {
         &self.buckets.list()[self.range_of_pace(pace)]
     }
 
-    /// The same, to work on.
-    pub(crate) fn of_pace_mut(&mut self, pace: usize) -> &mut [Bucket] {
-        let range = self.range_of_pace(pace);
-        &mut self.buckets.list_mut()[range]
-    }
-
     fn range_of_pace(&self, pace: usize) -> Range<usize> {
         let [start, end] = [pace, pace + 1].map(|pace| key(place_of(pace, 0), PairClass::ALL[0]));
         self.buckets.range(start..end)
@@ -343,7 +337,8 @@ impl Graph {
         let place = if contact.touching {
             self.touching += 1;
             let (a, b) = (contact.body_a, contact.body_b);
-            self.mixed |= bodies.are_mixed(a, b);
+            self.mixed |=
+                bodies.are_mixed(a, b) || [a, b].into_iter().any(|i| bodies.hangs_in_tree(i));
             let both_move = bodies.is_dynamic(a) && bodies.is_dynamic(b);
             self.news = self.news.saturating_add(u32::from(both_move));
             let colour = take_colour(bodies, [a, b], |info| &mut info.contact_colours);

@@ -60,8 +60,6 @@ pub(crate) trait LaneData: LaneBlock {
     const IMPULSES: usize;
     /// The impulses of a lane, into the first places of a slice.
     fn save(&self, lane: usize, impulses: &mut [f32]);
-    /// Multiplies the impulses of a lane.
-    fn scale(&mut self, lane: usize, factor: f32);
     /// The other way round.
     fn restore(&mut self, lane: usize, impulses: &[f32]);
 }
@@ -119,9 +117,6 @@ macro_rules! joint_lanes {
                 $($(if let Some(place) = places.next() { *place = self.$impulse[lane]; })*)?
                 $($(if let Some(place) = places.next() { *place = self.$kept[lane]; })*)?
             }
-            fn scale(&mut self, lane: usize, factor: f32) {
-                $($(self.$impulse[lane] *= factor;)*)?
-            }
             fn restore(&mut self, lane: usize, impulses: &[f32]) {
                 let mut places = impulses.iter();
                 $($(if let Some(place) = places.next() { self.$impulse[lane] = *place; })*)?
@@ -170,9 +165,6 @@ macro_rules! joint_block {
                 let mut at = 0;
                 $(self.$part.save(lane, &mut impulses[at..at + <$type>::IMPULSES]);
                 at += <$type>::IMPULSES;)*
-            }
-            fn scale(&mut self, lane: usize, factor: f32) {
-                $(self.$part.scale(lane, factor);)*
             }
             #[allow(unused_assignments, reason = "after the last part")]
             fn restore(&mut self, lane: usize, impulses: &[f32]) {

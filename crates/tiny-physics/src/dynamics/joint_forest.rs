@@ -13,7 +13,7 @@
 use super::bodies::{Bodies, NULL};
 use super::coloured::{TREES, colour_at, place_of};
 use super::disjoint_sets::DisjointSets;
-use super::joint_blocks::{AxisLanes, JointClass, LaneData};
+use super::joint_blocks::{AxisLanes, JointClass};
 use super::joints::{JointPlace, Joints};
 use crate::codec::{Data, Reader, Sink, clone_by_field};
 use crate::describe::{JointDef, JointKind};
@@ -176,17 +176,6 @@ pub(crate) struct JointTree {
 
 clone_by_field!(JointTree { nodes, dynamic, links, axes, pace, begun, fresh, moved, factored });
 footprint!(JointTree { nodes, links, axes } none { dynamic, pace, begun, fresh, moved, factored });
-
-impl JointTree {
-    /// Multiplies all impulses.
-    pub(crate) fn scale_impulses(&mut self, factor: f32) {
-        for link in &mut self.links {
-            link.impulses.iter_mut().for_each(|impulse| *impulse *= f64::from(factor));
-            link.motor[2] *= factor;
-        }
-        self.axes.iter_mut().for_each(|axis| axis.scale(0, factor));
-    }
-}
 
 /// All trees of a world.
 #[derive(Debug, Default)]

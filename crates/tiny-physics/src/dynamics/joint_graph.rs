@@ -10,8 +10,8 @@ use super::coloured::{
     take_colour,
 };
 use super::joint_blocks::{
-    DistanceBlock, DriveBlock, GearBlock, Impulses, JointClass, JointLanes, LaneData,
-    PrismaticBlock, PulleyBlock, RevoluteBlock, WeldBlock, WheelBlock,
+    DistanceBlock, DriveBlock, GearBlock, Impulses, JointClass, JointLanes, PrismaticBlock,
+    PulleyBlock, RevoluteBlock, WeldBlock, WheelBlock,
 };
 use super::joint_forest::{JointForest, JointTree, is_rigid};
 use super::joints::{JointPlace, JointRecord, Joints};
@@ -199,21 +199,6 @@ impl JointColour {
         self.lists().flatten().copied()
     }
 
-    /// Multiplies the impulses of each joint with a factor that its bodies have.
-    pub(crate) fn scale_impulses(&mut self, factor: impl Fn(u32, u32) -> f32) {
-        macro_rules! scale {
-            ($($bucket:ident),*) => {
-                $(for slot in 0..self.$bucket.joints.len() {
-                    let block = &mut self.$bucket.blocks[slot / BLOCK];
-                    let lane = slot % BLOCK;
-                    let factor = factor(block.frame.body_a[lane], block.frame.body_b[lane]);
-                    block.scale(lane, factor);
-                })*
-            };
-        }
-        scale!(distance, revolute, prismatic, weld, wheel, drive, pulley, gear);
-    }
-
     /// Works on all blocks class by class, in runs that the team shares out. A team of one, such as the
     /// overflow wants, goes through them in order.
     pub(crate) fn for_each_run(&mut self, team: &Team, work: impl Fn(JointBlocks<'_>) + Sync) {
@@ -269,12 +254,6 @@ impl JointGraph {
     pub(crate) fn of_pace(&self, pace: usize) -> &[JointColour] {
         let places = place_of(pace, 0)..place_of(pace + 1, 0);
         &self.colours.list()[self.colours.range(places)]
-    }
-
-    /// The same, to work on.
-    pub(crate) fn of_pace_mut(&mut self, pace: usize) -> &mut [JointColour] {
-        let range = self.colours.range(place_of(pace, 0)..place_of(pace + 1, 0));
-        &mut self.colours.list_mut()[range]
     }
 
     /// The lanes of a pace's trees, if it has any, and the trees of all paces.

@@ -150,12 +150,15 @@ impl Joints {
         })
     }
 
-    /// The bodies of joints that tie islands together: those in the graph or of class none.
+    /// The joints that tie islands together: those in the graph or of class none.
+    pub(crate) fn tying(&self) -> impl Iterator<Item = &JointRecord> {
+        let all = self.records.iter();
+        all.filter(|record| record.alive && record.place != JointPlace::Asleep)
+    }
+
+    /// Their bodies.
     pub(crate) fn pairs(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
-        self.records
-            .iter()
-            .filter(|record| record.alive && record.place != JointPlace::Asleep)
-            .map(|record| (record.body_a, record.body_b))
+        self.tying().map(|record| (record.body_a, record.body_b))
     }
 
     /// Keeps the list of breakable joints in line with a joint's description.

@@ -38,7 +38,7 @@ pub(crate) use joint_blocks::*;
 pub(crate) use joint_forest::{JointTree, TreeLink, TreeNode, TreeRow};
 pub(crate) use joint_graph::{JointBlocks, JointBucket, JointColour, JointGraph, joint_classes};
 pub(crate) use joints::{JointLoad, JointPlace, JointRecord, Joints};
-pub(crate) use pace::{JOINTED, PACES, PLAIN, REFINEMENT, ROUNDS};
+pub(crate) use pace::{JOINTED, PACES, PLAIN, REFINEMENT, ROUNDS, WATCHED};
 #[cfg(test)]
 use schedule::PlaceRuns;
 pub(crate) use schedule::{Run, Schedule};

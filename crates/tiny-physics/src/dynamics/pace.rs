@@ -5,16 +5,20 @@
 //! the contacts and joints between them; [`assign`](crate::stages::paces) sees to that.
 
 /// Number of paces.
-pub(crate) const PACES: usize = 5;
+pub(crate) const PACES: usize = 6;
 
 /// The world's substeps are multiplied by this.
-pub(crate) const REFINEMENT: [u32; PACES] = [1, 2, 4, 8, 1];
+pub(crate) const REFINEMENT: [u32; PACES] = [1, 2, 4, 8, 1, 1];
 
 /// Rounds of joints and contacts in each pass of a substep: islands in which they bear each other need several.
-pub(crate) const ROUNDS: [u32; PACES] = [1, 1, 1, 1, 3];
+pub(crate) const ROUNDS: [u32; PACES] = [1, 1, 1, 1, 3, 1];
 
 /// The pace of islands in which trees of joints touch something, or joints and strained contacts meet.
 pub(crate) const JOINTED: usize = 4;
+
+/// The pace of islands with joints in loops that touch something: their energy is watched, no more. So it is at
+/// [`JOINTED`].
+pub(crate) const WATCHED: usize = 5;
 
 /// The pace of most islands.
 pub(crate) const PLAIN: usize = 0;

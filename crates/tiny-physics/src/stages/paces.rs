@@ -9,10 +9,11 @@
 //! what it did before. An island keeps its pace until its strain has fallen to half of what called for it.
 
 use super::islands::{Islands, Stores};
+use super::passivity::may_drive;
 use crate::describe::BodyKind;
 use crate::dynamics::{
     Bodies, Bucket, Graph, JOINTED, JointPlace, NULL, PLAIN, Place, PointLanes, REFINEMENT, ROUNDS,
-    TreeNode, next_edge, pace_at,
+    TreeNode, WATCHED, next_edge, pace_at,
 };
 use crate::math::Vec2;
 use crate::simd::BLOCK;
@@ -172,8 +173,11 @@ struct Island {
     strain: f32,
     /// Do two of its bodies that touch pass each other so fast that loads say nothing?
     lively: bool,
-    /// Has it joints?
-    joints: bool,
+    /// Bodies with joints, and joints between two of them that do no work.
+    joined: usize,
+    joints: usize,
+    /// Does anything in it touch something?
+    touches: bool,
     /// Does a tree of joints touch something?
     touched: bool,
 }
@@ -187,7 +191,7 @@ impl Island {
             let least = if keeps { 0.5 } else { 1.0 } * visible[pace] * rules.length_unit;
             self.strain > least && (keeps || !self.lively)
         });
-        if self.touched || self.joints && wanted.is_some() {
+        if self.touched || self.joined > 0 && wanted.is_some() {
             let cost = self.bodies * (ROUNDS[JOINTED] as usize - 1);
             if self.bodies <= rules.most_bodies && cost <= *budget {
                 *budget -= cost;
@@ -201,7 +205,9 @@ impl Island {
         let allowed = (1..=wanted.unwrap_or(PLAIN))
             .rev()
             .find(|&pace| self.bodies <= most(pace) && cost(pace) <= *budget);
-        let pace = allowed.unwrap_or(PLAIN);
+        // As many joints as bodies close a loop, and no pass solves those at once.
+        let looped = self.touches && self.joints > 0 && self.joints >= self.joined;
+        let pace = allowed.unwrap_or(if looped { WATCHED } else { PLAIN });
         *budget -= cost(pace);
         self.pace = pace as u8;
     }
@@ -216,11 +222,13 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
     for &body in bodies.awake.iter().filter(|&&body| bodies.is_dynamic(body)) {
         let island = &mut found[islands.root(body) as usize];
         island.bodies += 1;
-        island.pace = island.pace.max(bodies.infos[body as usize].pace);
+        let info = &bodies.infos[body as usize];
+        island.pace = island.pace.max(info.pace);
+        island.joined += usize::from(info.first_joint != NULL);
     }
-    for (a, b) in joints.pairs() {
-        for body in [a, b].into_iter().filter(|&body| bodies.is_dynamic(body)) {
-            found[islands.root(body) as usize].joints = true;
+    for record in joints.tying().filter(|record| !may_drive(&record.def)) {
+        if bodies.is_dynamic(record.body_a) && bodies.is_dynamic(record.body_b) {
+            found[islands.root(record.body_a) as usize].joints += 1;
         }
     }
     for tree in joint_graph.forest.trees.iter().filter(|tree| !tree.links.is_empty()) {
@@ -237,10 +245,12 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         let scale = refinement * rules.inv_h / rules.omega_squared;
         for slot in 0..bucket.contacts.len() {
             let (a, b) = bucket.bodies(slot);
+            let body = if bodies.is_dynamic(a) { a } else { b };
+            let island = &mut found[islands.root(body) as usize];
+            island.touches = true;
             if !(bodies.is_dynamic(a) && bodies.is_dynamic(b)) {
                 continue;
             }
-            let island = &mut found[islands.root(a) as usize];
             if island.bodies > rules.most_bodies {
                 continue;
             }

@@ -6,7 +6,7 @@
 use super::contact_solver::{self, BounceMemory, Parameters, Pass, Softness};
 use super::islands::Stores;
 use super::joint_solver::Substep;
-use super::{integrate, joint_solver, paces, temper};
+use super::{integrate, joint_solver, paces, passivity};
 use crate::describe::Settings;
 use crate::dynamics::{JOINTED, JointLoad, PACES, PLAIN, REFINEMENT, ROUNDS, Schedule};
 use crate::footprint::footprint;
@@ -110,18 +110,19 @@ impl Rules<'_> {
 pub(crate) struct Solver {
     schedule: Schedule,
     bounces: BounceMemory,
-    temper: temper::Memory,
+    pub(crate) passivity: passivity::Memory,
     listed: Vec<u32>,
     /// Joints that bore more than they can in the last step, ascending, and how much.
     pub(crate) broken: Vec<(u32, JointLoad)>,
 }
 
-footprint!(Solver { schedule, bounces, temper, listed, broken });
+footprint!(Solver { schedule, bounces, passivity, listed, broken });
 
 impl Solver {
     /// Solves the islands pace by pace, the plain one last.
     pub(crate) fn run(&mut self, team: &Team, stores: &mut Stores<'_>, rules: Rules<'_>) {
         self.broken.clear();
+        self.passivity.withheld = 0.0;
         if stores.bodies.awake.is_empty() {
             return;
         }
@@ -157,7 +158,7 @@ impl Solver {
         pace: usize,
         listed: &[u32],
     ) {
-        let Self { schedule, bounces, temper, broken, .. } = self;
+        let Self { schedule, bounces, passivity, broken, .. } = self;
         let Rules { settings, gravity, level, lengths } = rules;
         let h = lengths.h;
         let joint_substep = Substep::new(h, settings.length_unit);
@@ -165,8 +166,9 @@ impl Solver {
         schedule.fill_pace(stores.graph, pace, contact_solver::CHUNK);
         integrate::prepare(team, listed, stores.bodies, gravity, h);
         prepare_joints(team, stores, level, pace, joint_substep);
-        if pace == JOINTED {
-            temper.find(pace, stores);
+        let watched = pace >= JOINTED;
+        if watched {
+            passivity.find(pace, listed, stores);
         }
         let Stores { bodies, graph, .. } = stores;
         contact_solver::run_bounces(team, level, &parameters, bodies, graph, schedule, bounces);
@@ -189,9 +191,6 @@ impl Solver {
             } else if stores.joint_graph.count() > 0 {
                 contacts(stores, Pass::WarmStartJointed);
             }
-            if pace == JOINTED {
-                temper.run(pace, listed, stores);
-            }
             for _ in 0..lengths.iterations {
                 joints(stores, joint_solver::Pass::Solve);
                 contacts(stores, Pass::Solve);
@@ -201,6 +200,9 @@ impl Solver {
                 let last = round == lengths.relaxations;
                 joints(stores, joint_solver::Pass::Relax);
                 contacts(stores, if last { Pass::RelaxLast } else { Pass::Relax });
+            }
+            if watched {
+                passivity.run(stores.bodies);
             }
             joint_solver::note_broken(stores.joint_graph, stores.joints, pace, inv_h_plain, broken);
         }

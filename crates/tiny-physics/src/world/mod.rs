@@ -298,6 +298,7 @@ impl World {
         let Self { settings, gravity, level, .. } = *self;
         let rules = solve::Rules { settings: &settings, gravity, level, lengths };
         self.scratch.solver.run(team, &mut self.state.solved(), rules);
+        self.stats.withheld_energy = self.scratch.solver.passivity.withheld;
         self.collect_hits();
         self.break_joints();
     }

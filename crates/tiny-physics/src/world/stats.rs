@@ -63,6 +63,9 @@ pub struct Stats {
     pub contacts_ended: usize,
     /// Bodies that were swept because they moved fast.
     pub fast_bodies: usize,
+    /// Energy that joints and contacts would have added in the last step out of nothing, joules: it was withheld. More than
+    /// crumbs, step after step, say that joints are asked for more than can be solved.
+    pub withheld_energy: f64,
     /// Bodies whose numbers stopped being finite: they were stopped where they had last been.
     pub frozen_bodies: usize,
     /// Steps refused because the time step was not a positive finite number, since the world was made.

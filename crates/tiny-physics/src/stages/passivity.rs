@@ -1,0 +1,284 @@
+//! Passivity: what only holds and brakes does no work, so the constraints of an island may not add energy.
+//!
+//! In a substep forces add g to the velocities u, and constraints make v of that. Their work is
+//! `W = sum of (v - u - g) . M (v + u) / 2` over the island. Above 0 it is an error: rows that have not converged, old
+//! impulses on arms that have turned since. What W has been below 0 in the substeps before may be given back; beyond it
+//! the velocities shrink to the greatest share s with
+//!
+//! ```text
+//! W(s) = a s^2 + b s + c <= given back,    v(s) = r + s (v - r)
+//! ```
+//!
+//! where r is the motion of what the island leans on or, if it is free, its own as a rigid body, which keeps both
+//! momenta. Rows with `J v = 0` or `J v >= 0` stay so, and impulses stay what they are: loads are held.
+//!
+//! Up to what gravity gives in one substep to what rests, W is noise, and braked by [`GENTLE`] at most: nets that are
+//! stopped wholly whenever W is above 0 freeze where they hang, because corrections of places keep it there. So at most
+//! noise of three substeps' fall, 0.13 m/s, is left. Scaling the change of velocities, not the velocities, was tried: chains
+//! swing on, and 22 crates of 800 fell through bridges instead of 10; cutting warm starts so lost 13.
+//!
+//! Islands that something may work on are left alone: motors that run, springs, belts, machines that turn.
+
+use super::islands::Stores;
+use crate::describe::{JointDef, JointKind, Motor};
+use crate::dynamics::{Bodies, DisjointSets, NULL, Slot, flags};
+use crate::math::DVec2;
+use crate::simd::BLOCK;
+
+/// Least share where W is noise.
+const GENTLE: f64 = 0.95;
+
+/// What is known of an island.
+#[derive(Clone, Copy, Debug, Default)]
+struct Island {
+    /// Something may work on it.
+    driven: bool,
+    /// Velocity of the bodies it leans on, which nothing moves.
+    ground: Option<[f32; 2]>,
+    /// Where it is, roughly.
+    origin: DVec2,
+    whole: Whole,
+    /// a, b and c of the work.
+    work: [f64; 3],
+    /// Energy that forces give to what rests, joules.
+    noise: f64,
+    /// Work that its constraints have taken in this step.
+    taken: f64,
+    share: f64,
+}
+
+/// A motion as one rigid body.
+#[derive(Clone, Copy, Debug, Default)]
+struct Whole {
+    mass: f64,
+    inertia: f64,
+    /// From the origin.
+    center: [f64; 2],
+    velocity: [f64; 2],
+    spin: f64,
+}
+
+impl Whole {
+    /// Its velocity where a body is.
+    fn at(&self, [x, y]: [f64; 2]) -> [f64; 3] {
+        let arm = [x - self.center[0], y - self.center[1]];
+        [self.velocity[0] - self.spin * arm[1], self.velocity[1] + self.spin * arm[0], self.spin]
+    }
+}
+
+/// A body in a substep: masses; velocities at the end, at the start, and what forces added; its place.
+struct State {
+    masses: [f64; 3],
+    v: [f64; 3],
+    u: [f64; 3],
+    g: [f64; 3],
+    place: [f64; 2],
+}
+
+impl State {
+    fn new(bodies: &Bodies, body: u32, origin: DVec2) -> Self {
+        let (row, start) = (&bodies.rows[body as usize], &bodies.starts[body as usize]);
+        let (info, pose) = (&bodies.infos[body as usize], &bodies.poses[body as usize]);
+        let own = |inverse: f32, mass: f32| if inverse > 0.0 { f64::from(mass) } else { 0.0 };
+        let mass = own(row[Slot::INV_MASS], info.mass);
+        let g = core::array::from_fn(|k| f64::from(bodies.motions[body as usize].gain[k]));
+        Self {
+            masses: [mass, mass, own(row[Slot::INV_INERTIA], info.inertia)],
+            v: core::array::from_fn(|k| f64::from(row[k])),
+            u: core::array::from_fn(|k| f64::from(start[k]) - g[k]),
+            g,
+            place: [
+                pose.p.x - origin.x + f64::from(row[Slot::DX]),
+                pose.p.y - origin.y + f64::from(row[Slot::DY]),
+            ],
+        }
+    }
+}
+
+/// The islands of a pace. Found anew each step; kept for its memory.
+#[derive(Debug, Default)]
+pub(crate) struct Memory {
+    sets: DisjointSets,
+    /// Of each root its island, or NULL.
+    numbers: Vec<u32>,
+    islands: Vec<Island>,
+    /// Bodies of islands that are watched, and which.
+    members: Vec<(u32, u32)>,
+    /// Those of islands that lean on nothing.
+    free: Vec<(u32, u32)>,
+    /// Energy that constraints would have added in this step, joules.
+    pub(crate) withheld: f64,
+}
+
+crate::footprint::footprint!(Memory { sets, numbers, islands, members, free } none { withheld });
+
+impl Memory {
+    /// Finds the islands of a pace whose bodies are listed.
+    pub(crate) fn find(&mut self, pace: usize, listed: &[u32], stores: &Stores<'_>) {
+        let Stores { bodies, graph, joints, joint_graph, .. } = stores;
+        let Self { sets, numbers, islands, members, free, .. } = self;
+        let touching = || {
+            graph.of_pace(pace).iter().flat_map(|bucket| {
+                (0..bucket.contacts.len()).map(move |slot| {
+                    let belt = bucket.heads[slot / BLOCK].flags & flags::TANGENT_SPEED != 0;
+                    (bucket.bodies(slot), belt)
+                })
+            })
+        };
+        let joined = || {
+            let all = joint_graph.of_pace(pace).iter().flat_map(|colour| colour.joints());
+            all.map(|joint| {
+                let record = &joints.records[joint as usize];
+                ((record.body_a, record.body_b), may_drive(&record.def))
+            })
+        };
+        sets.reset(bodies.infos.len());
+        for ((a, b), _) in touching().chain(joined()) {
+            if bodies.is_dynamic(a) && bodies.is_dynamic(b) {
+                sets.join(a, b);
+            }
+        }
+        numbers.clear();
+        numbers.resize(bodies.infos.len(), NULL);
+        islands.clear();
+        members.clear();
+        for &body in listed.iter().filter(|&&body| bodies.is_dynamic(body)) {
+            let number = &mut numbers[sets.root(body) as usize];
+            if *number == NULL {
+                *number = islands.len() as u32;
+                let origin = bodies.poses[body as usize].p;
+                islands.push(Island { origin, ..Island::default() });
+            }
+            members.push((body, *number));
+        }
+        for ((a, b), drives) in touching().chain(joined()) {
+            let (mover, body) = if bodies.is_dynamic(a) { (b, a) } else { (a, b) };
+            let Some(island) = islands.get_mut(numbers[sets.root(body) as usize] as usize) else {
+                continue;
+            };
+            island.driven |= drives;
+            if !bodies.is_dynamic(mover) {
+                let row = &bodies.rows[mover as usize];
+                let ground = [row[Slot::VX], row[Slot::VY]];
+                island.driven |= row[Slot::W] != 0.0 || island.ground.is_some_and(|g| g != ground);
+                island.ground = Some(ground);
+            }
+        }
+        members.retain(|&(_, island)| !islands[island as usize].driven);
+        let is_free = |&&(_, island): &&(u32, u32)| islands[island as usize].ground.is_none();
+        free.clear();
+        free.extend(members.iter().filter(is_free));
+    }
+
+    /// Lets the velocities of islands whose constraints did work in this substep give way.
+    pub(crate) fn run(&mut self, bodies: &mut Bodies) {
+        let Self { islands, members, free, withheld, .. } = self;
+        find_whole(bodies, islands, free);
+        for &(body, island) in &*members {
+            let island = &mut islands[island as usize];
+            let State { masses, v, u, g, place } = State::new(bodies, body, island.origin);
+            let whole = island.whole.at(place);
+            for k in 0..3 {
+                let frame = if k < 2 { island.whole.velocity[k] } else { 0.0 };
+                let (own, rest, u) = (v[k] - whole[k], whole[k] - frame, u[k] - frame);
+                let half = 0.5 * masses[k];
+                island.work[0] += half * own * own;
+                island.work[1] += half * own * (2.0 * rest - g[k]);
+                island.work[2] += half * (rest * (rest - g[k]) - u * (u + g[k]));
+                island.noise += half * g[k] * g[k];
+            }
+        }
+        let mut all = true;
+        for island in &mut *islands {
+            *withheld += island.give_way();
+            all &= island.share == 1.0;
+        }
+        if all {
+            return;
+        }
+        for &(body, island) in &*members {
+            let island = &islands[island as usize];
+            if island.share == 1.0 {
+                continue;
+            }
+            let State { v, place, .. } = State::new(bodies, body, island.origin);
+            let whole = island.whole.at(place);
+            for k in 0..3 {
+                let v = whole[k] + island.share * (v[k] - whole[k]);
+                bodies.rows[body as usize][k] = v as f32;
+            }
+        }
+    }
+}
+
+impl Island {
+    /// Chooses its share. Gives the energy that this withholds.
+    fn give_way(&mut self) -> f64 {
+        let [a, b, c] = core::mem::take(&mut self.work);
+        let noise = core::mem::take(&mut self.noise);
+        let credit = self.taken;
+        let work = a + b + c;
+        let least = if work - credit > noise { 0.0 } else { GENTLE };
+        self.share = 1.0;
+        if work > credit && a > 0.0 {
+            // The greater root.
+            let square = b * b - 4.0 * a * (c - credit);
+            let root = if square > 0.0 { square.sqrt() } else { 0.0 };
+            self.share = ((root - b) / (2.0 * a)).clamp(least, 1.0);
+        }
+        let kept = (a * self.share + b) * self.share + c;
+        self.taken = if kept < credit { credit - kept } else { 0.0 };
+        work - kept
+    }
+}
+
+/// Motions of all islands as a whole. `free` are the bodies of those that lean on nothing.
+fn find_whole(bodies: &Bodies, islands: &mut [Island], free: &[(u32, u32)]) {
+    for island in &mut *islands {
+        let velocity = island.ground.unwrap_or_default().map(f64::from);
+        island.whole = Whole { velocity, ..Whole::default() };
+    }
+    if free.is_empty() {
+        return;
+    }
+    for &(body, island) in free {
+        let Island { whole, origin, .. } = &mut islands[island as usize];
+        let State { masses, v, place, .. } = State::new(bodies, body, *origin);
+        whole.mass += masses[0];
+        for k in 0..2 {
+            whole.center[k] += masses[0] * place[k];
+            whole.velocity[k] += masses[0] * v[k];
+        }
+    }
+    for Island { whole, .. } in islands.iter_mut().filter(|island| island.whole.mass > 0.0) {
+        whole.center = whole.center.map(|sum| sum / whole.mass);
+        whole.velocity = whole.velocity.map(|sum| sum / whole.mass);
+    }
+    for &(body, island) in free {
+        let Island { whole, origin, .. } = &mut islands[island as usize];
+        let State { masses: [mass, _, inertia], v, place, .. } = State::new(bodies, body, *origin);
+        let arm = [place[0] - whole.center[0], place[1] - whole.center[1]];
+        let own = [v[0] - whole.velocity[0], v[1] - whole.velocity[1]];
+        whole.inertia += mass * (arm[0] * arm[0] + arm[1] * arm[1]) + inertia;
+        // Angular momentum, until it is divided.
+        whole.spin += mass * (arm[0] * own[1] - arm[1] * own[0]) + inertia * v[2];
+    }
+    for Island { whole, .. } in islands.iter_mut().filter(|island| island.whole.inertia > 0.0) {
+        whole.spin /= whole.inertia;
+    }
+}
+
+/// May a joint do work, or give back what it has stored?
+pub(crate) fn may_drive(def: &JointDef) -> bool {
+    let runs = |motor: Option<Motor>| motor.is_some_and(|motor| motor.speed != 0.0);
+    def.softness.is_some()
+        || match def.kind {
+            JointKind::Distance { spring, motor, .. }
+            | JointKind::Revolute { spring, motor, .. }
+            | JointKind::Prismatic { spring, motor, .. }
+            | JointKind::Wheel { spring, motor, .. } => spring.is_some() || runs(motor),
+            JointKind::Weld { linear, angular } => linear.is_some() || angular.is_some(),
+            JointKind::Motor { .. } | JointKind::Mouse { .. } => true,
+            JointKind::Filter | JointKind::Pulley { .. } | JointKind::Gear { .. } => false,
+        }
+}

@@ -1,0 +1,215 @@
+//! Joints and contacts that meet: they add no energy, so that what should rest does, and what should be borne is.
+
+use tiny_physics::{BodyId, JointDef, Polygon, RigidBody, Shape, Vec2, World};
+
+const DT: f32 = 1.0 / 60.0;
+
+/// Numbers from a seed, in a range.
+struct Random(u64);
+
+impl Random {
+    fn range(&mut self, low: f32, high: f32) -> f32 {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * ((self.0 >> 40) as f32 / (1_u64 << 24) as f32)
+    }
+}
+
+fn rect(x: f32, y: f32) -> Shape {
+    Polygon::rect(x, y).expect("positive").into()
+}
+
+fn disk(radius: f32) -> Shape {
+    Shape::circle(radius).expect("positive")
+}
+
+/// Energy of motion and height, joules.
+fn energy(world: &World) -> f64 {
+    let of = |body: tiny_physics::Body<'_>| {
+        let (v, w) = (body.velocity(), f64::from(body.angular_velocity()));
+        let speed_sq = f64::from(v.x).powi(2) + f64::from(v.y).powi(2);
+        let (mass, inertia) = (f64::from(body.mass()), f64::from(body.inertia()));
+        let height = f64::from(world.gravity.y) * body.position_f64().y;
+        0.5 * (mass * speed_sq + inertia * w * w) - mass * height
+    };
+    world.bodies().map(of).sum()
+}
+
+/// A straight chain of links with round ends from a point on, in a direction; its links.
+fn chain(world: &mut World, from: Vec2, along: Vec2, links: usize, length: f32) -> Vec<BodyId> {
+    let half = 0.5 * length;
+    let (a, b) = (Vec2::new(-half, 0.0), Vec2::new(half, 0.0));
+    let mut ids: Vec<BodyId> = Vec::new();
+    for i in 0..links {
+        let middle = from + along * (length * (i as f32 + 0.5));
+        let link = RigidBody::dynamic().position(middle).angle(along.y.atan2(along.x));
+        let link = link.can_sleep(false).shape(Shape::Capsule { a, b, radius: 0.05 });
+        let link = world.add_body(link).unwrap();
+        if let Some(&before) = ids.last() {
+            world.add_joint(before, link, JointDef::revolute().anchors(b, a)).unwrap();
+        }
+        ids.push(link);
+    }
+    ids
+}
+
+#[test]
+fn nets_of_ropes_come_to_rest() {
+    let mut random = Random(1);
+    for _ in 0..3 {
+        let (size, pitch) = (random.range(12.0, 24.0) as usize, random.range(0.25, 0.5));
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let frame = world.add_body(RigidBody::fixed()).unwrap();
+        let mut balls: Vec<BodyId> = Vec::new();
+        for i in 0..size * size {
+            let place = Vec2::new((i % size) as f32, -((i / size) as f32)) * pitch;
+            let ball = RigidBody::dynamic().position(place).can_sleep(false);
+            balls.push(world.add_body(ball.shape(disk(0.2 * pitch))).unwrap());
+            for before in [(i % size > 0).then_some(1), (i >= size).then_some(size)] {
+                let Some(before) = before else { continue };
+                world.add_joint(balls[i - before], balls[i], JointDef::rope(pitch)).unwrap();
+            }
+        }
+        for corner in [0, size - 1] {
+            let hook =
+                JointDef::revolute().anchors(Vec2::new(corner as f32 * pitch, 0.0), Vec2::ZERO);
+            world.add_joint(frame, balls[corner], hook).unwrap();
+        }
+        let mut fastest = 0.0_f32;
+        for step in 0..1800 {
+            world.step(DT);
+            if step >= 1740 {
+                let speeds = world.bodies().map(|body| body.velocity().length());
+                fastest = speeds.fold(fastest, f32::max);
+            }
+        }
+        assert!(fastest < 0.01, "a net of {size} x {size}, {pitch} m: {fastest} m/s");
+    }
+}
+
+/// Light planks under crates fifteen to fifty times as heavy that fall on them all at once.
+#[test]
+fn crates_that_fall_on_bridges_stay_there() {
+    let mut random = Random(5);
+    let (mut fallen, mut count) = (0, 0);
+    for _ in 0..10 {
+        let (planks, half) = (random.range(24.0, 46.0) as usize, random.range(0.2, 0.35));
+        let (size, mass) = (random.range(0.15, 0.35), random.range(1.0, 4.0));
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let posts = world.add_body(RigidBody::fixed()).unwrap();
+        let end = half * planks as f32;
+        let (mut before, mut anchor) = (posts, Vec2::new(-end, 0.0));
+        let mut ids = Vec::new();
+        for i in 0..planks {
+            let place = Vec2::new(half * (2 * i + 1) as f32 - end, 0.0);
+            let plank = RigidBody::dynamic().position(place).shape(rect(half, 0.07));
+            let plank = world.add_body(plank).unwrap();
+            let hinge = JointDef::revolute().anchors(anchor, Vec2::new(-half, 0.0));
+            world.add_joint(before, plank, hinge).unwrap();
+            (before, anchor) = (plank, Vec2::new(half, 0.0));
+            ids.push(plank);
+        }
+        let hinge = JointDef::revolute().anchors(anchor, Vec2::new(end, 0.0));
+        world.add_joint(before, posts, hinge).unwrap();
+        let crates: Vec<BodyId> = (0..20)
+            .map(|i| {
+                let (column, row) = ((i % 10) as f32 - 4.5, (i / 10) as f32);
+                let place = Vec2::new(3.0 * size * column, 0.3 + size * (1.0 + 3.0 * row));
+                let body = RigidBody::dynamic().position(place).shape(rect(size, size)).mass(mass);
+                world.add_body(body).unwrap()
+            })
+            .collect();
+        for _ in 0..300 {
+            world.step(DT);
+        }
+        let at = |&id: &BodyId| world.body(id).unwrap().position();
+        let deepest = ids.iter().map(|id| at(id).y).fold(0.0, f32::min);
+        fallen += crates.iter().filter(|id| at(id).y < deepest - 0.5).count();
+        count += crates.len();
+    }
+    assert!(fallen * 50 <= count, "{fallen} of {count} crates fell through");
+}
+
+/// Half of a chain lies on a table, a weight hangs from the other half: what it swings with becomes less.
+#[test]
+fn a_chain_over_an_edge_comes_to_rest() {
+    let mut random = Random(9);
+    let mut withheld = 0.0;
+    for member in 0..6 {
+        let (half, length, mass) = match member {
+            0 => (12, 0.25, 1.0),
+            _ => {
+                (random.range(7.0, 13.0) as usize, random.range(0.2, 0.35), random.range(0.5, 5.0))
+            }
+        };
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let table = RigidBody::fixed().position(Vec2::new(-5.0, -1.0)).shape(rect(5.0, 1.0));
+        let table = world.add_body(table).unwrap();
+        let start = Vec2::new(-(half as f32) * length, 0.05);
+        let lying = chain(&mut world, start, Vec2::X, half, length);
+        let hanging = chain(&mut world, Vec2::new(0.06, 0.0), -Vec2::Y, half, length);
+        let (a, b) = (Vec2::new(-0.5 * length, 0.0), Vec2::new(0.5 * length, 0.0));
+        let ends =
+            [(table, lying[0], start + Vec2::new(5.0, 1.0)), (lying[half - 1], hanging[0], b)];
+        for (body, link, anchor) in ends {
+            world.add_joint(body, link, JointDef::revolute().anchors(anchor, a)).unwrap();
+        }
+        let place = Vec2::new(0.06, -length * half as f32 - 0.2);
+        let weight = RigidBody::dynamic().position(place).can_sleep(false).shape(rect(0.2, 0.2));
+        let weight = world.add_body(weight.mass(mass)).unwrap();
+        let hook = JointDef::revolute().anchors(b, Vec2::new(0.0, 0.2));
+        world.add_joint(hanging[half - 1], weight, hook).unwrap();
+        let (mut sum, mut count) = (0.0, 0.0);
+        for step in 0..1200 {
+            world.step(DT);
+            withheld += world.stats().withheld_energy;
+            if step >= 600 {
+                let speeds = hanging.iter().map(|&id| world.body(id).unwrap().velocity());
+                sum += speeds.map(|v| v.length_sq()).sum::<f32>();
+                count += hanging.len() as f32;
+            }
+        }
+        let speed = (sum / count).sqrt();
+        assert!(speed < 0.07, "{half} links of {length} m, {mass} kg: {speed} m/s");
+    }
+    assert!(withheld > 0.0, "nothing was withheld");
+}
+
+/// A chain among balls where nothing pulls: what is withheld takes no momentum.
+#[test]
+fn what_floats_keeps_its_momenta() {
+    for seed in 0..4 {
+        let mut random = Random(seed);
+        let mut world = World::new(Vec2::ZERO);
+        chain(&mut world, Vec2::new(-2.5, 0.0), Vec2::X, 20, 0.25);
+        for i in 0..12 {
+            let place = Vec2::new(0.5 * i as f32 - 2.75, 0.4);
+            let velocity = Vec2::new(random.range(-1.0, 1.0), random.range(-3.0, -1.0));
+            let ball = RigidBody::dynamic().position(place).velocity(velocity).can_sleep(false);
+            world.add_body(ball.shape(disk(0.2)).mass(random.range(0.5, 3.0))).unwrap();
+        }
+        let momenta = |world: &World| {
+            let mut sums = [0.0_f64; 3];
+            for body in world.bodies() {
+                let (p, v, mass) = (body.position_f64(), body.velocity(), f64::from(body.mass()));
+                let (x, y) = (f64::from(v.x), f64::from(v.y));
+                let spin = f64::from(body.inertia()) * f64::from(body.angular_velocity());
+                let own = [mass * x, mass * y, mass * (p.x * y - p.y * x) + spin];
+                sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
+            }
+            sums
+        };
+        let (start, first) = (momenta(&world), energy(&world));
+        let mut highest = first;
+        for _ in 0..300 {
+            world.step(DT);
+            highest = highest.max(energy(&world));
+        }
+        let off: Vec<f64> = start.iter().zip(momenta(&world)).map(|(a, b)| (a - b).abs()).collect();
+        assert!(
+            off[0] < 1e-3 && off[1] < 1e-3 && off[2] < 0.1,
+            "seed {seed}: {start:?}, off {off:?}"
+        );
+        assert!(highest < 1.01 * first, "seed {seed}: {highest} of {first} J");
+    }
+}
