@@ -81,7 +81,7 @@ pub struct RigidBody {
     /// Speed below which it counts as at rest, metres a second; multiplied by
     /// [`Settings::length_unit`](crate::Settings::length_unit).
     pub sleep_speed: f32,
-    /// Is it swept against moving bodies too, not only static ones?
+    /// Kept and given back, but it changes nothing: whatever is fast is looked out for, moving or not.
     pub bullet: bool,
     /// A body that is not enabled is kept but takes no part.
     pub enabled: bool,

@@ -84,7 +84,7 @@ pub struct Settings {
     pub sleep: bool,
     /// Time at rest before an island sleeps, seconds.
     pub time_to_sleep: f32,
-    /// Are fast bodies swept against static shapes (and bullets against moving ones)?
+    /// Are fast bodies swept against the motions of static and kinematic shapes?
     pub continuous: bool,
     /// Friction of a pair from the frictions of its shapes.
     pub friction_mix: Mix,

@@ -186,6 +186,8 @@ record! {
     pub(crate) struct BlockHead {
         /// Which lanes touched in the last narrow phase, as bits.
         pub(crate) touching: u16,
+        /// Which lanes close in so fast that they may hit in the step, as bits; none between steps.
+        pub(crate) closing: u16,
         /// What lanes use, see [`flags`].
         pub(crate) flags: u8,
         /// Lanes whose body A has joints, as bits, as of the last narrow phase.
@@ -201,6 +203,7 @@ impl BlockHead {
         let first = |lanes: u16| lanes >> lane & 1;
         Self {
             touching: first(self.touching),
+            closing: first(self.closing),
             flags: self.flags,
             jointed_a: first(self.jointed_a),
             jointed_b: first(self.jointed_b),

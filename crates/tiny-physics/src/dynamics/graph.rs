@@ -162,7 +162,7 @@ fn contact_flags(contact: &Contact) -> u8 {
 /// Blocks of one bucket that are worked on together.
 pub(crate) struct Blocks<'a> {
     /// Contacts in these blocks; the last block may be part full.
-    pub(crate) count: usize,
+    pub(crate) contacts: &'a [u32],
     pub(crate) manifolds: &'a mut [ManifoldBlock],
     pub(crate) heads: &'a mut [BlockHead],
     /// Empty for contacts that do not touch.
@@ -173,7 +173,7 @@ pub(crate) struct Blocks<'a> {
 /// A bucket, shared between members of the team.
 #[derive(Clone, Copy)]
 pub(super) struct Shared<'a> {
-    count: usize,
+    contacts: &'a [u32],
     manifolds: SharedSlice<'a, ManifoldBlock>,
     heads: SharedSlice<'a, BlockHead>,
     constraints: SharedSlice<'a, ConstraintBlock>,
@@ -184,7 +184,7 @@ impl<'a> Shared<'a> {
     #[inline]
     pub(super) fn new(bucket: &'a mut Bucket) -> Self {
         Self {
-            count: bucket.contacts.len(),
+            contacts: &bucket.contacts,
             manifolds: SharedSlice::new(&mut bucket.manifolds),
             heads: SharedSlice::new(&mut bucket.heads),
             constraints: SharedSlice::new(&mut bucket.constraints),
@@ -194,8 +194,9 @@ impl<'a> Shared<'a> {
 
     #[inline]
     pub(super) fn blocks(self, range: Range<usize>) -> Blocks<'a> {
+        let end = self.contacts.len().min(range.end * BLOCK);
         Blocks {
-            count: self.count.min(range.end * BLOCK) - range.start * BLOCK,
+            contacts: &self.contacts[range.start * BLOCK..end],
             manifolds: self.manifolds.range(range.clone()),
             heads: self.heads.range(range.clone()),
             constraints: self.constraints.range(range.clone()),
@@ -353,6 +354,57 @@ impl Graph {
             self.fresh.push((place as u8, contact.class as u8, slot / BLOCK as u32));
         }
         (place, slot)
+    }
+
+    /// Says that a contact touches or not, whatever the narrow phase said: its block is fresh.
+    pub(crate) fn mark_touching(&mut self, contact: &Contact, touches: bool) {
+        let Place::Graph { colour, slot } = contact.place else { return };
+        let (block, lane) = (slot / BLOCK as u32, slot as usize % BLOCK);
+        let bucket = self.bucket_mut(colour.into(), contact.class);
+        let touching = &mut bucket.heads[block as usize].touching;
+        *touching = *touching & !(1 << lane) | u16::from(touches) << lane;
+        if colour as usize != IDLE {
+            self.fresh.push((colour, contact.class as u8, block));
+        }
+    }
+
+    /// Lists the contacts that the narrow phase found to close in fast, and takes their marks away.
+    pub(crate) fn take_closing(&mut self, candidates: &mut Vec<u32>) {
+        for bucket in self.buckets.list_mut() {
+            for (block, head) in bucket.heads.iter_mut().enumerate() {
+                let mut lanes = core::mem::take(&mut head.closing);
+                while lanes != 0 {
+                    candidates
+                        .push(bucket.contacts[block * BLOCK + lanes.trailing_zeros() as usize]);
+                    lanes &= lanes - 1;
+                }
+            }
+        }
+    }
+
+    /// Has the impulses of a contact summed up in this step.
+    pub(crate) fn watch(&mut self, contact: &Contact) {
+        if let Some((bucket, slot)) = self.solved(contact) {
+            bucket.heads[slot / BLOCK].flags |= flags::HIT;
+        }
+    }
+
+    /// Did a contact that was watched push in this step?
+    pub(crate) fn has_pushed(&mut self, contact: &Contact) -> bool {
+        self.solved(contact).is_some_and(|(bucket, slot)| {
+            let (surface, lane) = (&bucket.surfaces[slot / BLOCK], slot % BLOCK);
+            surface.total_1[lane] > 0.0 || surface.total_2[lane] > 0.0
+        })
+    }
+
+    /// Where a contact is that the solver visits.
+    fn solved(&mut self, contact: &Contact) -> Option<(&mut Bucket, usize)> {
+        match contact.place {
+            Place::Graph { colour, slot } if colour as usize != IDLE => {
+                Some((self.bucket_mut(colour.into(), contact.class), slot as usize))
+            }
+            _ => None,
+        }
     }
 
     /// Forgets which blocks are fresh: the narrow phase has visited them, or is about to visit all.

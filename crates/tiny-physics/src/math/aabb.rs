@@ -78,6 +78,12 @@ impl Aabb {
         Self::new(self.min - Vec2::splat(margin), self.max + Vec2::splat(margin))
     }
 
+    /// The box of all that it goes through on a way, metres.
+    #[inline]
+    pub(crate) fn swept(&self, way: Vec2) -> Self {
+        Self::new(self.min + way.min(Vec2::ZERO), self.max + way.max(Vec2::ZERO))
+    }
+
     /// Centre of the box.
     #[inline]
     pub fn center(&self) -> Vec2 {

@@ -46,6 +46,68 @@ impl Boxes<'_> {
             }
         }
     }
+
+    /// As [`Boxes::follow`] for a body that is fast: the fat boxes hold all that `next` would take it through.
+    pub(crate) fn lead(self, first_shape: u32, next: &Way, moved: &mut Moved) {
+        let Self { shapes, tight: tight_boxes, broad_phase } = self;
+        for shape in shapes.of_body(first_shape) {
+            let tight = shape_box(shapes, shape, next.start);
+            tight_boxes.write(shape, tight);
+            let path = next.turned(shapes, shape, tight).swept(next.motion);
+            if !shapes.fat[shape as usize].contains(&path) {
+                let fat = broad_phase.needed_fat_aabb(shapes.proxy(shape), path, Vec2::ZERO);
+                moved.extend(fat.map(|fat| (shape, fat)));
+            }
+        }
+    }
+
+    /// Lets the fat boxes of a body's shapes hold all that a step to come takes them through, and the tight ones all
+    /// that they turn through at its start. Notes how far each shape goes.
+    pub(crate) fn reach(
+        self,
+        first_shape: u32,
+        way: &Way,
+        moved: &mut Moved,
+        ways: &mut Vec<(u32, Vec2)>,
+    ) {
+        let Self { shapes, tight: tight_boxes, broad_phase } = self;
+        for shape in shapes.of_body(first_shape) {
+            let tight = way.turned(shapes, shape, shape_box(shapes, shape, way.start));
+            tight_boxes.write(shape, tight);
+            ways.push((shape, way.motion));
+            let path = tight.swept(way.motion);
+            if !shapes.fat[shape as usize].contains(&path) {
+                let fat = broad_phase.needed_fat_aabb(shapes.proxy(shape), path, Vec2::ZERO);
+                moved.extend(fat.map(|fat| (shape, fat)));
+            }
+        }
+    }
+}
+
+/// How a body goes through a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Way {
+    pub(crate) start: Pose,
+    /// Metres and radians over the step.
+    pub(crate) motion: Vec2,
+    pub(crate) turn: f32,
+}
+
+impl Way {
+    /// A box around a shape, grown by what turning takes it through.
+    fn turned(&self, shapes: &Shapes, shape: u32, tight: Aabb) -> Aabb {
+        let row = &shapes.rows[shape as usize];
+        let arm = Vec2::new(row[0], row[1]).length() + Vec2::new(row[4], row[5]).length();
+        // Of a general polygon it knows a disk.
+        let arm = if guard::exact(row[7]) == 1.0 { arm } else { arm + row[6] };
+        // No chord is longer than two radii.
+        tight.grown(self.turn.abs().min(2.0) * arm)
+    }
+
+    /// A box around all that a shape goes through.
+    pub(crate) fn swept_box(&self, shapes: &Shapes, shape: u32) -> Aabb {
+        self.turned(shapes, shape, shape_box(shapes, shape, self.start)).swept(self.motion)
+    }
 }
 
 /// Gives shapes the fat boxes that they need.

@@ -1,19 +1,22 @@
 //! Continuous collision: fast bodies stop where they would have gone through something.
 //!
-//! A body that moved further than a part of its own thickness is swept from where it started the step
-//! to where the solver put it. It is set back to the first impact with a static or kinematic shape; a
-//! bullet also to that with a dynamic one. Its velocity stays: the contact solver deals with it in the
-//! next step, when there is a contact. The time that is lost is at most a step.
+//! Contacts of what closes in fast are made in time (see [`ahead`](super::ahead)); this is the net below. A body that
+//! moved further than a part of its own thickness, or that something fast and kinematic may have gone through, is
+//! swept against the *motion* of static and kinematic shapes. It is set back to the first impact with a static one.
+//! What meets a kinematic one rides along from there on, as far as static ones let it. Its velocity stays: the contact
+//! solver deals with it in the next step, when there is a contact. Only what drives its middle on into something is
+//! taken: a corner that turns away as fast as the middle comes gives the solver nothing to push.
 
-use super::boxes::{self, Moved};
+use super::boxes::{self, Moved, Way};
 use super::finalize::FastBody;
 use super::one_way;
 use super::pairs::PairRule;
 use super::surfaces::{self, Ground, Seams};
-use crate::broad_phase::{BroadPhase, ProxyKind};
-use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes};
+use crate::broad_phase::{BroadPhase, ProxyId, ProxyKind};
+use crate::describe::BodyKind;
+use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes, Slot};
 use crate::geometry::manifold::ShapeClass;
-use crate::geometry::{LINEAR_SLOP, Shape, Sweep, ToiState, distance, time_of_impact};
+use crate::geometry::{LINEAR_SLOP, Shape, Sweep, ToiState, distance, time_of_impact_within};
 use crate::math::{Aabb, Pose, Rot, Transform, Vec2};
 use crate::simd::Row;
 use crate::threads::{SharedSlice, Team};
@@ -28,48 +31,41 @@ pub(crate) struct Rules<'a> {
     pub(crate) custom: Option<&'a dyn PairRule>,
     /// See [`Settings::length_unit`](crate::Settings).
     pub(crate) length_unit: f32,
+    /// Length of the step, seconds.
+    pub(crate) dt: f32,
 }
 
 /// Fast bodies that one member of the team sweeps at a time.
 const CHUNK: usize = 16;
-/// Impacts are looked for up to a slop off the surface, give or take what rounding does, metres.
+/// Impacts are looked for up to a slop off the surface, give or take what rounding does, metres; multiplied by the
+/// length unit, as what follows.
 const SLACK: f32 = 2.0 * LINEAR_SLOP;
+/// A middle that is inside something may go on by this much in a step: it is being pushed out. Metres.
+const CREEP: f32 = 0.1 * LINEAR_SLOP;
 
-/// Sweeps the fast bodies, bullets last and one by one: they see where all others have ended. `moved` is
-/// memory.
+/// Sweeps the fast bodies, and those that fast kinematic bodies (`carriers`, ascending) may have gone through.
+/// `moved` is memory.
 pub(crate) fn run(
     team: &Team,
-    fast: &mut [FastBody],
+    (fast, carriers): (&mut Vec<FastBody>, &[FastBody]),
     bodies: &mut Bodies,
     shapes: &mut Shapes,
     broad_phase: &mut BroadPhase,
     rules: Rules<'_>,
     moved: &mut Vec<Moved>,
 ) {
-    let scene = Scene { bodies, shapes, broad_phase, rules };
+    let scene = Scene { bodies, shapes, broad_phase, rules, carriers };
+    scene.add_what_is_hit(fast);
     team.for_each_chunk_mut(fast, CHUNK, |_, fast| {
-        for fast in fast.iter_mut().filter(|fast| !scene.is_bullet(fast)) {
-            fast.fraction = Impact { fast, bullets: &[], index: 0, scene }.first_fraction();
+        for fast in fast {
+            *fast = Search { fast, scene }.outcome();
         }
     });
-    place_all_but_bullets(team, fast, bodies, shapes, broad_phase, moved);
-    for index in 0..fast.len() {
-        let scene = Scene { bodies, shapes, broad_phase, rules };
-        if scene.is_bullet(&fast[index]) {
-            let impact = Impact { fast: &fast[index], bullets: fast, index, scene };
-            fast[index].fraction = impact.first_fraction();
-            let FastBody { body, motion, fraction, .. } = fast[index];
-            bodies.poses[body as usize] = end(&fast[index], bodies.poses[body as usize]);
-            if moved.is_empty() {
-                moved.push(Moved::new());
-            }
-            boxes::update(bodies, shapes, broad_phase, body, motion * fraction, &mut moved[0]);
-        }
-    }
+    settle(team, fast, bodies, shapes, broad_phase, moved);
 }
 
-/// Sets bodies back to their first impacts, where they have one, and updates their boxes.
-fn place_all_but_bullets(
+/// Puts bodies where their sweeps ended, and updates their boxes.
+fn settle(
     team: &Team,
     fast: &[FastBody],
     bodies: &mut Bodies,
@@ -77,31 +73,23 @@ fn place_all_but_bullets(
     broad_phase: &mut BroadPhase,
     moved: &mut Vec<Moved>,
 ) {
-    let (infos, poses) = (&bodies.infos, SharedSlice::new(&mut bodies.poses));
+    let (infos, rows) = (&bodies.infos, SharedSlice::new(&mut bodies.rows));
+    let poses = SharedSlice::new(&mut bodies.poses);
     let chunks = boxes::share(shapes, broad_phase, |boxes| {
         team.map_chunks(fast.len(), CHUNK, moved, |range, moved| {
             moved.clear();
             for fast in &fast[range] {
-                let info = &infos[fast.body as usize];
-                if !info.bullet {
-                    let pose = end(fast, poses.read(fast.body));
-                    poses.write(fast.body, pose);
-                    boxes.follow(info.first_shape, pose, fast.motion * fast.fraction, moved);
-                }
+                poses.write(fast.body, fast.end);
+                rows.update(fast.body, |row| {
+                    row[Slot::VX] -= fast.lost.x;
+                    row[Slot::VY] -= fast.lost.y;
+                });
+                let first_shape = infos[fast.body as usize].first_shape;
+                boxes.lead(first_shape, &Way { start: fast.end, ..fast.course() }, moved);
             }
         })
     });
     chunks.iter().for_each(|moved| boxes::take_over(shapes, broad_phase, moved));
-}
-
-/// Where a fast body ends: at its first impact, or at the pose that it has.
-fn end(fast: &FastBody, pose: Pose) -> Pose {
-    if fast.fraction < 1.0 {
-        let position = fast.start.p + fast.motion * fast.fraction;
-        Pose::new(position, fast.start.q.integrate(fast.turn * fast.fraction))
-    } else {
-        pose
-    }
 }
 
 /// A disk about the middle of a shape, half as thick as it. What a shape touches already at the start of
@@ -125,13 +113,32 @@ impl Inner {
         Self { disk: Shape::Circle { radius }, sweep, reach: middle.length() + radius }
     }
 
-    fn first_fraction(&self, other: &Shape, fixed: &Sweep, first: f32) -> f32 {
-        let toi = time_of_impact(&self.disk, &self.sweep, other, fixed, first);
+    /// How the disk moves as the other shape sees it, in the common axes of the start.
+    fn relative_way(&self, other: &Sweep) -> Vec2 {
+        let middle = |fraction| self.sweep.at(fraction).apply(Vec2::ZERO);
+        let (from, to) = (other.at(0.0), other.at(1.0));
+        from.q.rotate(to.unapply(middle(1.0)) - from.unapply(middle(0.0)))
+    }
+
+    /// The fraction at which the disk meets a shape, and the normal towards it there.
+    fn first_fraction(
+        &self,
+        other: &Shape,
+        motion: &Sweep,
+        first: f32,
+        length_unit: f32,
+    ) -> Option<(f32, Vec2)> {
+        let slop = LINEAR_SLOP * length_unit;
+        let toi = time_of_impact_within(&self.disk, &self.sweep, other, motion, first, slop);
         match toi.state {
-            ToiState::Hit | ToiState::Limit => toi.fraction,
+            ToiState::Hit | ToiState::Limit => Some((toi.fraction, toi.normal)),
             // Deep inside already: out again is the only way on.
-            ToiState::Touching if toi.normal.dot(self.sweep.translation()) > 0.0 => 0.0,
-            ToiState::Separated | ToiState::Touching => first,
+            ToiState::Touching
+                if toi.normal.dot(self.relative_way(motion)) > CREEP * length_unit =>
+            {
+                Some((0.0, toi.normal))
+            }
+            ToiState::Separated | ToiState::Touching => None,
         }
     }
 }
@@ -143,131 +150,230 @@ struct Scene<'a> {
     shapes: &'a Shapes,
     broad_phase: &'a BroadPhase,
     rules: Rules<'a>,
+    /// Fast kinematic bodies, ascending.
+    carriers: &'a [FastBody],
 }
 
 impl Scene<'_> {
-    fn is_bullet(&self, fast: &FastBody) -> bool {
-        self.bodies.infos[fast.body as usize].bullet
-    }
-}
-
-/// The search for the first impact of a body.
-struct Impact<'a> {
-    fast: &'a FastBody,
-    /// For a bullet, all fast bodies by body, of which it is the one at `index`.
-    bullets: &'a [FastBody],
-    index: usize,
-    scene: Scene<'a>,
-}
-
-impl Impact<'_> {
-    /// The part of the step for which the body touches nothing new, 0 to 1.
-    fn first_fraction(&self) -> f32 {
-        let fast = self.fast;
-        let info = &self.scene.bodies.infos[fast.body as usize];
-        // All geometry is relative to where the centre of mass was: 32 bits are enough.
-        let frame = Transform::new(Vec2::ZERO, fast.start.q);
-        let sweep = Sweep::new(frame, Vec2::ZERO, fast.motion, fast.turn);
-        let path = self.path_box(info.max_extent);
-        let mut first = 1.0;
-        for shape in self.scene.shapes.of_body(info.first_shape) {
-            let record = &self.scene.shapes.records[shape as usize];
-            if record.sensor {
-                continue;
-            }
-            let moving = sweep.child(record.central);
-            for kind in [ProxyKind::Static, ProxyKind::Kinematic, ProxyKind::Dynamic] {
-                if kind == ProxyKind::Dynamic && !info.bullet {
+    /// Adds slow bodies that fast kinematic ones may have gone through.
+    fn add_what_is_hit(&self, fast: &mut Vec<FastBody>) {
+        let Scene { bodies, shapes, broad_phase, .. } = *self;
+        let count = fast.len();
+        for carrier in self.carriers {
+            let info = &bodies.infos[carrier.body as usize];
+            let way = carrier.way(info);
+            for shape in shapes.of_body(info.first_shape) {
+                let record = &shapes.records[shape as usize];
+                if record.sensor {
                     continue;
                 }
-                self.scene.broad_phase.tree(kind).query(&path, record.filter.reach().1, |proxy| {
-                    if let Some(other) =
-                        self.scene.broad_phase.user(crate::broad_phase::ProxyId(proxy))
-                    {
-                        first = self.impact((shape, record), (&sweep, &moving), other, first);
+                let path = carrier.course().swept_box(shapes, shape);
+                let mask = record.filter.reach().1;
+                broad_phase.tree(ProxyKind::Dynamic).query(&path, mask, |proxy| {
+                    if let Some(other) = broad_phase.user(ProxyId(proxy)) {
+                        let body = shapes.records[other as usize].body;
+                        let hit = &bodies.infos[body as usize];
+                        if hit.awake && way > super::finalize::SAFE_FRACTION * hit.min_extent {
+                            fast.push(FastBody::of_step(bodies, body));
+                        }
                     }
                     ControlFlow::Continue(())
                 });
             }
         }
+        if fast.len() > count {
+            // Stable: what is fast by itself comes first and stays.
+            fast.sort_by_key(|fast| fast.body);
+            fast.dedup_by_key(|fast| fast.body);
+        }
+    }
+}
+
+/// An impact: when, with which body, and the velocity that it takes.
+#[derive(Clone, Copy)]
+struct Meeting {
+    fraction: f32,
+    body: u32,
+    lost: Vec2,
+}
+
+impl Meeting {
+    /// With nothing up to a fraction.
+    fn none(fraction: f32) -> Self {
+        Self { fraction, body: 0, lost: Vec2::ZERO }
+    }
+}
+
+/// The search for the first impact of a body.
+struct Search<'a> {
+    fast: &'a FastBody,
+    scene: Scene<'a>,
+}
+
+/// A motion that starts at a fraction of the step; that of the body, or a part of it.
+#[derive(Clone, Copy)]
+struct Course {
+    sweep: Sweep,
+    from: f32,
+}
+
+impl Search<'_> {
+    /// What becomes of the body.
+    fn outcome(&self) -> FastBody {
+        // All geometry is relative to where the centre of mass was: 32 bits are enough.
+        let frame = Transform::new(Vec2::ZERO, self.fast.start.q);
+        let sweep = Sweep::new(frame, Vec2::ZERO, self.fast.motion, self.fast.turn);
+        let whole = Course { sweep, from: 0.0 };
+        let stop = self.first(&whole, ProxyKind::Static, Meeting::none(1.0));
+        let ride = self.first(&whole, ProxyKind::Kinematic, stop);
+        let place = sweep.at(ride.fraction);
+        if ride.fraction < stop.fraction {
+            return self.ended(self.carried(place, ride.fraction, ride.body), ride);
+        }
+        if stop.fraction == 1.0 {
+            return *self.fast;
+        }
+        // It waits where it is, and may be met there.
+        let rest = Sweep::fixed(place);
+        let waits = Course { sweep: rest, from: stop.fraction };
+        let met = self.first(&waits, ProxyKind::Kinematic, Meeting::none(1.0));
+        if met.fraction < 1.0 {
+            let at = stop.fraction + (1.0 - stop.fraction) * met.fraction;
+            return self.ended(self.carried(place, at, met.body), stop);
+        }
+        self.ended(place, stop)
+    }
+
+    /// The body at a place where it was stopped or taken.
+    fn ended(&self, place: Transform, meeting: Meeting) -> FastBody {
+        let FastBody { start, turn, .. } = *self.fast;
+        let end = Pose::new(start.p + place.p, place.q.normalized());
+        let turn = turn * meeting.fraction;
+        FastBody { end, motion: place.p, turn, lost: meeting.lost, ..*self.fast }
+    }
+
+    /// Where a kinematic body takes it that it met at this place and fraction.
+    fn carried(&self, place: Transform, fraction: f32, carrier: u32) -> Transform {
+        let motion = self.body_motion(carrier);
+        let end = motion.at(1.0).compose(place.relative_to(motion.at(fraction)));
+        let turn = motion.angle * (1.0 - fraction);
+        let sweep = Sweep::new(place, Vec2::ZERO, end.p - place.p, turn);
+        let ride = Course { sweep, from: 1.0 };
+        let stop = self.first(&ride, ProxyKind::Static, Meeting::none(1.0));
+        if stop.fraction < 1.0 { sweep.at(stop.fraction) } else { end }
+    }
+
+    /// The motion of another body over the step, relative to where this one started.
+    fn body_motion(&self, body: u32) -> Sweep {
+        let Scene { bodies, carriers, .. } = self.scene;
+        let info = &bodies.infos[body as usize];
+        if info.kind == BodyKind::Static || !info.awake {
+            return Sweep::fixed(self.place(bodies.poses[body as usize]));
+        }
+        let other = match carriers.binary_search_by_key(&body, |carrier| carrier.body) {
+            Ok(index) => carriers[index],
+            Err(_) => FastBody::of_step(bodies, body),
+        };
+        Sweep::new(self.place(other.start), Vec2::ZERO, other.motion, other.turn)
+    }
+
+    /// The first impact on a course with shapes of one kind of body, if it comes before `first`.
+    fn first(&self, course: &Course, kind: ProxyKind, mut first: Meeting) -> Meeting {
+        let Scene { bodies, shapes, broad_phase, .. } = self.scene;
+        let info = &bodies.infos[self.fast.body as usize];
+        let path = self.path_box(&course.sweep, info.max_extent);
+        for shape in shapes.of_body(info.first_shape) {
+            let record = &shapes.records[shape as usize];
+            if record.sensor {
+                continue;
+            }
+            broad_phase.tree(kind).query(&path, record.filter.reach().1, |proxy| {
+                if let Some(other) = broad_phase.user(ProxyId(proxy))
+                    && self.may_collide((shape, record), other)
+                    && let Some(meeting) = self.meeting(record, course, other, first.fraction)
+                {
+                    first = meeting;
+                }
+                ControlFlow::Continue(())
+            });
+        }
         first
     }
 
-    /// The box of everything that the body can have reached.
-    fn path_box(&self, extent: f32) -> Aabb {
-        let (start, motion, extent) = (self.fast.start.p, self.fast.motion, Vec2::splat(extent));
-        let least = start + motion.min(Vec2::ZERO) - extent;
-        Aabb::rounded_out(least, start + motion.max(Vec2::ZERO) + extent)
+    /// The box of everything that the body can reach on a course.
+    fn path_box(&self, sweep: &Sweep, extent: f32) -> Aabb {
+        let (start, extent) = (self.fast.start.p, Vec2::splat(extent));
+        let least = start + sweep.start.min(sweep.end) - extent;
+        Aabb::rounded_out(least, start + sweep.start.max(sweep.end) + extent)
     }
 
-    /// The first impact so far, taking one more shape into account. The motions are those of the body and of
-    /// its shape.
-    fn impact(
+    /// The impact of a shape with another before a fraction of the course.
+    fn meeting(
         &self,
-        (shape, record): (u32, &ShapeRecord),
-        (body, moving): (&Sweep, &Sweep),
+        record: &ShapeRecord,
+        course: &Course,
         index: u32,
         first: f32,
-    ) -> f32 {
-        let other = &self.scene.shapes.records[index as usize];
-        let forbids =
-            |rule: &dyn PairRule| !rule.allows(self.scene.bodies, self.scene.shapes, shape, index);
-        if !self.may_collide(record, other) || self.scene.rules.custom.is_some_and(forbids) {
-            return first;
-        }
-        let pose = self.scene.bodies.poses[other.body as usize];
-        let at = self.place(pose).compose(other.central);
-        let center = self.fast.start.q.rotate(record.central.p);
-        if surfaces::lets_pass(other, at, pose.q, center, self.fast.motion) {
-            return first;
+    ) -> Option<Meeting> {
+        let Scene { bodies, shapes, rules: Rules { length_unit, .. }, .. } = self.scene;
+        let other = &shapes.records[index as usize];
+        let (body, moving) = (&course.sweep, course.sweep.child(record.central));
+        let their = self.body_motion(other.body);
+        let rest = 1.0 - course.from;
+        let their = Sweep::new(
+            their.at(course.from),
+            Vec2::ZERO,
+            their.translation() * rest,
+            their.angle * rest,
+        );
+        // How it moves seen from the other.
+        let relative = body.translation() - their.translation();
+        let motion = their.child(other.central);
+        let center = body.start + body.rotation.rotate(record.central.p);
+        let turn = bodies.poses[other.body as usize].q;
+        if surfaces::lets_pass(other, motion.at(0.0), turn, center, relative) {
+            return None;
         }
         // One-way platforms stop only what comes from their solid side.
         let solid_along = |way: Vec2| {
-            one_way::is_solid_side(other, -way, pose.q)
+            one_way::is_solid_side(other, -way, turn)
                 && one_way::is_solid_side(record, way, self.fast.start.q)
         };
-        let extent = self.scene.bodies.infos[self.fast.body as usize].max_extent;
-        let meet = |motion: &Sweep, first: f32| {
-            let clear = |reach| {
-                let frame = motion.at(0.0).compose(other.box_frame);
-                let way = self.fast.motion - motion.translation();
-                motion.angle == 0.0
-                    && stays_clear(reach, way, &self.scene.shapes.rows[index as usize], frame)
-            };
-            if clear(extent + SLACK) {
-                return first;
-            }
-            let toi = time_of_impact(&record.shape, moving, &other.shape, motion, first);
-            let there = motion.at(toi.fraction);
-            match toi.state {
-                ToiState::Hit | ToiState::Limit
-                    if solid_along(toi.normal)
-                        && !self.is_ghost(
-                            record,
-                            index,
-                            moving.at(toi.fraction).relative_to(there),
-                        ) =>
-                {
-                    toi.fraction
-                }
-                // What it touches it may be passing through from behind.
-                ToiState::Hit | ToiState::Limit | ToiState::Touching
-                    if solid_along(self.fast.motion.normalized()) =>
-                {
-                    let inner = Inner::new(record, body);
-                    let passes = clear(inner.reach);
-                    if passes { first } else { inner.first_fraction(&other.shape, motion, first) }
-                }
-                ToiState::Hit | ToiState::Limit | ToiState::Separated | ToiState::Touching => first,
-            }
+        let clear = |reach| {
+            let frame = motion.at(0.0).compose(other.box_frame);
+            let frame = Transform::new(frame.p - body.start, frame.q);
+            motion.angle == 0.0 && stays_clear(reach, relative, &shapes.rows[index as usize], frame)
         };
-        match self.bullet(other.body) {
-            // Its turn is still to come: it is met on its way.
-            Some(index) if index > self.index => meet(&self.motion(index, other), first),
-            // It has had its turn: if the two meet at all, it is met where it ended.
-            Some(index) if meet(&self.motion(index, other), 1.0) == 1.0 => first,
-            _ => meet(&Sweep::fixed(at), first),
+        if clear(bodies.infos[self.fast.body as usize].max_extent + SLACK * length_unit) {
+            return None;
         }
+        let slop = LINEAR_SLOP * length_unit;
+        let toi = time_of_impact_within(&record.shape, &moving, &other.shape, &motion, first, slop);
+        let hit = matches!(toi.state, ToiState::Hit | ToiState::Limit);
+        let there = |f: f32| moving.at(f).relative_to(motion.at(f));
+        if hit && solid_along(toi.normal) && !self.is_ghost(record, index, there(toi.fraction)) {
+            return Some(Meeting { fraction: toi.fraction, body: other.body, lost: Vec2::ZERO });
+        }
+        // What it touches it may be passing through from behind.
+        if toi.state == ToiState::Separated || !solid_along(relative.normalized()) {
+            return None;
+        }
+        let inner = Inner::new(record, body);
+        if clear(inner.reach) {
+            return None;
+        }
+        let (fraction, normal) = inner.first_fraction(&other.shape, &motion, first, length_unit)?;
+        let lost = self.driving_velocity(inner.relative_way(&motion), normal);
+        Some(Meeting { fraction, body: other.body, lost })
+    }
+
+    /// The part of the body's velocity that drives its middle, which goes by `way` relative to the other, along a
+    /// normal into that.
+    fn driving_velocity(&self, way: Vec2, normal: Vec2) -> Vec2 {
+        let velocity = self.scene.bodies.velocity(self.fast.body);
+        let other = (self.fast.motion - way) * (1.0 / self.scene.rules.dt);
+        let speed = normal.dot(velocity - other);
+        if speed > 0.0 { normal * speed } else { Vec2::ZERO }
     }
 
     /// Does a shape at this place (in the other's frame) only hit a seam between static shapes?
@@ -284,7 +390,8 @@ impl Impact<'_> {
         let gap = distance(&hit.shape, &record.shape, place);
         let point = hit.box_frame.unapply(gap.point_a);
         let normal = hit.box_frame.q.unrotate(gap.normal);
-        Seams::new(ground, other, record).is_ghost([Some(point), None], normal)
+        let middle = hit.box_frame.unapply(place.apply(surfaces::middle(&record.shape.core())));
+        Seams::new(ground, other, record).is_ghost([Some(point), None], normal, middle)
     }
 
     /// A pose relative to where the body started.
@@ -292,25 +399,14 @@ impl Impact<'_> {
         Transform::new(pose.p.relative_to(self.fast.start.p), pose.q)
     }
 
-    /// Where in the list of fast bodies another one is, if it is a bullet among them.
-    fn bullet(&self, body: u32) -> Option<usize> {
-        let index = self.bullets.binary_search_by_key(&body, |fast| fast.body).ok()?;
-        let both = [self.fast.body, body].map(|body| self.scene.bodies.infos[body as usize].bullet);
-        (both == [true, true]).then_some(index)
-    }
-
-    /// The motion of a shape of a fast body, as far as it is allowed by now.
-    fn motion(&self, index: usize, shape: &ShapeRecord) -> Sweep {
-        let fast = &self.bullets[index];
-        let (motion, turn) = (fast.motion * fast.fraction, fast.turn * fast.fraction);
-        Sweep::new(self.place(fast.start), Vec2::ZERO, motion, turn).child(shape.central)
-    }
-
-    fn may_collide(&self, record: &ShapeRecord, other: &ShapeRecord) -> bool {
+    fn may_collide(&self, (shape, record): (u32, &ShapeRecord), index: u32) -> bool {
+        let Scene { bodies, shapes, rules, .. } = self.scene;
+        let other = &shapes.records[index as usize];
         other.body != record.body
             && !other.sensor
             && record.filter.collides(&other.filter)
-            && self.scene.rules.joints.may_collide(self.scene.bodies, record.body, other.body)
+            && rules.joints.may_collide(bodies, record.body, other.body)
+            && rules.custom.is_none_or(|rule| rule.allows(bodies, shapes, shape, index))
     }
 }
 
@@ -330,6 +426,7 @@ mod tests {
     use super::*;
     use crate::geometry::manifold::RoundedBox;
     use crate::geometry::testing::{any_frame, any_shape, any_vec};
+    use crate::geometry::time_of_impact;
     use proptest::prelude::*;
 
     /// A shape's row, of which its sizes are filled in, and the frame of its box.

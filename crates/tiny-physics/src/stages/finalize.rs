@@ -1,6 +1,6 @@
 //! After the substeps: poses take up the motion, boxes follow, rest is timed.
 
-use super::boxes::{self, Boxes, Moved};
+use super::boxes::{self, Boxes, Moved, Way};
 use crate::broad_phase::BroadPhase;
 use crate::describe::BodyKind;
 use crate::dynamics::{Bodies, BodyInfo, Shapes, Slot};
@@ -14,12 +14,33 @@ pub(crate) struct FastBody {
     pub(crate) body: u32,
     /// Pose of the centre of mass at the start of the step.
     pub(crate) start: Pose,
+    /// Pose at the end of the step.
+    pub(crate) end: Pose,
     /// What it moved, metres.
     pub(crate) motion: Vec2,
     /// What it turned, radians.
     pub(crate) turn: f32,
-    /// The part of both that the continuous stage let it have, 0 to 1.
-    pub(crate) fraction: f32,
+    /// Velocity that it must lose: what drives its middle into something.
+    pub(crate) lost: Vec2,
+}
+
+impl FastBody {
+    /// The last step of any body that did not turn by half a turn in it.
+    pub(crate) fn of_step(bodies: &Bodies, body: u32) -> Self {
+        let (start, end) = (bodies.previous[body as usize], bodies.poses[body as usize]);
+        let (motion, turn) = (end.p.relative_to(start.p), end.q.angle_from(start.q));
+        Self { body, start, end, motion, turn, lost: Vec2::ZERO }
+    }
+
+    /// How it went.
+    pub(crate) fn course(&self) -> Way {
+        Way { start: self.start, motion: self.motion, turn: self.turn }
+    }
+
+    /// The longest way that a point of the body can have gone, metres.
+    pub(crate) fn way(&self, info: &BodyInfo) -> f32 {
+        self.motion.length() + self.turn.abs() * info.max_extent
+    }
 }
 
 /// What [`run`] needs to know of the world's settings.
@@ -32,7 +53,7 @@ pub(crate) struct Options {
 }
 
 /// Bodies whose outline moves less than this fraction of their smallest half width in a step cannot jump.
-const SAFE_FRACTION: f32 = 0.5;
+pub(super) const SAFE_FRACTION: f32 = 0.5;
 
 /// Bodies that one member of the team finalises at a time.
 const CHUNK: usize = 128;
@@ -43,11 +64,13 @@ pub(crate) struct Findings {
     moved: Moved,
     /// Fast bodies: their boxes are left for the continuous stage.
     pub(crate) fast: Vec<FastBody>,
+    /// Fast kinematic bodies.
+    pub(crate) carriers: Vec<FastBody>,
     /// Bodies whose numbers are no longer finite.
     pub(crate) broken: Vec<u32>,
 }
 
-crate::footprint::footprint!(Findings { moved, fast, broken });
+crate::footprint::footprint!(Findings { moved, fast, carriers, broken });
 
 /// Takes the motion of the step over into poses and boxes. `found` gets the findings by chunk, in the order of
 /// the bodies; entries past the returned count are left over from other steps.
@@ -67,6 +90,7 @@ pub(crate) fn run(
         team.map_chunks(awake.len(), CHUNK, found, |range, found| {
             found.moved.clear();
             found.fast.clear();
+            found.carriers.clear();
             found.broken.clear();
             for &index in &awake[range] {
                 rows.update(index, |row| {
@@ -115,10 +139,13 @@ fn finalize_body(body: FinalBody<'_>, boxes: Boxes<'_>, options: Options, found:
     info.force = Vec2::ZERO;
     info.torque = 0.0;
     let reach = way + turned_reach(turn, info);
-    let moving = info.kind == BodyKind::Dynamic;
-    if options.continuous && moving && reach > SAFE_FRACTION * info.min_extent {
-        found.fast.push(FastBody { body: index, start, motion, turn, fraction: 1.0 });
-        return;
+    if options.continuous && reach > SAFE_FRACTION * info.min_extent {
+        let fast = FastBody { body: index, start, end: *pose, motion, turn, lost: Vec2::ZERO };
+        if info.kind == BodyKind::Dynamic {
+            found.fast.push(fast);
+            return;
+        }
+        found.carriers.push(fast);
     }
     boxes.follow(info.first_shape, *pose, motion, &mut found.moved);
 }

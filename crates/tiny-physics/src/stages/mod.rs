@@ -3,6 +3,7 @@
 //! Each stage is a function (or a few) over the two to four stores that it touches; none sees the
 //! world.
 
+pub(crate) mod ahead;
 pub(crate) mod boxes;
 pub(crate) mod contact_solver;
 pub(crate) mod continuous;

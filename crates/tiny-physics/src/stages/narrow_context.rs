@@ -1,7 +1,7 @@
 //! What the narrow phase reads.
 
 use crate::broad_phase::BroadPhase;
-use crate::dynamics::{BodyInfo, ShapeRecord};
+use crate::dynamics::{Bodies, BodyInfo, ShapeRecord, Shapes};
 use crate::math::Pose;
 use crate::simd::{Row, SimdLevel};
 
@@ -19,6 +19,32 @@ pub(crate) struct Context<'a> {
     pub(crate) speculative_distance: f32,
     /// For contacts with guarded shapes.
     pub(crate) surroundings: Surroundings<'a>,
+    /// Length of the step in seconds where contacts that close in fast are to be named, else 0.
+    pub(crate) ahead: f32,
+}
+
+impl<'a> Context<'a> {
+    /// `settings` are the SIMD level, the speculative distance and the length unit.
+    pub(crate) fn new(
+        bodies: &'a Bodies,
+        shapes: &'a Shapes,
+        broad_phase: &'a BroadPhase,
+        (level, speculative_distance, length_unit): (SimdLevel, f32, f32),
+        jointed: bool,
+        ahead: f32,
+    ) -> Self {
+        Self {
+            level,
+            body_rows: &bodies.rows,
+            poses: &bodies.poses,
+            shape_rows: &shapes.rows,
+            shapes: &shapes.records,
+            infos: jointed.then_some(&bodies.infos),
+            speculative_distance,
+            surroundings: Surroundings { guards: &shapes.guards, broad_phase, length_unit },
+            ahead,
+        }
+    }
 }
 
 /// What looking at surfaces needs beyond the narrow phase's own.

@@ -5,6 +5,7 @@
 //! iterates on. Running it twice on one block gives the same block, so blocks that got new contacts
 //! after the pass are simply run again.
 
+use super::ahead::{HARMLESS, Predictions};
 use super::narrow_context::Context;
 use super::surfaces::{self, LanePoints};
 use crate::dynamics::{BlockHead, Blocks, Graph, ManifoldBlock, NULL, Schedule, flags};
@@ -16,37 +17,53 @@ use crate::threads::Team;
 /// Blocks that one member of the team updates at a time.
 pub(crate) const CHUNK: usize = 4;
 
-/// Updates the blocks of a schedule.
-pub(crate) fn run(team: &Team, context: Context<'_>, graph: &mut Graph, schedule: &Schedule) {
+/// Updates the blocks of a schedule. Contacts with a prediction become what that says; lanes that close in fast are
+/// noted in the heads of their blocks, if the context asks for them.
+pub(crate) fn run(
+    team: &Team,
+    context: Context<'_>,
+    graph: &mut Graph,
+    schedule: &Schedule,
+    predictions: &Predictions,
+) {
     for stage in schedule.stages() {
-        graph.for_each_run(team, &stage, |class, blocks| update(context, class, blocks));
+        graph.for_each_run(team, &stage, |class, blocks| {
+            update(Pass { context, predictions, blocks }, class);
+        });
     }
 }
 
-fn update(context: Context<'_>, class: PairClass, blocks: Blocks<'_>) {
+/// Blocks of one class on their way through the kernel.
+struct Pass<'a> {
+    context: Context<'a>,
+    predictions: &'a Predictions,
+    blocks: Blocks<'a>,
+}
+
+fn update(pass: Pass<'_>, class: PairClass) {
     match class {
-        PairClass::BoxBox => run_kernel::<BoxBox>(context, blocks),
-        PairClass::BoxCapsule => run_kernel::<BoxCapsule>(context, blocks),
-        PairClass::BoxCircle => run_kernel::<BoxCircle>(context, blocks),
-        PairClass::CapsuleCapsule => run_kernel::<CapsuleCapsule>(context, blocks),
-        PairClass::CapsuleCircle => run_kernel::<CapsuleCircle>(context, blocks),
-        PairClass::CircleCircle => run_kernel::<CircleCircle>(context, blocks),
+        PairClass::BoxBox => run_kernel::<BoxBox>(pass),
+        PairClass::BoxCapsule => run_kernel::<BoxCapsule>(pass),
+        PairClass::BoxCircle => run_kernel::<BoxCircle>(pass),
+        PairClass::CapsuleCapsule => run_kernel::<CapsuleCapsule>(pass),
+        PairClass::CapsuleCircle => run_kernel::<CapsuleCircle>(pass),
+        PairClass::CircleCircle => run_kernel::<CircleCircle>(pass),
         // One after the other, whatever the lanes.
-        PairClass::General => {
-            dispatch_baseline(context.level, Update::<General>::new(context, blocks))
-        }
+        PairClass::General => dispatch_baseline(pass.context.level, Update::<General>::new(pass)),
     }
 }
 
-fn run_kernel<K: PairKernel>(context: Context<'_>, blocks: Blocks<'_>) {
-    let level = context.level.for_count(blocks.count);
-    dispatch(level, Update::<K>::new(context, blocks));
+fn run_kernel<K: PairKernel>(pass: Pass<'_>) {
+    let level = pass.context.level.for_count(pass.blocks.contacts.len());
+    dispatch(level, Update::<K>::new(pass));
 }
 
 /// A manifold kernel for a class of pairs.
 trait PairKernel {
     /// Greatest number of points.
     const POINTS: usize;
+    /// Does it tell separations up to any distance?
+    const FAR: bool;
     /// Manifolds of the contacts from lane `at` of the block on, in the frames of their shapes A.
     fn collide<L: Lanes>(
         token: L::Token,
@@ -54,6 +71,7 @@ trait PairKernel {
         block: &ManifoldBlock,
         at: usize,
         pair: &LanePair<L>,
+        reach: L,
     ) -> LaneManifold<L>;
 }
 
@@ -63,15 +81,17 @@ macro_rules! lane_pair_kernel {
 
         impl PairKernel for $class {
             const POINTS: usize = PairClass::$class.max_points();
+            const FAR: bool = true;
             #[inline(always)]
             fn collide<L: Lanes>(
                 token: L::Token,
-                context: &Context<'_>,
+                _: &Context<'_>,
                 _: &ManifoldBlock,
                 _: usize,
                 pair: &LanePair<L>,
+                reach: L,
             ) -> LaneManifold<L> {
-                manifold::$function(token, pair, L::splat(token, context.speculative_distance))
+                manifold::$function(token, pair, reach)
             }
         }
     )*};
@@ -93,6 +113,7 @@ struct General;
 
 impl PairKernel for General {
     const POINTS: usize = 2;
+    const FAR: bool = false;
 
     #[inline(always)]
     fn collide<L: Lanes>(
@@ -101,6 +122,7 @@ impl PairKernel for General {
         block: &ManifoldBlock,
         at: usize,
         pair: &LanePair<L>,
+        _: L,
     ) -> LaneManifold<L> {
         let mut frames = [[0.0; BLOCK]; 4];
         for (frame, lanes) in frames.iter_mut().zip([pair.p[0], pair.p[1], pair.q[0], pair.q[1]]) {
@@ -152,14 +174,13 @@ fn general_lane(context: &Context<'_>, a: u32, b: u32, b_in_a: Transform) -> [f3
 const NO_POINTS: [f32; 10] = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, f32::MAX, f32::MAX, 0.0, 0.0];
 
 struct Update<'a, K> {
-    context: Context<'a>,
-    blocks: Blocks<'a>,
+    pass: Pass<'a>,
     kernel: core::marker::PhantomData<K>,
 }
 
 impl<'a, K> Update<'a, K> {
-    fn new(context: Context<'a>, blocks: Blocks<'a>) -> Self {
-        Self { context, blocks, kernel: core::marker::PhantomData }
+    fn new(pass: Pass<'a>) -> Self {
+        Self { pass, kernel: core::marker::PhantomData }
     }
 }
 
@@ -168,27 +189,31 @@ impl<K: PairKernel> LaneKernel for Update<'_, K> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, token: L::Token) {
-        let Self { context, mut blocks, .. } = self;
+        let Pass { context, predictions, mut blocks } = self.pass;
         let constrained = !blocks.constraints.is_empty();
         for index in 0..blocks.manifolds.len() {
-            let lanes = (blocks.count - index * BLOCK).min(BLOCK);
-            let mut touching = 0;
+            let contacts = &blocks.contacts[index * BLOCK..];
+            let contacts = &contacts[..contacts.len().min(BLOCK)];
+            let lanes = contacts.len();
+            let (mut touching, mut closing) = (0, 0);
             let mut at = 0;
             while at < lanes {
-                let bits = if constrained {
-                    let geometry =
-                        Geometry::<L>::compute::<K>(token, &context, &blocks.manifolds[index], at);
+                let mut geometry =
+                    Geometry::<L>::compute::<K>(token, &context, &blocks.manifolds[index], at);
+                if constrained && !predictions.is_empty() {
+                    geometry.foresee(token, &context, predictions, &contacts[at..]);
+                }
+                if constrained {
                     write_constraint::<L, K>(token, &context, &geometry, &mut blocks, index, at);
-                    geometry.touching
-                } else {
-                    Geometry::<L>::compute::<K>(token, &context, &blocks.manifolds[index], at)
-                        .touching
-                };
+                }
+                let bits = geometry.touching;
+                closing |= geometry.closing << at;
                 touching |= bits << at;
                 at += L::WIDTH;
             }
             let valid = if lanes == BLOCK { u16::MAX } else { (1 << lanes) - 1 };
             blocks.heads[index].touching = touching as u16 & valid;
+            blocks.heads[index].closing = closing as u16 & valid;
             note_joints(&context, &blocks.manifolds[index], &mut blocks.heads[index], lanes);
         }
     }
@@ -218,6 +243,8 @@ struct Geometry<L: Lanes> {
     between: [L; 2],
     /// Lanes with a point, as bits.
     touching: u32,
+    /// Lanes that may meet in this step, or hit each other hard, as bits.
+    closing: u32,
 }
 
 impl<L: Lanes> Geometry<L> {
@@ -243,13 +270,17 @@ impl<L: Lanes> Geometry<L> {
             a: [shape_a[4], shape_a[5], shape_a[6]],
             b: [shape_b[4], shape_b[5], shape_b[6]],
         };
-        let mut m = K::collide::<L>(token, context, block, at, &pair);
+        let limit = L::splat(token, context.speculative_distance);
+        let ahead = (context.ahead > 0.0)
+            .then(|| Ahead::of::<K>(token, context, block, at, &pair, [place_a, place_b]));
+        let reach = ahead.as_ref().map_or(limit, |ahead| ahead.way.max(limit));
+        let mut m = K::collide::<L>(token, context, block, at, &pair, reach);
+        let gap = m.separation[0].min(m.separation[1]);
         let guarded = L::splat(token, 1.5);
         let guarded = L::bits(L::or(shape_a[7].gt(guarded), shape_b[7].gt(guarded)));
         if guarded != 0 {
             correct_lanes::<L>(token, context, block, at, guarded, &pair, &mut m);
         }
-        let limit = L::splat(token, context.speculative_distance);
         let valid = [m.separation[0].le(limit), m.separation[1].le(limit)];
         let to_world = |point: [L; 2]| {
             let turned = rotate(frame_a, point);
@@ -257,7 +288,7 @@ impl<L: Lanes> Geometry<L> {
         };
         let touching =
             if K::POINTS == 2 { L::bits(L::or(valid[0], valid[1])) } else { L::bits(valid[0]) };
-        Self {
+        let mut geometry = Self {
             normal: rotate(frame_a, m.normal),
             points: [to_world(m.points[0]), to_world(m.points[1])],
             separation: m.separation,
@@ -265,7 +296,151 @@ impl<L: Lanes> Geometry<L> {
             valid,
             between,
             touching,
+            closing: 0,
+        };
+        if let Some(ahead) = ahead {
+            geometry.closing = ahead.closing::<K>(token, &pair, &geometry, gap, limit);
         }
+        geometry
+    }
+
+    /// Puts predicted contacts in the place of what the lanes have now.
+    #[inline(always)]
+    fn foresee(
+        &mut self,
+        token: L::Token,
+        context: &Context<'_>,
+        predictions: &Predictions,
+        contacts: &[u32],
+    ) {
+        let mut lanes = [[0.0; BLOCK]; 13];
+        self.store(&mut lanes);
+        lanes[12] = [context.speculative_distance; BLOCK];
+        let mut any = false;
+        for (i, &contact) in contacts.iter().enumerate().take(L::WIDTH) {
+            let Some(ahead) = predictions.of(contact) else { continue };
+            any = true;
+            let [p, q] = ahead.points;
+            let (n, d, s, id) = (ahead.normal, ahead.between, ahead.separation, ahead.id);
+            let values = [n.x, n.y, p.x, p.y, q.x, q.y, s[0], s[1], id[0], id[1], d.x, d.y];
+            for (lane, value) in lanes.iter_mut().zip(values) {
+                lane[i] = value;
+            }
+            // Whatever is there counts; what is not is the largest number.
+            lanes[12][i] = 0.5 * f32::MAX;
+        }
+        if any {
+            self.load(token, &lanes);
+        }
+    }
+
+    #[inline(always)]
+    fn store(&self, lanes: &mut [[f32; BLOCK]; 13]) {
+        for k in 0..2 {
+            self.normal[k].store(&mut lanes[k]);
+            self.points[0][k].store(&mut lanes[2 + k]);
+            self.points[1][k].store(&mut lanes[4 + k]);
+            self.separation[k].store(&mut lanes[6 + k]);
+            self.id[k].store(&mut lanes[8 + k]);
+            self.between[k].store(&mut lanes[10 + k]);
+        }
+    }
+
+    #[inline(always)]
+    fn load(&mut self, token: L::Token, lanes: &[[f32; BLOCK]; 13]) {
+        let limit = L::load(token, &lanes[12]);
+        for k in 0..2 {
+            self.normal[k] = L::load(token, &lanes[k]);
+            self.points[0][k] = L::load(token, &lanes[2 + k]);
+            self.points[1][k] = L::load(token, &lanes[4 + k]);
+            self.separation[k] = L::load(token, &lanes[6 + k]);
+            self.id[k] = L::load(token, &lanes[8 + k]);
+            self.between[k] = L::load(token, &lanes[10 + k]);
+            self.valid[k] = self.separation[k].le(limit);
+        }
+        self.touching = L::bits(L::or(self.valid[0], self.valid[1]));
+    }
+}
+
+/// How far the bodies of a stride move against each other in the step, metres.
+struct Ahead<L: Lanes> {
+    linear: [L; 2],
+    /// What A and B turn, radians.
+    turns: [L; 2],
+    /// What turning adds at most.
+    turn: L,
+    /// From the centres of mass to the furthest points of the shapes, together.
+    extent: L,
+    /// All of it at most.
+    way: L,
+}
+
+impl<L: Lanes> Ahead<L> {
+    #[inline(always)]
+    fn of<K: PairKernel>(
+        token: L::Token,
+        context: &Context<'_>,
+        block: &ManifoldBlock,
+        at: usize,
+        pair: &LanePair<L>,
+        places: [[L; 2]; 2],
+    ) -> Self {
+        let a = L::gather(token, context.body_rows, &block.body_a[at..]);
+        let b = L::gather(token, context.body_rows, &block.body_b[at..]);
+        let dt = L::splat(token, context.ahead);
+        let length = |x: L, y: L| (x * x + y * y).sqrt();
+        let arm = |half: [L; 3], place: [L; 2]| {
+            let arm = length(half[0], half[1]) + length(place[0], place[1]);
+            // What is round turns without coming nearer; of other shapes only a disk around them is known here.
+            if K::FAR { arm } else { arm + half[2] }
+        };
+        let arms = [arm(pair.a, places[0]), arm(pair.b, places[1])];
+        let turns = [a[2] * dt, b[2] * dt];
+        let turn = turns[0].abs() * arms[0] + turns[1].abs() * arms[1];
+        let extent = arms[0] + pair.a[2] + arms[1] + pair.b[2];
+        let linear = [(b[0] - a[0]) * dt, (b[1] - a[1]) * dt];
+        let way = length(linear[0], linear[1]) + turn;
+        Self { linear, turns, turn, extent, way }
+    }
+
+    /// Lanes that would go further into each other than is harmless, as bits. `gap` is what is between the shapes.
+    #[inline(always)]
+    fn closing<K: PairKernel>(
+        &self,
+        token: L::Token,
+        pair: &LanePair<L>,
+        now: &Geometry<L>,
+        gap: L,
+        limit: L,
+    ) -> u32 {
+        let thickness = |half: [L; 3]| half[0].min(half[1]) + half[2];
+        let part = L::splat(token, HARMLESS) * thickness(pair.a).min(thickness(pair.b));
+        let least = part.max(limit);
+        let (gap, coming) = if K::FAR {
+            let along = now.normal[0] * self.linear[0] + now.normal[1] * self.linear[1];
+            // No turn takes the disks around them closer.
+            let apart = now.normal[0] * now.between[0] + now.normal[1] * now.between[1];
+            (gap, self.turn.min(self.extent - apart + gap) - along)
+        } else {
+            let sizes = pair.a[0] + pair.a[1] + pair.a[2] + pair.b[0] + pair.b[1] + pair.b[2];
+            (gap.min(pair.p[0].abs().max(pair.p[1].abs()) - sizes), self.way)
+        };
+        let zero = L::splat(token, 0.0);
+        let coming = L::bits((coming - gap.max(zero)).gt(least));
+        let first = self.pressing(now, 0, zero);
+        let second = if K::POINTS == 2 { self.pressing(now, 1, zero) } else { zero };
+        let pressing = L::bits(first.max(second).gt(least));
+        now.touching & pressing | !now.touching & coming
+    }
+
+    /// How far the shapes come together at a point where they touch.
+    #[inline(always)]
+    fn pressing(&self, now: &Geometry<L>, k: usize, zero: L) -> L {
+        let ([x, y], [dx, dy]) = (now.points[k], now.between);
+        let cross = |x: L, y: L| x * now.normal[1] - y * now.normal[0];
+        let turned = self.turns[1] * cross(x - dx, y - dy) - self.turns[0] * cross(x, y);
+        let along = now.normal[0] * self.linear[0] + now.normal[1] * self.linear[1];
+        L::select(now.valid[k], zero - (turned + along), zero)
     }
 }
 

@@ -11,6 +11,7 @@ use crate::dynamics::{
 };
 use crate::footprint::footprint;
 use crate::geometry::manifold::PairClass;
+use crate::math::Vec2;
 use crate::simd::BLOCK;
 use crate::threads::{SharedSlice, Team};
 use core::sync::atomic::{AtomicBool, Ordering};
@@ -262,6 +263,8 @@ pub(crate) struct Partners<'a> {
     pub(crate) custom: Option<&'a dyn PairRule>,
     /// Boxes that are closer than this need a contact, metres.
     pub(crate) reach: f32,
+    /// How far shapes will go in the step; see [`Ways`](super::ahead::Ways).
+    pub(crate) ways: &'a [Vec2],
 }
 
 impl Partners<'_> {
@@ -269,12 +272,33 @@ impl Partners<'_> {
     /// sees which shapes are gone or sleep.
     #[inline]
     fn sort(&self, a: u32, b: u32, careful: bool, waiting: &mut Vec<(u32, u32)>) -> bool {
-        let near = self.shapes.are_near(a, b, self.reach);
+        let near = self.come_near(a, b);
         let fate = if near || careful { self.look(a, b, near) } else { Fate::Waits };
         if matches!(fate, Fate::Waits) {
             waiting.push((a, b));
         }
         matches!(fate, Fate::Near)
+    }
+
+    /// Will the boxes of two shapes be near each other in the step, and the disks around them too?
+    #[inline]
+    pub(crate) fn come_near(&self, a: u32, b: u32) -> bool {
+        let [way_a, way_b] =
+            [a, b].map(|shape| self.ways.get(shape as usize).copied().unwrap_or_default());
+        let way = way_b - way_a;
+        if way == Vec2::ZERO {
+            return self.shapes.are_near(a, b, self.reach);
+        }
+        let [a, b] = [a, b].map(|shape| &self.shapes.tight[shape as usize]);
+        // Seen from A, the middle of B goes along a line.
+        let (least, most) = (b.min - a.max, b.max - a.min);
+        let (first, last) = (least + way.min(Vec2::ZERO), most + way.max(Vec2::ZERO));
+        if first.x.max(first.y) > self.reach || last.x.min(last.y) < -self.reach {
+            return false;
+        }
+        let room = (most - least).length() * 0.5 + self.reach;
+        let aside = (least + most).cross(way) * 0.5;
+        aside * aside <= room * room * way.length_sq()
     }
 
     fn look(&self, a: u32, b: u32, near: bool) -> Fate {

@@ -32,10 +32,10 @@ pub(crate) struct Scene<'a> {
 }
 
 /// Finds all overlaps after the step, ascending. `fast` are the bodies that were swept, `found` is memory.
-pub(crate) fn find_overlaps(
+pub(crate) fn find_overlaps<'a>(
     team: &Team,
     scene: Scene<'_>,
-    fast: &[FastBody],
+    fast: impl Iterator<Item = &'a FastBody>,
     found: &mut Vec<Vec<Overlap>>,
     overlaps: &mut Vec<Overlap>,
 ) {
@@ -46,8 +46,8 @@ pub(crate) fn find_overlaps(
         sensors[range].iter().for_each(|&sensor| scene.look(sensor, found));
     });
     chunks.iter().for_each(|found| overlaps.extend_from_slice(found));
-    for body in fast {
-        scene.look_along(body, overlaps);
+    if !sensors.is_empty() {
+        fast.for_each(|body| scene.look_along(body, overlaps));
     }
     // Sweeps add to what is sorted already, if there are any.
     overlaps.sort_unstable();
@@ -141,16 +141,12 @@ impl Scene<'_> {
     /// Appends the overlaps that a fast body had on its way: of its shapes with sensors, of its sensors with
     /// shapes.
     fn look_along(&self, fast: &FastBody, overlaps: &mut Vec<Overlap>) {
-        if self.sensors.shapes.is_empty() {
-            return;
-        }
         let info = &self.bodies.infos[fast.body as usize];
-        let motion = fast.motion * fast.fraction;
         let frame = Transform::new(Vec2::ZERO, fast.start.q);
-        let sweep = Sweep::new(frame, Vec2::ZERO, motion, fast.turn * fast.fraction);
+        let sweep = Sweep::new(frame, Vec2::ZERO, fast.motion, fast.turn);
         let extent = Vec2::splat(info.max_extent);
-        let at = |p| Aabb::rounded_out(p - extent, p + extent);
-        let path = at(fast.start.p).union(&at(fast.start.p + motion));
+        let at = |pose: Pose| Aabb::rounded_out(pose.p - extent, pose.p + extent);
+        let path = at(fast.start).union(&at(fast.end));
         for shape in self.shapes.of_body(info.first_shape) {
             let record = &self.shapes.records[shape as usize];
             let moving = sweep.child(record.central);
@@ -193,14 +189,21 @@ impl Scene<'_> {
             return None;
         }
         let overlap = self.overlap(sensor, visitor);
-        let pose = self.bodies.poses[record(other).body as usize];
-        let place = Transform::new(pose.p.relative_to(fast.start.p), pose.q);
-        let fixed = Sweep::fixed(place.compose(record(other).central));
-        let toi = time_of_impact(&record(shape).shape, moving, &record(other).shape, &fixed, 1.0);
+        let motion = self.motion(fast, record(other));
+        let toi = time_of_impact(&record(shape).shape, moving, &record(other).shape, &motion, 1.0);
         match toi.state {
             ToiState::Separated => None,
             ToiState::Hit | ToiState::Limit => Some(overlap),
             ToiState::Touching => (!self.sensors.saw(&overlap)).then_some(overlap),
         }
+    }
+
+    /// The motion of another shape over the step, relative to where a fast body started.
+    fn motion(&self, fast: &FastBody, other: &ShapeRecord) -> Sweep {
+        let step = FastBody::of_step(self.bodies, other.body);
+        let frame = Transform::new(step.start.p.relative_to(fast.start.p), step.start.q);
+        let awake = self.bodies.infos[other.body as usize].awake;
+        let (motion, turn) = if awake { (step.motion, step.turn) } else { (Vec2::ZERO, 0.0) };
+        Sweep::new(frame, Vec2::ZERO, motion, turn).child(other.central)
     }
 }

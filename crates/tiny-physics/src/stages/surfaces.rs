@@ -58,6 +58,27 @@ impl LanePoints {
         self.values[6 + k] <= limit
     }
 
+    /// A manifold in the frame of a shape, of which this is the frame of the rounded box.
+    pub(crate) fn of(manifold: &Manifold, frame: Transform) -> Self {
+        Self::from_manifold(manifold, frame.inverse(), 1.0)
+    }
+
+    /// The way back.
+    pub(crate) fn manifold(&self, frame: Transform, limit: f32) -> Manifold {
+        let mut manifold = Manifold::EMPTY;
+        manifold.normal = frame.q.rotate(self.normal());
+        for k in 0..2 {
+            if self.is_valid(k, limit) {
+                let point = &mut manifold.points[usize::from(manifold.count)];
+                point.point = frame.apply(self.point(k));
+                point.separation = self.values[6 + k];
+                point.id = self.values[8 + k] as u16;
+                manifold.count += 1;
+            }
+        }
+        manifold
+    }
+
     fn from_manifold(manifold: &Manifold, frame: Transform, sign: f32) -> Self {
         let mut lane = Self::NONE;
         let normal = frame.q.rotate(manifold.normal) * sign;
@@ -141,12 +162,13 @@ impl<'a> Seams<'a> {
     }
 
     /// Does the surface made by all static shapes lack this normal at these points of contact?
-    pub(crate) fn is_ghost(&self, points: [Option<Vec2>; 2], normal: Vec2) -> bool {
+    /// `middle` is that of the other shape.
+    pub(crate) fn is_ghost(&self, points: [Option<Vec2>; 2], normal: Vec2, middle: Vec2) -> bool {
         if let Some(link) = self.record.link {
             return !self.link_has(link, normal);
         }
         if let Some(face) = face_of(&self.core, normal) {
-            return self.guard & guard::face(face) != 0 && self.is_covered(face, points);
+            return self.guard & guard::face(face) != 0 && self.is_covered(face, points, middle);
         }
         let Some(point) = points[0].or(points[1]) else { return false };
         let vertex = nearest_vertex(&self.core, point);
@@ -169,7 +191,7 @@ impl<'a> Seams<'a> {
     }
 
     /// Do other static shapes cover a face around all points of contact with it?
-    fn is_covered(&self, face: usize, points: [Option<Vec2>; 2]) -> bool {
+    fn is_covered(&self, face: usize, points: [Option<Vec2>; 2], middle: Vec2) -> bool {
         let unit = self.ground.length_unit;
         let (start, end) = self.core.edge(face);
         let along = self.core.normal(face).perp();
@@ -192,6 +214,10 @@ impl<'a> Seams<'a> {
         }
         let mut covered = [false; 4];
         self.each_neighbour(&probes[..count], |neighbour| {
+            // What the other shape is in itself makes no surface for it.
+            if point_gap(neighbour, middle) <= 0.0 {
+                return;
+            }
             for (probe, covered) in probes[..count].iter().zip(&mut covered) {
                 *covered |= point_gap(neighbour, *probe) <= TOLERANCE * unit;
             }
@@ -305,7 +331,7 @@ impl<'a> View<'a> {
         let limit = self.context.speculative_distance;
         let points =
             [0, 1].map(|k| lane.is_valid(k, limit).then(|| self.frame.unapply(lane.point(k))));
-        self.seams.is_ghost(points, normal)
+        self.seams.is_ghost(points, normal, middle(&self.other_core))
     }
 
     /// The contact with the highest solid face that is not covered and has the other shape's middle in
@@ -333,7 +359,9 @@ impl<'a> View<'a> {
             }
             let Some((face, _, manifold)) = best else { return Verdict::Drop };
             let points = [0, 1].map(|k| manifold.points().get(k).map(|p| p.point));
-            if self.seams.guard & guard::face(face) == 0 || !self.seams.is_covered(face, points) {
+            if self.seams.guard & guard::face(face) == 0
+                || !self.seams.is_covered(face, points, middle)
+            {
                 return Verdict::Replace(manifold);
             }
             tried |= 1 << face;
@@ -375,7 +403,7 @@ fn boxed_pose(poses: &[Pose], record: &ShapeRecord) -> Pose {
     poses[record.body as usize].compose(record.central.compose(record.box_frame))
 }
 
-fn middle(core: &Core) -> Vec2 {
+pub(crate) fn middle(core: &Core) -> Vec2 {
     let sum = core.points().iter().fold(Vec2::ZERO, |sum, point| sum + *point);
     sum / core.count as f32
 }

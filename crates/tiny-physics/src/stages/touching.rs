@@ -38,7 +38,7 @@ pub(crate) fn find_changes(
 }
 
 impl Changes {
-    fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.began.clear();
         self.ended.clear();
     }

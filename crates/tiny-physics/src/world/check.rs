@@ -124,6 +124,8 @@ impl World {
             is_set(&shapes.free, count, |i| !shapes.records[i].alive),
             "the free shapes are not",
         )?;
+        let mut gone = shapes.records.iter().filter(|record| !record.alive);
+        ensure(gone.all(|record| record.proxy == NULL), "a shape that is gone has a box")?;
         let mut proxies = 0;
         for (index, record) in shapes.records.iter().enumerate().filter(|(_, record)| record.alive)
         {

@@ -273,8 +273,15 @@ impl World {
 
     /// A contact has begun to touch.
     fn begin_contact(&mut self, index: u32) {
-        let contact = &mut self.state.contacts.records[index as usize];
-        contact.touching = true;
+        self.state.contacts.records[index as usize].touching = true;
+        if self.scratch.predictions.of(index).is_none() {
+            self.report_begin(index);
+        }
+    }
+
+    /// Sends the begin event of a contact, if it has any.
+    pub(super) fn report_begin(&mut self, index: u32) {
+        let contact = &self.state.contacts.records[index as usize];
         if contact.events {
             let end = self.end_event(index);
             self.state.events.contact_begin.push(ContactBegin::from(end));

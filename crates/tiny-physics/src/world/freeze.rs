@@ -4,6 +4,7 @@ use super::World;
 use super::state::State;
 use crate::dynamics::SavedPoint;
 use crate::math::Vec2;
+use crate::stages::boxes;
 
 impl World {
     /// Stops a body where it last was, and lets all that acts on it start anew: what has been gathered there may
@@ -18,6 +19,9 @@ impl World {
         info.torque = 0.0;
         self.forget_joint_impulses(index);
         self.forget_contact_impulses(index);
+        // They reached as far as it would have gone.
+        let State { bodies, shapes, broad_phase, .. } = &mut self.state;
+        boxes::update(bodies, shapes, broad_phase, index, Vec2::ZERO, &mut Vec::new());
     }
 
     fn forget_joint_impulses(&mut self, index: u32) {

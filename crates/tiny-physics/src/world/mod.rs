@@ -53,8 +53,8 @@ use crate::stages::finalize::{FastBody, Findings};
 use crate::stages::solve::{Lengths, Solver};
 use crate::stages::touching::Changes;
 use crate::stages::{
-    continuous, finalize, narrow_context, narrow_phase, paces, pairs, sleep, solve, surfaces,
-    touching,
+    ahead, boxes, continuous, finalize, narrow_context, narrow_phase, paces, pairs, sleep, solve,
+    surfaces, touching,
 };
 use crate::threads::{Pool, Team};
 use state::State;
@@ -107,7 +107,10 @@ struct Scratch {
     changes: Changes,
     found_changes: Vec<Changes>,
     findings: Vec<Findings>,
+    ways: ahead::Ways,
+    predictions: ahead::Predictions,
     fast: Vec<FastBody>,
+    carriers: Vec<FastBody>,
     moved: Vec<Moved>,
     islands: Vec<u32>,
     sets: sleep::Sets,
@@ -175,18 +178,21 @@ impl World {
         self.wake_disturbed();
         self.refresh_surfaces();
 
+        self.reach_ahead(team, lengths);
         self.update_pairs(team);
         watch.lap(&mut self.stats, Stage::Pairs);
-        self.update_manifolds(team);
+        self.update_manifolds(team, lengths);
+        self.predict(team, lengths);
         watch.lap(&mut self.stats, Stage::NarrowPhase);
         self.update_touching(team, lengths);
         self.call_pre_solve(team);
         watch.lap(&mut self.stats, Stage::Touching);
         self.solve(team, lengths);
+        self.settle_predictions(team);
         watch.lap(&mut self.stats, Stage::Solve);
         self.finalize(team, lengths);
         watch.lap(&mut self.stats, Stage::Finalize);
-        self.sweep_fast_bodies(team);
+        self.sweep_fast_bodies(team, lengths);
         watch.lap(&mut self.stats, Stage::Continuous);
         self.update_sensors(team);
         self.put_resting_islands_to_sleep();
@@ -202,6 +208,13 @@ impl World {
         Ok(Lengths::new(dt, &self.settings))
     }
 
+    /// Lets the boxes of fast bodies reach as far as they will go.
+    fn reach_ahead(&mut self, team: &Team, lengths: Lengths) {
+        let limits = (lengths.dt, self.contact_reach());
+        let State { bodies, shapes, broad_phase, .. } = &mut self.state;
+        ahead::reach(team, bodies, shapes, broad_phase, limits, &mut self.scratch.ways);
+    }
+
     /// Drops contacts of shapes that left their fat boxes and their partners; gives those that came near one.
     fn update_pairs(&mut self, team: &Team) {
         self.stats.moved_shapes = self.state.broad_phase.moved().len();
@@ -209,7 +222,8 @@ impl World {
         let State { broad_phase, shapes, bodies, contacts, graph, joints, waiting, .. } =
             &mut self.state;
         let custom = self.hooks.pair_filter();
-        let partners = pairs::Partners { shapes, bodies, contacts, joints, custom, reach };
+        let ways = &self.scratch.ways.of_shapes;
+        let partners = pairs::Partners { shapes, bodies, contacts, joints, custom, reach, ways };
         self.scratch.search.run(team, broad_phase, &partners, graph, waiting);
 
         let search = core::mem::take(&mut self.scratch.search);
@@ -235,38 +249,111 @@ impl World {
     }
 
     /// Computes the manifolds and constraints of all contacts in the graph.
-    fn update_manifolds(&mut self, team: &Team) {
+    fn update_manifolds(&mut self, team: &Team, lengths: Lengths) {
+        self.scratch.predictions.clear();
         self.scratch.schedule.fill(&self.state.graph, narrow_phase::CHUNK);
-        self.run_narrow_phase(team);
+        let anything_fast = !self.scratch.ways.of_shapes.is_empty();
+        self.run_narrow_phase(team, if anything_fast { lengths.dt } else { 0.0 });
+        if anything_fast {
+            self.state.graph.take_closing(&mut self.scratch.predictions.candidates);
+        }
     }
 
-    /// The same for the blocks that have got other contacts since.
+    /// The same for the blocks that have got other contacts since, or predicted ones.
     fn update_fresh_manifolds(&mut self, team: &Team) {
         self.state.graph.sort_fresh();
         let graph = &self.state.graph;
         self.scratch.schedule.fill_with(graph, graph.fresh(), narrow_phase::CHUNK);
-        self.run_narrow_phase(team);
+        self.run_narrow_phase(team, 0.0);
     }
 
-    fn run_narrow_phase(&mut self, team: &Team) {
-        let speculative_distance = self.contact_reach();
+    fn run_narrow_phase(&mut self, team: &Team, ahead: f32) {
+        let settings = (self.level, self.contact_reach(), self.settings.length_unit);
         let State { bodies, shapes, broad_phase, joint_graph, graph, .. } = &mut self.state;
-        let context = narrow_context::Context {
-            level: self.level,
-            body_rows: &bodies.rows,
-            poses: &bodies.poses,
-            shape_rows: &shapes.rows,
-            shapes: &shapes.records,
-            infos: (joint_graph.count() > 0).then_some(&bodies.infos),
-            speculative_distance,
-            surroundings: narrow_context::Surroundings {
-                guards: &shapes.guards,
-                broad_phase,
-                length_unit: self.settings.length_unit,
-            },
-        };
-        narrow_phase::run(team, context, graph, &self.scratch.schedule);
+        let jointed = joint_graph.count() > 0;
+        let context =
+            narrow_context::Context::new(bodies, shapes, broad_phase, settings, jointed, ahead);
+        let Scratch { schedule, predictions, .. } = &self.scratch;
+        narrow_phase::run(team, context, graph, schedule, predictions);
         graph.clear_fresh();
+    }
+
+    /// Predicts contacts that will be made in the step.
+    fn predict(&mut self, team: &Team, lengths: Lengths) {
+        let settings = (self.level, self.contact_reach(), self.settings.length_unit);
+        loop {
+            let State { bodies, shapes, contacts, joints, broad_phase, graph, .. } =
+                &mut self.state;
+            let Scratch { predictions, search, ways, .. } = &mut self.scratch;
+            let narrow_phase =
+                narrow_context::Context::new(bodies, shapes, broad_phase, settings, false, 0.0);
+            let scene =
+                ahead::Scene { bodies, shapes, contacts, graph, narrow_phase, dt: lengths.dt };
+            if !predictions.round(team, scene) {
+                break;
+            }
+            predictions.reach(bodies, shapes, broad_phase, ways);
+            let (custom, reach, ways) = (self.hooks.pair_filter(), settings.1, &ways.of_shapes);
+            let partners =
+                pairs::Partners { shapes, bodies, contacts, joints, custom, reach, ways };
+            predictions.look_again(team, broad_phase, &partners, &mut search.pairs);
+            self.add_candidates(team);
+        }
+        let Self { state: State { contacts, graph, .. }, scratch, .. } = self;
+        let ahead::Predictions { contacts: predicted, fresh, .. } = &mut scratch.predictions;
+        for &index in &*predicted {
+            let contact = &contacts.records[index as usize];
+            graph.mark_touching(contact, true);
+            if !contact.touching {
+                fresh.push(index);
+            }
+        }
+        self.stats.predicted_contacts = predicted.len();
+    }
+
+    /// Predicted contacts that pushed have begun; those that did not have never been.
+    fn settle_predictions(&mut self, team: &Team) {
+        let predicted = core::mem::take(&mut self.scratch.predictions.fresh);
+        let mut changes = core::mem::take(&mut self.scratch.changes);
+        changes.clear();
+        for &index in &predicted {
+            let contact = &mut self.state.contacts.records[index as usize];
+            if self.state.graph.has_pushed(contact) {
+                self.report_begin(index);
+            } else if contact.touching {
+                contact.events = false;
+                changes.ended.push(index);
+            }
+        }
+        changes.ended.sort_unstable();
+        if !changes.ended.is_empty() {
+            self.transfer(team, &changes);
+        }
+        self.scratch.changes = changes;
+        self.scratch.predictions.fresh = predicted;
+        // What sleeps on goes nowhere.
+        let State { bodies, shapes, broad_phase, .. } = &mut self.state;
+        for body in self.scratch.predictions.bodies() {
+            if !bodies.infos[body as usize].awake {
+                boxes::update(bodies, shapes, broad_phase, body, Vec2::ZERO, &mut Vec::new());
+            }
+        }
+    }
+
+    /// Creates contacts for the pairs of the search, after the narrow phase.
+    fn add_candidates(&mut self, team: &Team) {
+        let State { bodies, shapes, contacts, graph, .. } = &mut self.state;
+        let Scratch { predictions, search, created, transfers, schedule, .. } = &mut self.scratch;
+        if search.pairs.is_empty() {
+            return;
+        }
+        pairs::create_contacts(&search.pairs, &self.settings, shapes, bodies, contacts, created);
+        transfers.insert(team, graph, bodies, contacts, created.iter().copied());
+        for &contact in &*created {
+            graph.mark_touching(&contacts.records[contact as usize], false);
+        }
+        predictions.candidates.extend_from_slice(created);
+        schedule.fill(graph, narrow_phase::CHUNK);
     }
 
     /// Moves contacts that began or ended to where they belong; wakes what was touched. The schedule is still
@@ -281,6 +368,9 @@ impl World {
         self.stats.contacts_begun = changes.began.len();
         self.stats.contacts_ended = changes.ended.len();
         self.scratch.changes = changes;
+        for &contact in &self.scratch.predictions.fresh {
+            self.state.graph.watch(&self.state.contacts.records[contact as usize]);
+        }
         self.update_fresh_manifolds(team);
     }
 
@@ -314,6 +404,8 @@ impl World {
         let findings = &scratch.findings[..count];
         scratch.fast.clear();
         scratch.fast.extend(findings.iter().flat_map(|chunk| &chunk.fast));
+        scratch.carriers.clear();
+        scratch.carriers.extend(findings.iter().flat_map(|chunk| &chunk.carriers));
         let broken: Vec<u32> = findings.iter().flat_map(|chunk| &chunk.broken).copied().collect();
         self.stats.fast_bodies = self.scratch.fast.len();
         self.stats.frozen_bodies = broken.len();
@@ -321,15 +413,16 @@ impl World {
     }
 
     /// Stops fast bodies where they would have gone through something.
-    fn sweep_fast_bodies(&mut self, team: &Team) {
+    fn sweep_fast_bodies(&mut self, team: &Team, lengths: Lengths) {
         let State { bodies, shapes, broad_phase, joints, .. } = &mut self.state;
         let rules = continuous::Rules {
             joints,
             custom: self.hooks.pair_filter(),
             length_unit: self.settings.length_unit,
+            dt: lengths.dt,
         };
-        let Scratch { fast, moved, .. } = &mut self.scratch;
-        continuous::run(team, fast, bodies, shapes, broad_phase, rules, moved);
+        let Scratch { fast, carriers, moved, .. } = &mut self.scratch;
+        continuous::run(team, (fast, carriers), bodies, shapes, broad_phase, rules, moved);
     }
 
     /// Looks for islands at rest now and then, and lets them sleep.

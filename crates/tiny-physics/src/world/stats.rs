@@ -59,6 +59,8 @@ pub struct Stats {
     pub moved_shapes: usize,
     /// Contacts that began touching.
     pub contacts_begun: usize,
+    /// Contacts that were made before the shapes met, because they close in fast.
+    pub predicted_contacts: usize,
     /// Contacts that ended.
     pub contacts_ended: usize,
     /// Bodies that were swept because they moved fast.

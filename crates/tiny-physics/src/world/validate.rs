@@ -102,7 +102,8 @@ impl World {
         let moved = broad_phase.moved().iter().filter_map(|&id| broad_phase.user(id));
         moved.for_each(|shape| asked[shape as usize] = true);
         let (custom, reach) = (self.hooks.pair_filter(), self.contact_reach());
-        let partners = pairs::Partners { shapes, bodies, contacts, joints, custom, reach };
+        let ways = &[];
+        let partners = pairs::Partners { shapes, bodies, contacts, joints, custom, reach, ways };
         let mut lost = None;
         broad_phase.each_overlap(|a, b| {
             let looked_for = without[a as usize] == 0 || asked[a as usize] || asked[b as usize];

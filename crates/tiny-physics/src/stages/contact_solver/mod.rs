@@ -138,7 +138,7 @@ struct RunPass<'a> {
 
 impl RunPass<'_> {
     fn run(self, level: SimdLevel, points: usize) {
-        let level = level.for_count(self.blocks.count);
+        let level = level.for_count(self.blocks.contacts.len());
         if points == 1 {
             dispatch(level, Points::<1, _>(self));
         } else {
@@ -148,13 +148,13 @@ impl RunPass<'_> {
 
     /// For contacts that have bodies in common: each by itself, in the first lane of an empty block.
     fn one_by_one(self, level: SimdLevel, points: usize) {
-        let Blocks { count, constraints, surfaces, heads, .. } = self.blocks;
+        let Blocks { contacts, constraints, surfaces, heads, .. } = self.blocks;
         let (mut constraint, mut surface) = (ConstraintBlock::NULL, SurfaceBlock::NULL);
-        for (block, lane) in (0..count).map(|slot| (slot / BLOCK, slot % BLOCK)) {
+        for (block, lane) in (0..contacts.len()).map(|slot| (slot / BLOCK, slot % BLOCK)) {
             constraint.copy_lane(0, &constraints[block], lane);
             surface.copy_lane(0, &surfaces[block], lane);
             let blocks = Blocks {
-                count: 1,
+                contacts: &contacts[..1],
                 manifolds: &mut [],
                 heads: &mut [heads[block].lane(lane)],
                 constraints: core::slice::from_mut(&mut constraint),
@@ -183,7 +183,7 @@ impl<const POINTS: usize> LaneKernel for Points<POINTS, RunPass<'_>> {
                 continue;
             }
             let surface = &mut blocks.surfaces[index];
-            let lanes = blocks.count - index * BLOCK;
+            let lanes = blocks.contacts.len() - index * BLOCK;
             for at in (0..BLOCK.min(lanes)).step_by(L::WIDTH) {
                 let stride = Stride { token, rows, at, constants: &constants };
                 match pass {

@@ -232,7 +232,10 @@ fn check_overlaps(world: &World, seen: &BTreeSet<(ShapeId, ShapeId)>) {
         let shape = world.shape(shape).unwrap();
         (shape, world.body(shape.body()).unwrap())
     };
-    let is_fast = |body: BodyId| world.scratch.fast.iter().any(|fast| fast.body == body.index);
+    let is_fast = |body: BodyId| {
+        let mut fast = world.scratch.fast.iter().chain(&world.scratch.carriers);
+        fast.any(|fast| fast.body == body.index)
+    };
     for of in world.shape_ids() {
         for visitor in world.shape_ids() {
             let ((sensor, body), (shape, other)) = (info(of), info(visitor));

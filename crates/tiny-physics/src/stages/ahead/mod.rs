@@ -1,0 +1,98 @@
+//! Looking ahead: contacts between things in motion are made in time, before they have gone into each other.
+//!
+//! Before pairs are looked for, [`reach`] lets the boxes of what is fast hold all that the step will take it through;
+//! two shapes are near if they will be as one sees the other move. The narrow phase names the pairs that close in so
+//! fast that they might meet in the step. [`Predictions::find`] looks for the time of impact of those alone and, where
+//! there is one, makes the contact of that moment: its normal and points, and separations as far apart as the motion
+//! up to then. The solver sees a contact with a gap, as any other. What passes by gets none, so nothing is deflected
+//! that would not have been hit.
+//!
+//! What a hit stops or throws may meet others that it would not have met by its old motion: a crowd behind its first
+//! rank, a pile into which something is shot. So each hit hands on its impulse, as one hit alone would, and the
+//! contacts of bodies that this makes go elsewhere are looked at again, in rounds.
+
+mod predictions;
+
+pub(crate) use predictions::{Predictions, Scene};
+
+use super::boxes::{self, Moved, Way};
+use crate::broad_phase::BroadPhase;
+use crate::dynamics::{Bodies, Shapes, Slot};
+use crate::footprint::footprint;
+use crate::math::Vec2;
+use crate::threads::Team;
+
+/// Bodies that one member of the team looks at at a time.
+const CHUNK: usize = 256;
+/// What goes no further into another than this part of the smaller half thickness is left to the next step.
+pub(crate) const HARMLESS: f32 = 0.25;
+
+/// How far shapes will go in the step.
+#[derive(Debug, Default)]
+pub(crate) struct Ways {
+    /// By shape, metres; zero for what is slow. Nothing at all where nothing is fast.
+    pub(crate) of_shapes: Vec<Vec2>,
+    found: Vec<Found>,
+}
+
+#[derive(Debug, Default)]
+struct Found {
+    moved: Moved,
+    fast: Vec<(u32, Vec2)>,
+}
+
+footprint!(Found { moved, fast });
+footprint!(Ways { of_shapes } each { found });
+
+/// Lets the fat boxes of what moves further in a step of `dt` seconds than `limit` metres and than is [`HARMLESS`] hold
+/// all that it goes through, and the tight ones all that it turns through; these are put right when the step ends.
+pub(crate) fn reach(
+    team: &Team,
+    bodies: &Bodies,
+    shapes: &mut Shapes,
+    broad_phase: &mut BroadPhase,
+    (dt, limit): (f32, f32),
+    ways: &mut Ways,
+) {
+    let chunks = boxes::share(shapes, broad_phase, |boxes| {
+        team.map_chunks(bodies.awake.len(), CHUNK, &mut ways.found, |range, found| {
+            found.moved.clear();
+            found.fast.clear();
+            for &body in &bodies.awake[range] {
+                let info = &bodies.infos[body as usize];
+                let way = Way::to_come(bodies, body, dt);
+                let length = way.motion.length() + way.turn.abs() * info.max_extent;
+                // Also false for what is not finite.
+                if length > limit.max(HARMLESS * info.min_extent) && length < f32::MAX {
+                    boxes.reach(info.first_shape, &way, &mut found.moved, &mut found.fast);
+                }
+            }
+        })
+    });
+    ways.of_shapes.clear();
+    let chunks = chunks.len();
+    let found = core::mem::take(&mut ways.found);
+    found[..chunks].iter().for_each(|found| ways.take_over(found, shapes, broad_phase));
+    ways.found = found;
+}
+
+impl Ways {
+    fn take_over(&mut self, found: &Found, shapes: &mut Shapes, broad_phase: &mut BroadPhase) {
+        boxes::take_over(shapes, broad_phase, &found.moved);
+        if !found.fast.is_empty() {
+            self.of_shapes.resize(shapes.records.len(), Vec2::ZERO);
+        }
+        for &(shape, way) in &found.fast {
+            self.of_shapes[shape as usize] = way;
+        }
+    }
+}
+
+impl Way {
+    /// That of a body to which nothing happens in the step.
+    fn to_come(bodies: &Bodies, body: u32, dt: f32) -> Self {
+        let row = &bodies.rows[body as usize];
+        let motion = Vec2::new(row[Slot::VX], row[Slot::VY]) * dt;
+        Self { start: bodies.poses[body as usize], motion, turn: row[Slot::W] * dt }
+    }
+}

@@ -1,0 +1,568 @@
+//! Contacts of the moments of impact; see the [stage](super).
+
+use crate::broad_phase::{BroadPhase, ProxyId, ProxyKind};
+use crate::dynamics::{
+    Bodies, ConstraintBlock, Contact, Contacts, Graph, Place, ShapeRecord, Shapes, Slot,
+};
+use crate::footprint::footprint;
+use crate::geometry::manifold::{self, Manifold};
+use crate::geometry::{LINEAR_SLOP, Sweep, ToiState, time_of_approach};
+use crate::math::{Pose, Transform, Vec2};
+use crate::simd::BLOCK;
+use crate::stages::ahead::{Found, HARMLESS, Ways};
+use crate::stages::boxes::{self, Way};
+use crate::stages::narrow_context::Context;
+use crate::stages::pairs::Partners;
+use crate::stages::surfaces::{self, LanePoints};
+use crate::threads::Team;
+use core::ops::ControlFlow;
+
+/// Through how many bodies a hit may be handed on in a step.
+const ROUNDS: usize = 6;
+/// Contacts that one member of the team looks at at a time.
+const CHUNK: usize = 32;
+/// The same for what touches already.
+const HARD_HIT: f32 = 0.5;
+/// So near, in half thicknesses, normals are those of the impact.
+const TOLERANCE: f32 = 0.05;
+/// Points whose separations differ by less than this are hit together, metres; multiplied by the length unit.
+const NEAR: f32 = 0.02;
+/// So many bodies that were taken off their ways may be looked at again in a step, and one in [`SHARE`] of all: those
+/// first that were taken the furthest. The others have to wait for the next step.
+const BUDGET: usize = 128;
+const SHARE: usize = 32;
+
+/// A contact as it will be at the time of impact, seen from the start of the step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Prediction {
+    /// From A to B, world.
+    pub(crate) normal: Vec2,
+    /// From the centre of mass of A to that of B.
+    pub(crate) between: Vec2,
+    /// Relative to the centre of mass of A.
+    pub(crate) points: [Vec2; 2],
+    /// Metres at the start of the step; the largest number for a point that is not there.
+    pub(crate) separation: [f32; 2],
+    pub(crate) id: [f32; 2],
+    /// When, as a part of the step.
+    fraction: f32,
+}
+
+/// How a body moves in the step, as far as hits are known.
+#[derive(Clone, Copy, Debug)]
+struct Course {
+    body: u32,
+    /// Motion and turn over the whole step, metres and radians.
+    motion: Vec2,
+    turn: f32,
+    /// Velocities after its hits.
+    velocity: Vec2,
+    spin: f32,
+    /// How far hits have taken it off its way since it was last looked at, metres.
+    astray: f32,
+}
+
+/// A hit: where, and how soon.
+#[derive(Clone, Copy, Debug)]
+struct Hit {
+    contact: u32,
+    prediction: Option<Prediction>,
+    fraction: f32,
+    normal: Vec2,
+    /// Cross products of each point and the normal, on A and on B; the same point twice where there is one.
+    arms: [[f32; 2]; 2],
+}
+
+/// A body that was taken off its way.
+#[derive(Clone, Copy, Debug)]
+struct Struck {
+    body: u32,
+    /// How far, in half thicknesses of its own.
+    astray: f32,
+}
+
+/// The predictions of a step.
+#[derive(Debug, Default)]
+pub(crate) struct Predictions {
+    /// Contacts that close in fast: the narrow phase names them.
+    pub(crate) candidates: Vec<u32>,
+    /// Contacts with a prediction, in the order of `list`.
+    pub(crate) contacts: Vec<u32>,
+    /// Those of them that did not touch before.
+    pub(crate) fresh: Vec<u32>,
+    list: Vec<Prediction>,
+    /// By contact: place in `list`, plus 1.
+    places: Vec<u32>,
+    courses: Vec<Course>,
+    /// By body: place in `courses`, plus 1.
+    course_places: Vec<u32>,
+    /// What the last round took off its way.
+    struck: Vec<Struck>,
+    rounds: usize,
+    /// Bodies that may still be looked at again in this step.
+    budget: usize,
+    found: Vec<Vec<Hit>>,
+    looks: Vec<Again>,
+}
+
+footprint!(Again { candidates, pairs });
+footprint!(Predictions { candidates, contacts, fresh, list, places, courses, course_places, struck } each { found, looks } none {
+    rounds, budget
+});
+
+/// What predictions are made from.
+#[derive(Clone, Copy)]
+pub(crate) struct Scene<'a> {
+    pub(crate) bodies: &'a Bodies,
+    pub(crate) shapes: &'a Shapes,
+    pub(crate) contacts: &'a Contacts,
+    pub(crate) graph: &'a Graph,
+    /// For contacts at seams.
+    pub(crate) narrow_phase: Context<'a>,
+    /// Length of the step, seconds.
+    pub(crate) dt: f32,
+}
+
+impl Predictions {
+    /// Forgets those of the step before.
+    pub(crate) fn clear(&mut self) {
+        self.candidates.clear();
+        self.contacts.drain(..).for_each(|contact| self.places[contact as usize] = 0);
+        self.list.clear();
+        self.fresh.clear();
+        (self.rounds, self.budget) = (0, 0);
+        let courses = self.courses.drain(..);
+        courses.for_each(|course| self.course_places[course.body as usize] = 0);
+    }
+
+    /// That of a contact.
+    #[inline]
+    pub(crate) fn of(&self, contact: u32) -> Option<&Prediction> {
+        let place = *self.places.get(contact as usize)?;
+        self.list.get(place.wrapping_sub(1) as usize)
+    }
+
+    /// Bodies that were hit, as far as is known.
+    pub(crate) fn bodies(&self) -> impl Iterator<Item = u32> + '_ {
+        self.courses.iter().map(|course| course.body)
+    }
+
+    /// Are there none?
+    pub(crate) fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// Looks at the candidates. Says whether hits take bodies so far off their ways that there is a next round:
+    /// [`Predictions::look_again`] lists its candidates.
+    pub(crate) fn round(&mut self, team: &Team, scene: Scene<'_>) -> bool {
+        if self.candidates.is_empty() {
+            return false;
+        }
+        if self.rounds == 0 {
+            self.budget = BUDGET + scene.bodies.awake.len() / SHARE;
+        }
+        self.places.resize(scene.contacts.records.len(), 0);
+        self.course_places.resize(scene.bodies.rows.len(), 0);
+        let mut found = core::mem::take(&mut self.found);
+        let look = Look { scene, known: self };
+        let chunks = team.map_chunks(self.candidates.len(), CHUNK, &mut found, |range, found| {
+            found.clear();
+            found.extend(self.candidates[range].iter().filter_map(|&contact| look.hit(contact)));
+        });
+        chunks.iter().flatten().for_each(|hit| self.take(scene, hit));
+        self.found = found;
+        self.rounds += 1;
+        self.list_struck(scene.bodies);
+        !self.struck.is_empty()
+    }
+
+    /// Lets the boxes of bodies that hits took off their ways reach as far as they go now.
+    pub(crate) fn reach(
+        &self,
+        bodies: &Bodies,
+        shapes: &mut Shapes,
+        broad_phase: &mut BroadPhase,
+        ways: &mut Ways,
+    ) {
+        let mut found = Found::default();
+        boxes::share(shapes, broad_phase, |boxes| {
+            for struck in &self.struck {
+                let course = &self.courses[self.course_places[struck.body as usize] as usize - 1];
+                let first_shape = bodies.infos[struck.body as usize].first_shape;
+                boxes.reach(first_shape, &course.way(bodies), &mut found.moved, &mut found.fast);
+            }
+        });
+        ways.take_over(&found, shapes, broad_phase);
+    }
+
+    /// Makes candidates of the contacts of bodies that hits took off their ways (of those that touch only where they
+    /// are hit hard), and lists the pairs that need a contact now, sorted.
+    pub(crate) fn look_again(
+        &mut self,
+        team: &Team,
+        broad_phase: &BroadPhase,
+        partners: &Partners<'_>,
+        pairs: &mut Vec<(u32, u32)>,
+    ) {
+        let mut looks = core::mem::take(&mut self.looks);
+        let chunks = team.map_chunks(self.struck.len(), CHUNK, &mut looks, |range, look| {
+            look.clear();
+            self.struck[range].iter().for_each(|&struck| look.add(struck, broad_phase, partners));
+        });
+        pairs.clear();
+        for look in chunks.iter() {
+            self.candidates.extend_from_slice(&look.candidates);
+            pairs.extend_from_slice(&look.pairs);
+        }
+        self.looks = looks;
+        self.candidates.sort_unstable();
+        self.candidates.dedup();
+        pairs.sort_unstable();
+        pairs.dedup();
+    }
+
+    /// Keeps what a hit predicts and hands on its impulse.
+    fn take(&mut self, scene: Scene<'_>, hit: &Hit) {
+        if let Some(prediction) = hit.prediction {
+            self.contacts.push(hit.contact);
+            self.list.push(prediction);
+            self.places[hit.contact as usize] = self.list.len() as u32;
+        }
+        let contact = &scene.contacts.records[hit.contact as usize];
+        let bodies = [contact.body_a, contact.body_b];
+        // What bounces is reflected at the start of the step.
+        let fraction = if contact.restitution > 0.0 { 0.0 } else { hit.fraction };
+        let rest = (1.0 - fraction) * scene.dt;
+        for arms in hit.arms {
+            let courses = bodies.map(|body| self.course(scene, body));
+            let speed =
+                courses[1].speed_at(arms[1], hit.normal) - courses[0].speed_at(arms[0], hit.normal);
+            let give = [0, 1].map(|k| {
+                let row = &scene.bodies.rows[bodies[k] as usize];
+                row[Slot::INV_MASS] + row[Slot::INV_INERTIA] * arms[k] * arms[k]
+            });
+            let give = give[0] + give[1];
+            if speed < 0.0 && give > 0.0 {
+                let impulse = -(1.0 + contact.restitution) * speed / give;
+                self.strike(scene, courses[0], -impulse, (hit.normal, arms[0]), rest);
+                self.strike(scene, courses[1], impulse, (hit.normal, arms[1]), rest);
+            }
+        }
+    }
+
+    /// Gives a body an impulse along a normal, after which it goes on for some seconds.
+    fn strike(
+        &mut self,
+        scene: Scene<'_>,
+        mut course: Course,
+        impulse: f32,
+        (normal, arm): (Vec2, f32),
+        rest: f32,
+    ) {
+        let row = &scene.bodies.rows[course.body as usize];
+        let velocity = normal * (impulse * row[Slot::INV_MASS]);
+        let spin = impulse * arm * row[Slot::INV_INERTIA];
+        if velocity == Vec2::ZERO && spin == 0.0 {
+            return;
+        }
+        course.velocity += velocity;
+        course.spin += spin;
+        course.motion += velocity * rest;
+        course.turn += spin * rest;
+        let reach = scene.bodies.infos[course.body as usize].max_extent;
+        course.astray += (velocity.length() + spin.abs() * reach) * rest;
+        let place = &mut self.course_places[course.body as usize];
+        if *place == 0 {
+            self.courses.push(course);
+            *place = self.courses.len() as u32;
+        } else {
+            self.courses[*place as usize - 1] = course;
+        }
+    }
+
+    /// How a body moves in this step.
+    fn course(&self, scene: Scene<'_>, body: u32) -> Course {
+        match self.course_places[body as usize] {
+            0 => Course::of(scene, body),
+            place => self.courses[place as usize - 1],
+        }
+    }
+
+    /// Lists the bodies that hits have taken off their ways since they were last looked at.
+    fn list_struck(&mut self, bodies: &Bodies) {
+        self.candidates.clear();
+        self.struck.clear();
+        if self.rounds == ROUNDS || self.budget == 0 {
+            return;
+        }
+        for course in &mut self.courses {
+            let astray = course.astray / bodies.infos[course.body as usize].min_extent;
+            if astray > HARMLESS {
+                self.struck.push(Struck { body: course.body, astray });
+                course.astray = 0.0;
+            }
+        }
+        let furthest_first =
+            |a: &Struck, b: &Struck| b.astray.total_cmp(&a.astray).then(a.body.cmp(&b.body));
+        self.struck.sort_unstable_by(furthest_first);
+        self.struck.truncate(self.budget);
+        self.budget -= self.struck.len();
+    }
+}
+
+/// What is looked at again.
+#[derive(Debug, Default)]
+struct Again {
+    candidates: Vec<u32>,
+    /// Of dynamic shapes that need a contact now.
+    pairs: Vec<(u32, u32)>,
+}
+
+impl Again {
+    fn clear(&mut self) {
+        self.candidates.clear();
+        self.pairs.clear();
+    }
+
+    /// Adds what a body may meet on its new way.
+    fn add(&mut self, struck: Struck, broad_phase: &BroadPhase, partners: &Partners<'_>) {
+        let Partners { bodies, shapes, contacts, .. } = *partners;
+        let info = &bodies.infos[struck.body as usize];
+        let meets = |&(index, _): &(u32, _)| {
+            let contact = &contacts.records[index as usize];
+            let near = || partners.come_near(contact.shape_a, contact.shape_b);
+            if contact.touching { struck.astray > HARD_HIT } else { near() }
+        };
+        self.candidates.extend(contacts.of_body(info.first_contact).filter(meets).map(|of| of.0));
+        for shape in shapes.of_body(info.first_shape) {
+            let mask = shapes.records[shape as usize].filter.reach().1;
+            let path = shapes.tight[shape as usize].swept(partners.ways[shape as usize]);
+            broad_phase.tree(ProxyKind::Dynamic).query(&path, mask, |proxy| {
+                let other = broad_phase.user(ProxyId(proxy)).filter(|&other| {
+                    partners.come_near(shape, other) && partners.may_meet(shape, other)
+                });
+                self.pairs.extend(other.map(|other| (shape.min(other), shape.max(other))));
+                ControlFlow::Continue(())
+            });
+        }
+    }
+}
+
+impl Course {
+    fn of(scene: Scene<'_>, body: u32) -> Self {
+        let row = &scene.bodies.rows[body as usize];
+        let (velocity, spin) = (Vec2::new(row[Slot::VX], row[Slot::VY]), row[Slot::W]);
+        let (motion, turn) = (velocity * scene.dt, spin * scene.dt);
+        Self { body, motion, turn, velocity, spin, astray: 0.0 }
+    }
+
+    fn way(&self, bodies: &Bodies) -> Way {
+        let Self { body, motion, turn, .. } = *self;
+        Way { start: bodies.poses[body as usize], motion, turn }
+    }
+
+    /// Speed of a point along a normal.
+    fn speed_at(&self, arm: f32, normal: Vec2) -> f32 {
+        normal.dot(self.velocity) + self.spin * arm
+    }
+}
+
+/// The search for a hit.
+struct Look<'a> {
+    scene: Scene<'a>,
+    known: &'a Predictions,
+}
+
+/// Two shapes on their ways, in a frame that goes with the centre of mass of A.
+struct Meeting<'a> {
+    shapes: [&'a ShapeRecord; 2],
+    courses: [Course; 2],
+    /// From the centre of mass of A to that of B at the start, and how that changes over the step.
+    between: Vec2,
+    way: Vec2,
+    /// Of the shapes.
+    sweeps: [Sweep; 2],
+}
+
+impl Look<'_> {
+    fn hit(&self, index: u32) -> Option<Hit> {
+        let contact = &self.scene.contacts.records[index as usize];
+        let Place::Graph { colour, slot } = contact.place else { return None };
+        if let Some(known) = self.known.of(index) {
+            return Some(known.hit(index, self.near()));
+        }
+        let bucket = self.scene.graph.bucket(colour.into(), contact.class);
+        let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
+        let touches = bucket.heads[block].touching >> lane & 1 != 0;
+        if touches && let Some(constraint) = bucket.constraints.get(block) {
+            return Some(touching_hit(index, constraint, lane));
+        }
+        let meeting = self.meeting(contact);
+        if !meeting.comes_near() {
+            return None;
+        }
+        let [a, b] = meeting.shapes;
+        if touches {
+            let manifold = meeting.manifold(0.0, self.reach());
+            return (manifold.count > 0)
+                .then(|| meeting.predict(&manifold, 0.0).hit(index, self.near()));
+        }
+        if [a, b].iter().any(|record| record.one_way.is_some() || record.link.is_some()) {
+            return None;
+        }
+        let ([way_a, way_b], slop) = (&meeting.sweeps, LINEAR_SLOP * self.length_unit());
+        let tolerance = slop.max(TOLERANCE * self.thickness(contact));
+        let toi = time_of_approach((&a.shape, way_a), (&b.shape, way_b), 1.0, slop, tolerance);
+        if !matches!(toi.state, ToiState::Hit | ToiState::Limit) {
+            return None;
+        }
+        let manifold = self.correct(contact, &meeting, toi.fraction)?;
+        let prediction = meeting.predict(&manifold, toi.fraction);
+        Some(Hit { prediction: Some(prediction), ..prediction.hit(index, self.near()) })
+    }
+
+    fn reach(&self) -> f32 {
+        self.scene.narrow_phase.speculative_distance
+    }
+
+    fn length_unit(&self) -> f32 {
+        self.scene.narrow_phase.surroundings.length_unit
+    }
+
+    /// The lesser of the half thicknesses of two bodies, metres.
+    fn thickness(&self, contact: &Contact) -> f32 {
+        let infos = &self.scene.bodies.infos;
+        let [a, b] = [contact.body_a, contact.body_b].map(|body| infos[body as usize].min_extent);
+        a.min(b)
+    }
+
+    fn near(&self) -> f32 {
+        NEAR * self.length_unit()
+    }
+
+    fn meeting(&self, contact: &Contact) -> Meeting<'_> {
+        let Scene { bodies, shapes, .. } = self.scene;
+        let record = |shape: u32| &shapes.records[shape as usize];
+        let shapes = [record(contact.shape_a), record(contact.shape_b)];
+        let courses =
+            [contact.body_a, contact.body_b].map(|body| self.known.course(self.scene, body));
+        let poses = [contact.body_a, contact.body_b].map(|body| bodies.poses[body as usize]);
+        Meeting::new(shapes, courses, poses)
+    }
+
+    /// The manifold at a fraction of the step, without what only seams make; nothing where that is all.
+    fn correct(&self, contact: &Contact, meeting: &Meeting<'_>, fraction: f32) -> Option<Manifold> {
+        let reach = self.reach() + meeting.longest_way();
+        let mut manifold = meeting.manifold(fraction, reach);
+        let context = &self.scene.narrow_phase;
+        let (shape_a, shape_b) = (contact.shape_a, contact.shape_b);
+        let guards = &self.scene.shapes.guards;
+        if guards[shape_a as usize] | guards[shape_b as usize] != 0 && manifold.count > 0 {
+            let [a, b] = meeting.shapes;
+            let [frame_a, frame_b] = meeting.sweeps.map(|sweep| sweep.at(fraction));
+            let (box_a, box_b) = (frame_a.compose(a.box_frame), frame_b.compose(b.box_frame));
+            let b_in_a = box_b.relative_to(box_a);
+            let mut points = LanePoints::of(&manifold, a.box_frame);
+            surfaces::correct(context, surfaces::Pair { shape_a, shape_b, b_in_a }, &mut points);
+            manifold = points.manifold(a.box_frame, reach);
+        }
+        (manifold.count > 0).then_some(manifold)
+    }
+}
+
+impl<'a> Meeting<'a> {
+    fn new(shapes: [&'a ShapeRecord; 2], courses: [Course; 2], poses: [Pose; 2]) -> Self {
+        let between = poses[1].p.relative_to(poses[0].p);
+        let way = courses[1].motion - courses[0].motion;
+        let sweep = |k: usize, place: Vec2, way: Vec2| {
+            let frame = Transform::new(place, poses[k].q);
+            Sweep::new(frame, Vec2::ZERO, way, courses[k].turn).child(shapes[k].central)
+        };
+        let sweeps = [sweep(0, Vec2::ZERO, Vec2::ZERO), sweep(1, between, way)];
+        Self { shapes, courses, between, way, sweeps }
+    }
+
+    /// In the frame of shape A.
+    fn manifold(&self, fraction: f32, reach: f32) -> Manifold {
+        let [frame_a, frame_b] = self.sweeps.map(|sweep| sweep.at(fraction));
+        let [a, b] = self.shapes;
+        manifold::collide(&a.shape, &b.shape, frame_b.relative_to(frame_a), reach)
+    }
+
+    /// How far a point can come nearer in the step, metres.
+    fn longest_way(&self) -> f32 {
+        let turned = |k: usize| self.courses[k].turn.abs() * extent(self.shapes[k]);
+        self.way.length() + turned(0) + turned(1)
+    }
+
+    /// Do the disks around the shapes meet on their ways?
+    fn comes_near(&self) -> bool {
+        let room = extent(self.shapes[0]) + extent(self.shapes[1]);
+        let (way_sq, on) = (self.way.length_sq(), -self.between.dot(self.way));
+        let nearest = if on <= 0.0 || way_sq == 0.0 {
+            self.between
+        } else if on >= way_sq {
+            self.between + self.way
+        } else {
+            self.between + self.way * (on / way_sq)
+        };
+        nearest.length_sq() <= room * room
+    }
+
+    /// The contact of the time of impact, its points as far apart as they still have to come.
+    fn predict(&self, manifold: &Manifold, fraction: f32) -> Prediction {
+        let frame = self.sweeps[0].at(fraction);
+        let (normal, between) =
+            (frame.q.rotate(manifold.normal), self.between + self.way * fraction);
+        let mut prediction = Prediction {
+            normal,
+            between,
+            points: [Vec2::ZERO; 2],
+            separation: [f32::MAX; 2],
+            id: [0.0; 2],
+            fraction,
+        };
+        for (k, point) in manifold.points().iter().enumerate() {
+            let arm = frame.apply(point.point);
+            let turned = (arm - between).cross(normal) * self.courses[1].turn
+                - arm.cross(normal) * self.courses[0].turn;
+            let opened = fraction * (normal.dot(self.way) + turned);
+            let coming = if opened < 0.0 { -opened } else { 0.0 };
+            prediction.points[k] = arm;
+            prediction.separation[k] = point.separation + coming;
+            prediction.id[k] = f32::from(point.id);
+        }
+        prediction
+    }
+}
+
+/// How far a shape reaches from the centre of mass of its body, metres.
+fn extent(record: &ShapeRecord) -> f32 {
+    let core = record.shape.core();
+    record.central.p.length() + core.reach(Vec2::ZERO) + core.radius
+}
+
+impl Prediction {
+    /// `near` is how far points may be apart that are hit together, metres.
+    fn hit(&self, contact: u32, near: f32) -> Hit {
+        let Self { fraction, normal, between, .. } = *self;
+        // One that still has to come when the other is there is not hit.
+        let is_hit = |k: usize| self.separation[k] <= self.separation[1 - k] + near;
+        let arm = |k: usize| {
+            let point = self.points[if is_hit(k) { k } else { 1 - k }];
+            [point.cross(normal), (point - between).cross(normal)]
+        };
+        Hit { contact, prediction: None, fraction, normal, arms: [arm(0), arm(1)] }
+    }
+}
+
+/// That of a contact that touches already.
+fn touching_hit(contact: u32, constraint: &ConstraintBlock, lane: usize) -> Hit {
+    let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
+    let there = |k: usize| constraint.points[k].normal_mass[lane] > 0.0;
+    let arm = |k: usize| {
+        let point = &constraint.points[if there(k) { k } else { 1 - k }];
+        [point.normal_arm_a[lane], point.normal_arm_b[lane]]
+    };
+    Hit { contact, prediction: None, fraction: 0.0, normal, arms: [arm(0), arm(1)] }
+}
