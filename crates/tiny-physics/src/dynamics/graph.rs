@@ -380,6 +380,8 @@ impl Graph {
                 }
             }
         }
+        // Buckets have no order of their own.
+        candidates.sort_unstable();
     }
 
     /// Has the impulses of a contact summed up in this step.

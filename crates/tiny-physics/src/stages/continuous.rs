@@ -277,8 +277,38 @@ impl Search<'_> {
         Sweep::new(self.place(other.start), Vec2::ZERO, other.motion, other.turn)
     }
 
-    /// The first impact on a course with shapes of one kind of body, if it comes before `first`.
-    fn first(&self, course: &Course, kind: ProxyKind, mut first: Meeting) -> Meeting {
+    /// The first impact on a course with shapes of one kind of body, if it comes before `limit`. Of two at once that
+    /// with the lesser index counts, whatever the order in the tree.
+    fn first(&self, course: &Course, kind: ProxyKind, limit: Meeting) -> Meeting {
+        let mut first = limit;
+        self.each_other(course, kind, |record, other| {
+            if let Some(meeting) = self.meeting(record, course, other, first.fraction) {
+                first = meeting;
+            }
+        });
+        let any_does = kind == ProxyKind::Static && first.lost == Vec2::ZERO;
+        if any_does || first.fraction == limit.fraction {
+            return first;
+        }
+        let (fraction, mut least) = (first.fraction, u32::MAX);
+        self.each_other(course, kind, |record, other| {
+            if other < least
+                && let Some(meeting) = self.meeting(record, course, other, 1.0)
+                && meeting.fraction <= fraction
+            {
+                (first, least) = (meeting, other);
+            }
+        });
+        first
+    }
+
+    /// Visits the shapes of one kind of body that shapes of this one may meet on a course.
+    fn each_other(
+        &self,
+        course: &Course,
+        kind: ProxyKind,
+        mut visit: impl FnMut(&ShapeRecord, u32),
+    ) {
         let Scene { bodies, shapes, broad_phase, .. } = self.scene;
         let info = &bodies.infos[self.fast.body as usize];
         let path = self.path_box(&course.sweep, info.max_extent);
@@ -290,14 +320,12 @@ impl Search<'_> {
             broad_phase.tree(kind).query(&path, record.filter.reach().1, |proxy| {
                 if let Some(other) = broad_phase.user(ProxyId(proxy))
                     && self.may_collide((shape, record), other)
-                    && let Some(meeting) = self.meeting(record, course, other, first.fraction)
                 {
-                    first = meeting;
+                    visit(record, other);
                 }
                 ControlFlow::Continue(())
             });
         }
-        first
     }
 
     /// The box of everything that the body can reach on a course.

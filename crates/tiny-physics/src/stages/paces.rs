@@ -105,6 +105,8 @@ pub(crate) fn list_bodies(bodies: &Bodies, pace: usize, listed: &mut Vec<u32>) {
 
 /// Gives every island its pace, where that is due.
 pub(crate) fn assign(mut stores: Stores<'_>, rules: Rules, memory: &mut Memory) {
+    // Trees count: a world that was loaded has none yet.
+    stores.joint_graph.grow_forest(stores.bodies, stores.joints);
     if !is_due(&stores, rules) {
         return;
     }

@@ -41,6 +41,13 @@ struct Found {
     fast: Vec<(u32, Vec2)>,
 }
 
+impl Found {
+    fn clear(&mut self) {
+        self.moved.clear();
+        self.fast.clear();
+    }
+}
+
 footprint!(Found { moved, fast });
 footprint!(Ways { of_shapes } each { found });
 
@@ -56,8 +63,7 @@ pub(crate) fn reach(
 ) {
     let chunks = boxes::share(shapes, broad_phase, |boxes| {
         team.map_chunks(bodies.awake.len(), CHUNK, &mut ways.found, |range, found| {
-            found.moved.clear();
-            found.fast.clear();
+            found.clear();
             for &body in &bodies.awake[range] {
                 let info = &bodies.infos[body as usize];
                 let way = Way::to_come(bodies, body, dt);

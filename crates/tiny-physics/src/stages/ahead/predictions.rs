@@ -103,10 +103,11 @@ pub(crate) struct Predictions {
     budget: usize,
     found: Vec<Vec<Hit>>,
     looks: Vec<Again>,
+    reached: Found,
 }
 
 footprint!(Again { candidates, pairs });
-footprint!(Predictions { candidates, contacts, fresh, list, places, courses, course_places, struck } each { found, looks } none {
+footprint!(Predictions { candidates, contacts, fresh, list, places, courses, course_places, struck, reached } each { found, looks } none {
     rounds, budget
 });
 
@@ -178,13 +179,14 @@ impl Predictions {
 
     /// Lets the boxes of bodies that hits took off their ways reach as far as they go now.
     pub(crate) fn reach(
-        &self,
+        &mut self,
         bodies: &Bodies,
         shapes: &mut Shapes,
         broad_phase: &mut BroadPhase,
         ways: &mut Ways,
     ) {
-        let mut found = Found::default();
+        let mut found = core::mem::take(&mut self.reached);
+        found.clear();
         boxes::share(shapes, broad_phase, |boxes| {
             for struck in &self.struck {
                 let course = &self.courses[self.course_places[struck.body as usize] as usize - 1];
@@ -193,6 +195,7 @@ impl Predictions {
             }
         });
         ways.take_over(&found, shapes, broad_phase);
+        self.reached = found;
     }
 
     /// Makes candidates of the contacts of bodies that hits took off their ways (of those that touch only where they
