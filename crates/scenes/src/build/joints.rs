@@ -180,7 +180,7 @@ pub(crate) fn breaking_bridge(options: Options) -> Scene {
         } else {
             (banks, Vec2::new(half, 0.0))
         };
-        let joint = JointDef::revolute().anchors(last.1, anchor).break_at(10000.0, f32::MAX);
+        let joint = JointDef::revolute().anchors(last.1, anchor).break_at(8000.0, f32::MAX);
         scene.joint(last.0, next, joint);
         last = (next, Vec2::new(0.5, 0.0));
     }
