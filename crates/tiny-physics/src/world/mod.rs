@@ -210,7 +210,9 @@ impl World {
 
     /// Lets the boxes of fast bodies reach as far as they will go.
     fn reach_ahead(&mut self, team: &Team, lengths: Lengths) {
-        let limits = (lengths.dt, self.contact_reach());
+        // Nothing is fast where nothing is to be swept.
+        let limit = if self.settings.continuous { self.contact_reach() } else { f32::MAX };
+        let limits = (lengths.dt, limit);
         let State { bodies, shapes, broad_phase, .. } = &mut self.state;
         ahead::reach(team, bodies, shapes, broad_phase, limits, &mut self.scratch.ways);
     }
