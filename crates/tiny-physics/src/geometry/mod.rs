@@ -39,7 +39,6 @@ pub use ray::{Ray, RayHit};
 pub use rounded_core::Core;
 pub use shape::Shape;
 pub use sweep::Sweep;
-pub(crate) use toi::time_of_approach;
 pub use toi::{
     LINEAR_SLOP, Toi, ToiState, time_of_impact, time_of_impact_to, time_of_impact_within,
     toi_target,

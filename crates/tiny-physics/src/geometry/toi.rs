@@ -83,18 +83,7 @@ pub fn time_of_impact_within(
     max_fraction: f32,
     slop: f32,
 ) -> Toi {
-    time_of_approach((a, sweep_a), (b, sweep_b), max_fraction, slop, TOLERANCE * slop)
-}
-
-/// The same to another tolerance, metres: a coarse one takes fewer rounds.
-pub(crate) fn time_of_approach(
-    (a, sweep_a): (&Shape, &Sweep),
-    (b, sweep_b): (&Shape, &Sweep),
-    max_fraction: f32,
-    slop: f32,
-    tolerance: f32,
-) -> Toi {
-    let goal = Goal { max_fraction, target: toi_target(a, b, slop), tolerance };
+    let goal = Goal { max_fraction, target: toi_target(a, b, slop), tolerance: TOLERANCE * slop };
     search(&Moving::new(a, sweep_a), &Moving::new(b, sweep_b), goal)
 }
 

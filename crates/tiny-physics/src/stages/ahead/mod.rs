@@ -25,7 +25,7 @@ use crate::threads::Team;
 /// Bodies that one member of the team looks at at a time.
 const CHUNK: usize = 256;
 /// What goes no further into another than this part of the smaller half thickness is left to the next step.
-pub(crate) const HARMLESS: f32 = 0.25;
+pub(crate) const HARMLESS: f32 = 0.05;
 
 /// How far shapes will go in the step.
 #[derive(Debug, Default)]

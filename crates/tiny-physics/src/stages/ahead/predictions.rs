@@ -6,7 +6,7 @@ use crate::dynamics::{
 };
 use crate::footprint::footprint;
 use crate::geometry::manifold::{self, Manifold};
-use crate::geometry::{LINEAR_SLOP, Sweep, ToiState, time_of_approach};
+use crate::geometry::{LINEAR_SLOP, Sweep, ToiState, time_of_impact_within};
 use crate::math::{Pose, Transform, Vec2};
 use crate::simd::BLOCK;
 use crate::stages::ahead::{Found, HARMLESS, Ways};
@@ -23,8 +23,6 @@ const ROUNDS: usize = 6;
 const CHUNK: usize = 32;
 /// The same for what touches already.
 const HARD_HIT: f32 = 0.5;
-/// So near, in half thicknesses, normals are those of the impact.
-const TOLERANCE: f32 = 0.05;
 /// Points whose separations differ by less than this are hit together, metres; multiplied by the length unit.
 const NEAR: f32 = 0.02;
 /// So many bodies that were taken off their ways may be looked at again in a step, and one in [`SHARE`] of all: those
@@ -414,8 +412,7 @@ impl Look<'_> {
             return None;
         }
         let ([way_a, way_b], slop) = (&meeting.sweeps, LINEAR_SLOP * self.length_unit());
-        let tolerance = slop.max(TOLERANCE * self.thickness(contact));
-        let toi = time_of_approach((&a.shape, way_a), (&b.shape, way_b), 1.0, slop, tolerance);
+        let toi = time_of_impact_within(&a.shape, way_a, &b.shape, way_b, 1.0, slop);
         if !matches!(toi.state, ToiState::Hit | ToiState::Limit) {
             return None;
         }
@@ -430,13 +427,6 @@ impl Look<'_> {
 
     fn length_unit(&self) -> f32 {
         self.scene.narrow_phase.surroundings.length_unit
-    }
-
-    /// The lesser of the half thicknesses of two bodies, metres.
-    fn thickness(&self, contact: &Contact) -> f32 {
-        let infos = &self.scene.bodies.infos;
-        let [a, b] = [contact.body_a, contact.body_b].map(|body| infos[body as usize].min_extent);
-        a.min(b)
     }
 
     fn near(&self) -> f32 {
