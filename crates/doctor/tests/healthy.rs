@@ -25,8 +25,9 @@ const TRUE: &[(&str, Code, &str)] = &[
     (
         "game",
         Code::JointStretch,
-        "the rope is thrown onto the one-way plank that it hangs from, and a pin is 11 cm apart there",
+        "the rope is thrown onto the one-way plank that it hangs from, and pins are up to 26 cm apart there",
     ),
+    ("game", Code::JointFight, "the same"),
     ("bullet_wall", Code::Stuck, "a turning bullet stays in the wall at a speed of 160 m/s"),
     (
         "blast",
