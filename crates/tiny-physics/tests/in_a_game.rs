@@ -203,8 +203,7 @@ fn ground(world: &mut World) -> BodyId {
 #[test]
 fn total_impulses_are_what_bodies_gain() {
     for (restitution, iterations, hinge) in [(0.0, 1, false), (0.7, 1, false), (0.3, 4, true)] {
-        // Whoever sleeps has no contacts to tell of.
-        let settings = Settings { iterations, sleep: false, ..Settings::default() };
+        let settings = Settings { iterations, ..Settings::default() };
         let mut world = World::with_settings((0.0, -10.0), settings);
         ground(&mut world);
         let shape = ShapeDef::new(square(0.5)).restitution(restitution).events();
@@ -227,6 +226,15 @@ fn total_impulses_are_what_bodies_gain() {
         for step in 0..90 {
             let before = momentum(&world);
             world.step(DT);
+            // What sleeps has no contacts to tell of.
+            if world.awake_body_count() < bodies.len() {
+                assert!(step > 60, "{step}: asleep already");
+                break;
+            }
+            // Nor is what was withheld anybody's impulse.
+            if world.stats().withheld_energy > 0.0 {
+                continue;
+            }
             let gained = momentum(&world) - before + mass * 10.0 * DT;
             let push = |contact: ContactView| {
                 let up = |body| world.body(body).unwrap().mass() > 0.0;
