@@ -83,7 +83,7 @@ impl Follower {
     pub fn follow(&mut self, simulation: &Simulation) {
         let now = simulation.middle_of_motion();
         if let (true, Some(before), Some(now)) = (self.follows, self.middle, now) {
-            self.camera.center = self.camera.center + (now - before);
+            self.camera.center += now - before;
         }
         self.middle = now;
     }

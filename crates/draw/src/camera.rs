@@ -61,7 +61,7 @@ impl Camera {
         let before = self.to_world(pixel);
         self.scale = (self.scale * factor).clamp(1.0e-3, 1.0e5);
         let after = self.to_world(pixel);
-        self.center = self.center + (before - after);
+        self.center += before - after;
     }
 
     /// Moves the picture by pixels, as if dragged.

@@ -59,7 +59,7 @@ impl Shape {
     /// A disk around the origin.
     ///
     /// # Errors
-    /// A radius that is not finite or outside [`MIN_EXTENT`] to [`MAX_EXTENT`].
+    /// A radius that is not finite or outside [`MIN_EXTENT`] to [`MAX_EXTENT`](super::MAX_EXTENT).
     pub fn circle(radius: f32) -> Result<Self, Error> {
         Self::Circle { radius }.validated()
     }
@@ -67,7 +67,7 @@ impl Shape {
     /// A box around the origin that may turn: a polygon of four vertices.
     ///
     /// # Errors
-    /// A half extent that is not finite or outside [`MIN_EXTENT`] to [`MAX_EXTENT`].
+    /// A half extent that is not finite or outside [`MIN_EXTENT`] to [`MAX_EXTENT`](super::MAX_EXTENT).
     pub fn rect(half_width: f32, half_height: f32) -> Result<Self, Error> {
         Polygon::rect(half_width, half_height).map(Self::Polygon)
     }
@@ -75,7 +75,7 @@ impl Shape {
     /// A box around the origin that never turns.
     ///
     /// # Errors
-    /// A half extent that is not finite or outside [`MIN_EXTENT`] to [`MAX_EXTENT`].
+    /// A half extent that is not finite or outside [`MIN_EXTENT`] to [`MAX_EXTENT`](super::MAX_EXTENT).
     pub fn aabb_box(half_extents: impl Into<Vec2>) -> Result<Self, Error> {
         Self::Aabb { half_extents: half_extents.into() }.validated()
     }

@@ -53,7 +53,7 @@ struct Link {
 ///
 /// A box that covers very many cells does not go into them but into a small tree, so a floor of 10
 /// km costs no more than a crate. A box with NaN in it or with `min > max` overlaps nothing;
-/// coordinates beyond [`LIMIT`](super::LIMIT) count as that limit.
+/// coordinates beyond 1e18 count as that limit.
 ///
 /// ```
 /// use tiny_physics::{Aabb, SpatialHash, Vec2};
