@@ -1,0 +1,179 @@
+//! Colliders: shapes of bodies, and their surfaces.
+
+use super::problems::Problems;
+use super::scene::Scene;
+use crate::components::*;
+use crate::order;
+use crate::world::{BodyRecord, PhysicsWorld, Role, ShapesRecord, Written};
+use bevy_ecs::prelude::*;
+use bevy_transform::prelude::Transform;
+use tiny_physics::{BodyId, Error, ShapeDef, ShapeId};
+
+/// Colliders of which some component changed.
+type ColliderChange = Or<(
+    Changed<Collider>,
+    Changed<Friction>,
+    Changed<Restitution>,
+    Changed<Density>,
+    Changed<SurfaceSpeed>,
+    Changed<CollisionFilter>,
+    Changed<OneWay>,
+    Changed<Sensor>,
+    Changed<CollisionEvents>,
+    Changed<HitEvents>,
+)>;
+
+/// Entities below something that moved against its parent, or got another one.
+type Shifted = (Without<RigidBody>, With<ChildOf>, Or<(Changed<Transform>, Changed<ChildOf>)>);
+
+/// Makes the world's shapes what colliders say.
+pub(crate) fn read(
+    mut physics: ResMut<PhysicsWorld>,
+    scene: Scene,
+    changed: Query<Entity, (With<Collider>, ColliderChange)>,
+    shifted: Query<Entity, Shifted>,
+    all: Query<Entity, With<Collider>>,
+    mut problems: Problems,
+) {
+    let physics = &mut *physics;
+    let mut asked: Vec<Entity> = changed.iter().collect();
+    for entity in shifted.iter().chain(core::mem::take(&mut physics.notes.colliders)) {
+        scene.colliders_below(entity, &mut asked);
+    }
+    if physics.fresh {
+        asked.extend(all.iter().filter(|entity| !physics.maps.shapes.contains_key(entity)));
+    }
+    asked.sort_unstable();
+    asked.dedup();
+    let mut known = Vec::new();
+    let mut lone = Vec::new();
+    for entity in asked {
+        let owner = scene.owner(entity);
+        let Some(shapes) = problems.check(entity, "collider", scene.shapes(entity, owner)) else {
+            continue;
+        };
+        match owner.or(physics.lone(entity).map(|_| entity)) {
+            Some(owner) => known.push((physics.own_body(owner), owner, entity, shapes)),
+            None => lone.extend(lone_body(&scene, entity, shapes)),
+        }
+    }
+    known.sort_by(|a, b| a.0.cmp(&b.0).then_with(|| order::of_text(&a.3, &b.3)));
+    for (body, owner, entity, shapes) in known {
+        let Some(body) = body else { continue };
+        let result = change(physics, &scene, entity, (owner, body), &shapes);
+        problems.check(entity, "collider", result);
+    }
+    lone.sort_by(|a, b| order::of_bodies(&a.1, &b.1));
+    for (entity, (_, body)) in lone {
+        let result = add_lone(physics, &scene, entity, body);
+        problems.check(entity, "collider", result);
+    }
+}
+
+/// A static body for a collider that belongs to none.
+fn lone_body(
+    scene: &Scene,
+    entity: Entity,
+    shapes: Vec<ShapeDef>,
+) -> Option<(Entity, (u64, tiny_physics::RigidBody))> {
+    let frame = scene.frame(entity)?;
+    let body = tiny_physics::RigidBody { shapes, ..tiny_physics::RigidBody::fixed() };
+    Some((entity, (scene.order(entity), body.position(frame.p).angle(frame.q.angle()))))
+}
+
+fn add_lone(
+    physics: &mut PhysicsWorld,
+    scene: &Scene,
+    entity: Entity,
+    body: tiny_physics::RigidBody,
+) -> Result<(), Error> {
+    physics.remove_shapes(entity);
+    let shapes = body.shapes.clone();
+    let id = physics.world.add_body(body)?;
+    let ids: Vec<ShapeId> =
+        physics.world.body(id).into_iter().flat_map(|body| body.shapes()).collect();
+    let written = scene.transform(entity).map(Written::of);
+    physics.enter_body(entity, BodyRecord { id, role: Role::Lone, written });
+    physics.enter_shapes(
+        entity,
+        ShapesRecord { body: id, shapes: ids.into_iter().zip(shapes).collect() },
+    );
+    Ok(())
+}
+
+/// Changes the shapes of a collider to what it says now: one by one where they are as many as before, else all anew.
+fn change(
+    physics: &mut PhysicsWorld,
+    scene: &Scene,
+    entity: Entity,
+    (owner, body): (Entity, BodyId),
+    shapes: &[ShapeDef],
+) -> Result<(), Error> {
+    if owner != entity && physics.lone(entity).is_some() {
+        physics.remove_body(entity);
+    }
+    if owner == entity && physics.lone(entity).is_some() {
+        place_lone(physics, scene, entity);
+    }
+    let alike =
+        |record: &ShapesRecord| {
+            record.body == body
+                && record.shapes.len() == shapes.len()
+                && record.shapes.iter().zip(shapes).all(|((_, is), said)| {
+                    is.link == said.link && is.sees_sensors == said.sees_sensors
+                })
+        };
+    if !physics.maps.shapes.get(&entity).is_some_and(alike) {
+        physics.remove_shapes(entity);
+        return physics.add_shapes(entity, body, shapes);
+    }
+    let PhysicsWorld { world, maps, .. } = physics;
+    let Some(record) = maps.shapes.get_mut(&entity) else { return Ok(()) };
+    record.shapes.iter_mut().zip(shapes).try_for_each(|((id, is), said)| {
+        change_shape(world, *id, is, said)?;
+        is.clone_from(said);
+        Ok(())
+    })
+}
+
+/// A lone collider below something goes with it.
+fn place_lone(physics: &mut PhysicsWorld, scene: &Scene, entity: Entity) {
+    let (Some(frame), Some(id)) = (scene.frame(entity), physics.lone(entity)) else { return };
+    if let Some(mut body) = physics.world.body_mut(id).filter(|body| body.pose() != frame.pose()) {
+        body.set_pose(frame.pose());
+    }
+}
+
+fn change_shape(
+    world: &mut tiny_physics::World,
+    id: ShapeId,
+    is: &ShapeDef,
+    said: &ShapeDef,
+) -> Result<(), Error> {
+    let Some(mut shape) = world.shape_mut(id) else { return Ok(()) };
+    if is.shape != said.shape {
+        shape.set_shape(said.shape)?;
+    }
+    if (is.offset, is.angle) != (said.offset, said.angle) {
+        shape.set_local(said.offset, said.angle)?;
+    }
+    if is.material != said.material {
+        shape.set_material(said.material)?;
+    }
+    if is.filter != said.filter {
+        shape.set_filter(said.filter);
+    }
+    if is.sensor != said.sensor {
+        shape.set_sensor(said.sensor);
+    }
+    if is.one_way != said.one_way {
+        shape.set_one_way(said.one_way)?;
+    }
+    if (is.contact_events, is.hit_events) != (said.contact_events, said.hit_events) {
+        shape.set_events(said.contact_events, said.hit_events);
+    }
+    if is.user_data != said.user_data {
+        shape.set_user_data(said.user_data);
+    }
+    Ok(())
+}

@@ -1,0 +1,98 @@
+//! Joints.
+
+use super::problems::Problems;
+use crate::components::Joint;
+use crate::messages::JointBroke;
+use crate::order;
+use crate::world::{JointRecord, PhysicsWorld};
+use bevy_ecs::prelude::*;
+use tiny_physics::{BodyId, Error};
+
+/// Adds joints that are new or whose bodies have come, and changes others to what they say.
+pub(crate) fn read(
+    mut physics: ResMut<PhysicsWorld>,
+    changed: Query<(Entity, &Joint), Changed<Joint>>,
+    all: Query<(Entity, &Joint)>,
+    mut problems: Problems,
+) {
+    let physics = &mut *physics;
+    let waiting = core::mem::take(&mut physics.maps.waiting);
+    let mut asked: Vec<_> = waiting.iter().filter_map(|entity| all.get(*entity).ok()).collect();
+    asked.extend(&changed);
+    if physics.fresh {
+        asked.extend(all.iter().filter(|(entity, _)| !physics.maps.joints.contains_key(entity)));
+    }
+    asked.sort_unstable_by_key(|(entity, _)| *entity);
+    asked.dedup_by_key(|(entity, _)| *entity);
+    let mut new = Vec::new();
+    for (entity, joint) in asked {
+        let bodies = physics.body_id(joint.a).zip(physics.body_id(joint.b));
+        let record =
+            physics.maps.joints.get(&entity).map(|record| record.bodies == (joint.a, joint.b));
+        match (bodies, record) {
+            (Some(_), Some(true)) => {
+                let result = change(physics, entity, joint);
+                problems.check(entity, "joint", result);
+            }
+            (Some(bodies), _) => new.push((bodies, entity, joint)),
+            (None, _) => {
+                physics.remove_joint(entity);
+                if !waiting.contains(&entity) {
+                    problems.report(entity, "joint", missing(physics, joint));
+                }
+                physics.maps.waiting.push(entity);
+            }
+        }
+    }
+    new.sort_by(|a, b| a.0.cmp(&b.0).then_with(|| order::of_text(&a.2.def, &b.2.def)));
+    for (bodies, entity, joint) in new {
+        let result = add(physics, entity, bodies, joint);
+        problems.check(entity, "joint", result);
+    }
+}
+
+fn missing(physics: &PhysicsWorld, joint: &Joint) -> Error {
+    let entity = if physics.body_id(joint.a).is_none() { joint.a } else { joint.b };
+    Error::StaleHandle { handle: format!("the joint waits: the body of entity {entity}") }
+}
+
+fn add(
+    physics: &mut PhysicsWorld,
+    entity: Entity,
+    (a, b): (BodyId, BodyId),
+    joint: &Joint,
+) -> Result<(), Error> {
+    physics.remove_joint(entity);
+    let id = physics.world.add_joint(a, b, joint.def.clone())?;
+    physics.enter_joint(
+        entity,
+        JointRecord { id, bodies: (joint.a, joint.b), def: joint.def.clone() },
+    );
+    Ok(())
+}
+
+fn change(physics: &mut PhysicsWorld, entity: Entity, joint: &Joint) -> Result<(), Error> {
+    let PhysicsWorld { world, maps, .. } = physics;
+    match maps.joints.get_mut(&entity) {
+        Some(record) if record.def != joint.def => {
+            world.set_joint(record.id, joint.def.clone())?;
+            record.def.clone_from(&joint.def);
+            Ok(())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A joint that broke is no longer on its entity.
+pub(crate) fn take_off_broken(
+    mut physics: ResMut<PhysicsWorld>,
+    mut broken: MessageReader<JointBroke>,
+    mut commands: Commands,
+) {
+    for joint in broken.read() {
+        physics.remove_joint(joint.joint);
+        if let Ok(mut entity) = commands.get_entity(joint.joint) {
+            entity.try_remove::<Joint>();
+        }
+    }
+}

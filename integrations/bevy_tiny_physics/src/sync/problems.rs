@@ -1,0 +1,33 @@
+//! Telling what could not be done.
+
+use crate::PhysicsProblem;
+use bevy_ecs::prelude::*;
+use bevy_ecs::system::SystemParam;
+use tiny_physics::Error;
+
+/// Sends and logs problems.
+#[derive(SystemParam)]
+pub(crate) struct Problems<'w> {
+    writer: MessageWriter<'w, PhysicsProblem>,
+}
+
+impl Problems<'_> {
+    pub fn report(&mut self, entity: impl Into<Option<Entity>>, what: &'static str, error: Error) {
+        let entity = entity.into();
+        match entity {
+            Some(entity) => log::error!("physics: {what} of entity {entity}: {error}"),
+            None => log::error!("physics: {what}: {error}"),
+        }
+        self.writer.write(PhysicsProblem { entity, what, error });
+    }
+
+    /// Passes on what went well, and tells the rest.
+    pub fn check<T>(
+        &mut self,
+        entity: Entity,
+        what: &'static str,
+        result: Result<T, Error>,
+    ) -> Option<T> {
+        result.map_err(|error| self.report(entity, what, error)).ok()
+    }
+}

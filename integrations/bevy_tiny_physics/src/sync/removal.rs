@@ -1,0 +1,83 @@
+//! What is taken off entities, or despawned, leaves the world.
+
+use crate::components::*;
+use crate::world::{PhysicsWorld, Role};
+use bevy_app::prelude::*;
+use bevy_ecs::prelude::*;
+
+/// Components are watched by observers: those of fixed schedules must not miss what happens in frames without a step.
+pub(crate) fn watch(app: &mut App) {
+    app.add_observer(gone::<RigidBody>)
+        .add_observer(gone::<Collider>)
+        .add_observer(gone::<Joint>)
+        .add_observer(gone::<Character>)
+        .add_observer(gone::<TileMap>)
+        .add_observer(of_body::<GravityScale>)
+        .add_observer(of_body::<Damping>)
+        .add_observer(of_body::<LockedAxes>)
+        .add_observer(of_body::<Mass>)
+        .add_observer(of_body::<Enabled>)
+        .add_observer(of_body::<CanSleep>)
+        .add_observer(of_collider::<Friction>)
+        .add_observer(of_collider::<Restitution>)
+        .add_observer(of_collider::<Density>)
+        .add_observer(of_collider::<SurfaceSpeed>)
+        .add_observer(of_collider::<CollisionFilter>)
+        .add_observer(of_collider::<Sensor>)
+        .add_observer(of_collider::<OneWay>)
+        .add_observer(of_collider::<CollisionEvents>)
+        .add_observer(of_collider::<HitEvents>)
+        .add_observer(of_collider::<ChildOf>);
+}
+
+fn gone<C: Component>(removed: On<Remove, C>, mut physics: ResMut<PhysicsWorld>) {
+    physics.notes.gone.push(removed.entity);
+}
+
+fn of_body<C: Component>(removed: On<Remove, C>, mut physics: ResMut<PhysicsWorld>) {
+    physics.notes.bodies.push(removed.entity);
+}
+
+fn of_collider<C: Component>(removed: On<Remove, C>, mut physics: ResMut<PhysicsWorld>) {
+    physics.notes.colliders.push(removed.entity);
+}
+
+/// Removes what nothing asks for any more. In a copy that has just come in everybody is looked at.
+pub(crate) fn remove_gone(
+    mut physics: ResMut<PhysicsWorld>,
+    bodies: Query<(), With<RigidBody>>,
+    colliders: Query<(), With<Collider>>,
+    characters: Query<(), With<Character>>,
+    joints: Query<(), With<Joint>>,
+    tiles: Query<(), With<TileMap>>,
+) {
+    let physics = &mut *physics;
+    let mut entities = core::mem::take(&mut physics.notes.gone);
+    if physics.fresh {
+        entities.extend(physics.maps.entities());
+    }
+    // The world's free lists remember the order of removals.
+    entities.sort_by_key(|entity| physics.place(*entity));
+    entities.dedup();
+    for entity in entities {
+        let role = physics.maps.bodies.get(&entity).map(|record| record.role);
+        let stays = match role {
+            Some(Role::Body) => bodies.contains(entity),
+            Some(Role::Lone) => colliders.contains(entity),
+            Some(Role::Character) => characters.contains(entity),
+            None => true,
+        };
+        if !stays {
+            physics.remove_body(entity);
+        }
+        if !colliders.contains(entity) {
+            physics.remove_shapes(entity);
+        }
+        if !joints.contains(entity) {
+            physics.remove_joint(entity);
+        }
+        if !tiles.contains(entity) {
+            physics.remove_tiles(entity);
+        }
+    }
+}

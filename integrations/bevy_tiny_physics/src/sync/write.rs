@@ -1,0 +1,148 @@
+//! Components follow the world: transforms and velocities.
+
+use crate::components::{RigidBody, Velocity};
+use crate::frame::{Frame, world_frame};
+use crate::world::{BodyRecord, PhysicsWorld, Role, Written};
+use bevy_ecs::prelude::*;
+use bevy_ecs::system::SystemParam;
+use bevy_math::Vec2;
+use bevy_time::{Fixed, Time};
+use bevy_transform::prelude::Transform;
+use tiny_physics::{Body, BodyId, CharacterMover, DVec2, Pose};
+
+/// Writes places to transforms, through parents.
+#[derive(SystemParam)]
+pub(crate) struct Places<'w, 's> {
+    transforms: Query<'w, 's, &'static mut Transform>,
+    parents: Query<'w, 's, &'static ChildOf>,
+    nested: Query<'w, 's, Entity, (With<RigidBody>, With<ChildOf>)>,
+}
+
+impl Places<'_, '_> {
+    /// Writes where bodies are. What lies below others follows when these have their places.
+    pub fn write(
+        &mut self,
+        physics: &mut PhysicsWorld,
+        bodies: impl Iterator<Item = BodyId>,
+        pose: impl Fn(Body<'_>) -> Pose,
+    ) {
+        let PhysicsWorld { world, maps, .. } = physics;
+        for id in bodies {
+            let Some(entity) = maps.body_entities.get(id.to_bits()) else { continue };
+            let Some(record) = maps.bodies.get_mut(&entity).filter(|record| record.id == id) else {
+                continue;
+            };
+            if let Some(body) = world
+                .body(id)
+                .filter(|_| record.role != Role::Character && !self.parents.contains(entity))
+            {
+                self.place(entity, record, Frame::of_pose(pose(body)));
+            }
+        }
+        let mut nested: Vec<Entity> = self.nested.iter().collect();
+        nested.sort_by_cached_key(|entity| self.parents.iter_ancestors(*entity).count());
+        for entity in nested {
+            let Some(record) = maps.bodies.get_mut(&entity) else { continue };
+            if let Some(body) = world.body(record.id) {
+                self.place(entity, record, Frame::of_pose(pose(body)));
+            }
+        }
+    }
+
+    /// Writes where characters are; how they are turned is theirs.
+    pub fn write_characters(
+        &mut self,
+        physics: &mut PhysicsWorld,
+        position: impl Fn(&CharacterMover) -> DVec2,
+    ) {
+        let maps = &mut physics.maps;
+        for (entity, mover) in &maps.characters {
+            let Some(record) = maps.bodies.get_mut(entity) else { continue };
+            let Ok(transform) = self.transforms.get(*entity) else { continue };
+            let turned = Frame::of(transform).q;
+            self.place(
+                *entity,
+                record,
+                Frame { p: position(mover).to_vec2(), q: turned, ..Frame::IDENTITY },
+            );
+        }
+    }
+
+    fn place(&mut self, entity: Entity, record: &mut BodyRecord, frame: Frame) {
+        let local = match self.parents.get(entity) {
+            Err(_) => frame,
+            Ok(above) => {
+                let outer = world_frame(
+                    above.parent(),
+                    |entity| self.transforms.get(entity).ok(),
+                    &self.parents,
+                );
+                outer.map_or(frame, |outer| outer.relative(&frame))
+            }
+        };
+        let Ok(mut transform) = self.transforms.get_mut(entity) else { return };
+        let mut wanted = *transform;
+        local.write(&mut wanted, record.role == Role::Character);
+        if *transform != wanted {
+            *transform = wanted;
+        }
+        record.written = Some(Written::of(&wanted));
+    }
+
+    /// Is a transform as we left it?
+    fn is_ours(&self, entity: Entity, record: &BodyRecord) -> bool {
+        self.transforms
+            .get(entity)
+            .is_ok_and(|transform| record.written == Some(Written::of(transform)))
+    }
+}
+
+/// Writes what the step moved.
+pub(crate) fn transforms(mut physics: ResMut<PhysicsWorld>, mut places: Places) {
+    let moved = physics.world.moved_bodies().to_vec();
+    places.write(&mut physics, moved.into_iter(), |body| body.pose());
+}
+
+/// Writes velocities.
+pub(crate) fn velocities(
+    physics: Res<PhysicsWorld>,
+    mut velocities: Query<(Entity, &mut Velocity)>,
+) {
+    for (entity, mut velocity) in &mut velocities {
+        let Some(body) = physics.own_body(entity).and_then(|id| physics.world.body(id)) else {
+            continue;
+        };
+        let linear = Vec2::new(body.velocity().x, body.velocity().y);
+        velocity.set_if_neq(Velocity { linear, angular: body.angular_velocity() });
+    }
+}
+
+/// Shows bodies between the last two steps, where the clock stands.
+pub(crate) fn interpolate(
+    mut physics: ResMut<PhysicsWorld>,
+    clock: Option<Res<Time<Fixed>>>,
+    mut places: Places,
+) {
+    let alpha = clock.map_or(1.0, |clock| clock.overstep_fraction());
+    write_untouched(&mut physics, &mut places, alpha);
+}
+
+/// Puts bodies where they are before a step, so that the game's own systems see them there.
+pub(crate) fn exact_places(mut physics: ResMut<PhysicsWorld>, mut places: Places) {
+    write_untouched(&mut physics, &mut places, 1.0);
+}
+
+/// Writes what moved in the last step, but for what somebody else has moved since.
+fn write_untouched(physics: &mut PhysicsWorld, places: &mut Places, alpha: f32) {
+    if physics.fresh {
+        return;
+    }
+    let mut moved = physics.world.moved_bodies().to_vec();
+    moved.retain(|id| {
+        let entity = physics.maps.body_entities.get(id.to_bits());
+        let record = entity.and_then(|entity| Some((entity, physics.maps.bodies.get(&entity)?)));
+        record.is_some_and(|(entity, record)| places.is_ours(entity, record))
+    });
+    places.write(physics, moved.into_iter(), |body| body.interpolated_pose(alpha));
+    places.write_characters(physics, |mover| mover.interpolated_position(alpha));
+}

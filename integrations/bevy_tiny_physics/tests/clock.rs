@@ -1,0 +1,62 @@
+//! Bevy's fixed clock: transforms between steps, exact places for the game's own systems.
+
+mod common;
+use bevy_app::prelude::*;
+use bevy_ecs::prelude::*;
+use bevy_math::Vec2;
+use bevy_time::{Fixed, Time, TimePlugin, TimeUpdateStrategy};
+use bevy_tiny_physics::prelude::*;
+use bevy_transform::prelude::Transform;
+use common::{messages, physics, place};
+use std::time::Duration;
+
+/// Where fixed systems saw the ball.
+#[derive(Resource, Default)]
+struct Seen(Vec<f32>);
+
+fn app(frame: f64) -> (App, Entity) {
+    let mut app = App::new();
+    app.add_plugins((TimePlugin, PhysicsPlugin::default().gravity(Vec2::ZERO)))
+        .insert_resource(Time::<Fixed>::from_hz(50.0))
+        .insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_secs_f64(frame)))
+        .init_resource::<Seen>();
+    let look = |balls: Query<&Transform, With<Velocity>>, mut seen: ResMut<Seen>| {
+        seen.0.extend(balls.iter().map(|at| at.translation.x));
+    };
+    app.add_systems(FixedUpdate, look.before(PhysicsSystems::Read));
+    let ball = app
+        .world_mut()
+        .spawn((RigidBody::Dynamic, Collider::circle(0.5), Velocity::linear(5.0, 0.0)))
+        .id();
+    (app, ball)
+}
+
+#[test]
+fn bodies_are_drawn_between_steps_and_move_evenly() {
+    // Frames of 7 ms, steps of 20 ms.
+    let (mut app, ball) = app(0.007);
+    let places: Vec<f32> = (0..100)
+        .map(|_| {
+            app.update();
+            place(&app, ball).x
+        })
+        .collect();
+    for pair in places.windows(2).skip(10) {
+        assert!((pair[1] - pair[0] - 0.035).abs() < 1e-3, "{} m in a frame", pair[1] - pair[0]);
+    }
+    let seen = &app.world().resource::<Seen>().0;
+    for (step, x) in seen.iter().enumerate() {
+        assert!((x - 0.1 * step as f32).abs() < 1e-4, "step {step} saw it at {x}");
+    }
+    assert!(messages::<PhysicsProblem>(&app).is_empty());
+}
+
+#[test]
+fn a_teleport_between_frames_is_not_overwritten() {
+    let (mut app, ball) = app(0.007);
+    (0..20).for_each(|_| app.update());
+    app.world_mut().get_mut::<Transform>(ball).unwrap().translation.x = 50.0;
+    (0..6).for_each(|_| app.update());
+    let x = physics(&app).body(ball).unwrap().position().x;
+    assert!((50.0..51.0).contains(&x), "{x}");
+}

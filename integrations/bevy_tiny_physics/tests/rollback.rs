@@ -1,0 +1,108 @@
+//! The world is a value: saved, restored, and the same future again.
+
+mod common;
+use bevy_app::App;
+use bevy_ecs::entity::{EntityHashMap, MapEntities};
+use bevy_ecs::prelude::*;
+use bevy_tiny_physics::prelude::*;
+use bevy_transform::prelude::Transform;
+use common::*;
+
+fn game() -> (App, Vec<Entity>, Entity) {
+    let mut app = app();
+    ground(&mut app);
+    let balls: Vec<Entity> =
+        (0..10).map(|at| ball(&mut app, 0.1 * at as f32, 1.0 + 1.2 * at as f32)).collect();
+    app.world_mut().spawn(Joint::new(balls[0], balls[1], JointDef::rope(3.0)));
+    app.world_mut().entity_mut(balls[3]).insert(Velocity::default());
+    let hero = (Character::new(1.8, 0.3), Transform::from_xyz(-4.0, 2.0, 0.0));
+    let hero = app.world_mut().spawn(hero).id();
+    (app, balls, hero)
+}
+
+fn play(app: &mut App, hero: Entity, count: usize) {
+    for step in 0..count {
+        let mut input = app.world_mut().get_mut::<CharacterInput>(hero).unwrap();
+        (input.walk, input.jump) = (3.0, if step % 20 == 0 { 5.0 } else { 0.0 });
+        steps(app, 1);
+    }
+}
+
+#[test]
+fn a_frame_is_a_copy_and_its_future_is_the_same() {
+    let (mut app, balls, hero) = game();
+    play(&mut app, hero, 30);
+    let frame = physics(&app).clone();
+    let at_frame: Vec<_> = balls.iter().map(|ball| place(&app, *ball)).collect();
+    play(&mut app, hero, 60);
+    let (future, hero_at) = (physics(&app).world.state_hash(), place(&app, hero));
+    let places: Vec<_> =
+        balls.iter().map(|ball| *app.world().get::<Transform>(*ball).unwrap()).collect();
+
+    // What the present has that the past had not, and other nonsense.
+    let late = ball(&mut app, 20.0, 5.0);
+    app.world_mut().get_mut::<Transform>(balls[2]).unwrap().translation.x = 77.0;
+    app.world_mut().get_mut::<Velocity>(balls[3]).unwrap().linear.x = 88.0;
+    steps(&mut app, 3);
+    app.world_mut().despawn(late);
+    app.world_mut().get_mut::<Transform>(balls[4]).unwrap().translation.x = 99.0;
+
+    app.world_mut().resource_mut::<PhysicsWorld>().clone_from(&frame);
+    play(&mut app, hero, 1);
+    assert!(
+        (place(&app, balls[4]) - at_frame[4]).length() < 0.2,
+        "places of the present are dropped"
+    );
+    // The rest of the same inputs.
+    for step in 1..60 {
+        let mut input = app.world_mut().get_mut::<CharacterInput>(hero).unwrap();
+        (input.walk, input.jump) = (3.0, if step % 20 == 0 { 5.0 } else { 0.0 });
+        steps(&mut app, 1);
+    }
+    assert_eq!(physics(&app).world.state_hash(), future);
+    assert_eq!(place(&app, hero), hero_at);
+    let again: Vec<_> =
+        balls.iter().map(|ball| *app.world().get::<Transform>(*ball).unwrap()).collect();
+    assert_eq!(again, places);
+}
+
+#[test]
+fn entities_that_came_and_went_since_are_reconciled() {
+    let (mut app, balls, hero) = game();
+    play(&mut app, hero, 10);
+    let frame = physics(&app).clone();
+    app.world_mut().despawn(balls[5]);
+    let late = ball(&mut app, 20.0, 5.0);
+    play(&mut app, hero, 10);
+    *app.world_mut().resource_mut::<PhysicsWorld>() = frame;
+    play(&mut app, hero, 1);
+    assert!(physics(&app).body(balls[5]).is_none(), "its entity is gone");
+    assert!(physics(&app).body(late).is_some(), "its entity is here");
+    assert_eq!(physics(&app).world.body_count(), 12);
+    assert_eq!(physics(&app).world.validate(), Ok(()));
+}
+
+#[test]
+fn a_copy_goes_to_other_entities() {
+    let (mut app, balls, hero) = game();
+    play(&mut app, hero, 40);
+    let mut frame = physics(&app).clone();
+    let twin = app
+        .world_mut()
+        .spawn((RigidBody::Dynamic, Collider::circle(0.5), Transform::default()))
+        .id();
+    app.world_mut().despawn(balls[6]);
+    let before = frame.body(balls[6]).unwrap().position();
+    let mut mapper = EntityHashMap::from_iter([(balls[6], twin)]);
+    for entity in app.world_mut().query::<Entity>().iter(app.world()).collect::<Vec<_>>() {
+        mapper.entry(entity).or_insert(entity);
+    }
+    mapper.insert(balls[6], twin);
+    frame.map_entities(&mut mapper);
+    assert_eq!(frame.body(twin).unwrap().position(), before);
+    let hash = frame.world.state_hash();
+    *app.world_mut().resource_mut::<PhysicsWorld>() = frame;
+    assert_eq!(physics(&app).world.state_hash(), hash);
+    steps(&mut app, 1);
+    assert!((place(&app, twin) - bevy_math::Vec2::new(before.x, before.y)).length() < 0.2);
+}
