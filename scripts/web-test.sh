@@ -6,7 +6,10 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
 unset RUSTFLAGS
-dpkg -s chromium >/dev/null 2>&1 || apt-get install -y -q --no-install-recommends chromium
+dpkg -s chromium >/dev/null 2>&1 || {
+  apt-get update -q || true
+  apt-get install -y -q --no-install-recommends -o DPkg::Lock::Timeout=300 chromium
+}
 [ "${1:-}" = --built ] || scripts/web.sh
 size=$(gzip -9 -c web/npm/tiny_physics.wasm | wc -c)
 echo "the package's module: $size bytes gzip"

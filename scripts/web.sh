@@ -14,7 +14,8 @@ packages() {
   done
   [ ${#missing[@]} -eq 0 ] && return
   local sudo=; [ "$(id -u)" = 0 ] || sudo=sudo
-  $sudo apt-get update -q && $sudo apt-get install -y -q --no-install-recommends "${missing[@]}"
+  $sudo apt-get update -q || true # another may be at it
+  $sudo apt-get install -y -q --no-install-recommends -o DPkg::Lock::Timeout=300 "${missing[@]}"
 }
 
 # module FEATURES OUTPUT: one wasm file.
@@ -29,8 +30,7 @@ module() {
     cargo build -q --manifest-path web/Cargo.toml --lib --profile "$profile" --target $target --features "$features"
   local built=$target_dir/$target/$profile/tiny_physics_web.wasm
   mkdir -p "$(dirname "$output")"
-  # Tried: `wasm-opt -O2` after this makes the module 7 % larger (gzip) and no faster; the engine at `opt-level = "s"` is 7 to
-  # 27 % slower and 3 % smaller.
+  # What was tried to make it smaller, with figures, is in web/SIZE.md.
   cp "$built" "$output"
   printf '%s: %d bytes, %d gzip\n' "$output" "$(stat -c %s "$output")" "$(gzip -9 -c "$output" | wc -c)"
 }
@@ -44,7 +44,9 @@ for word in "$@"; do
   esac
 done
 
-packages rustc-web cargo-web rust-web-src nodejs npm
+packages rustc-web cargo-web rust-web-src
+# Node from elsewhere brings its own npm, beside which Debian's cannot be.
+command -v npm >/dev/null || packages nodejs npm
 if [ $what != playground ]; then
   module "" web/npm/tiny_physics.wasm
 fi

@@ -62,15 +62,24 @@ fn bounds(session: &Session) -> Vec<f64> {
         let sides = [p.x + f64::from(min.x), p.y + f64::from(min.y)];
         let sides = [sides[0], sides[1], p.x + f64::from(max.x), p.y + f64::from(max.y)];
         let moves = usize::from(body.kind() != BodyKind::Static);
-        let own = &mut boxes[moves];
-        *own = [
-            own[0].min(sides[0]),
-            own[1].min(sides[1]),
-            own[2].max(sides[2]),
-            own[3].max(sides[3]),
-        ];
+        grow(&mut boxes[moves], sides);
+    }
+    // What hangs swings to the other side.
+    for joint in world.joint_ids().filter_map(|id| world.joint(id)) {
+        let (a, b) = joint.bodies();
+        let [a, b] = [a, b].map(|id| world.body(id).filter(|body| body.kind() != BodyKind::Static));
+        if let (Some(body), None) | (None, Some(body)) = (a, b) {
+            let (pivot, center) = (joint.anchors().0, body.center());
+            let reach = f64::from(center.relative_to(pivot).length());
+            grow(&mut boxes[1], [pivot.x - reach, pivot.y - reach, pivot.x + reach, pivot.y]);
+        }
     }
     boxes.concat()
+}
+
+/// Makes a box large enough for another.
+fn grow(own: &mut [f64; 4], [left, bottom, right, top]: [f64; 4]) {
+    *own = [own[0].min(left), own[1].min(bottom), own[2].max(right), own[3].max(top)];
 }
 
 impl Picture {

@@ -13,6 +13,8 @@ mod ask;
 #[cfg(feature = "playground")]
 mod catalogue;
 #[cfg(feature = "playground")]
+mod doctor;
+#[cfg(feature = "playground")]
 mod draw;
 mod handles;
 mod order;

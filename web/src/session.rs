@@ -30,6 +30,8 @@ pub struct Session {
     pub(crate) views: crate::views::Views,
     #[cfg(feature = "playground")]
     pub(crate) picture: crate::picture::Picture,
+    #[cfg(feature = "playground")]
+    pub(crate) doctor: tiny_physics_doctor::Doctor,
 }
 
 /// What a new world is described by.
@@ -57,6 +59,8 @@ impl Session {
             views: Default::default(),
             #[cfg(feature = "playground")]
             picture: Default::default(),
+            #[cfg(feature = "playground")]
+            doctor: Default::default(),
         }
     }
 

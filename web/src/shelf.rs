@@ -3,6 +3,7 @@
 use crate::outcome::{Outcome, words};
 use crate::session::Session;
 use serde::de::DeserializeOwned;
+use tiny_physics_scenes::Problem;
 
 /// Sessions and buffers.
 #[derive(Default)]
@@ -80,16 +81,13 @@ impl Shelf {
 
     /// What the input describes; an error names the field.
     pub(crate) fn read<T: DeserializeOwned>(&self) -> Outcome<T> {
-        // Of text, as scene files are read, so that both share what reads them.
-        let mut json = serde_json::Deserializer::from_str(self.input_text()?);
-        let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
-            let path = error.path().to_string();
-            let message = error.inner().to_string();
+        tiny_physics_scenes::read(self.input_text()?).map_err(|error| {
             // Where in the text means nothing to one who gave an object.
-            let message = message.split(" at line ").next().unwrap_or_default();
-            if path == "." { message.to_owned() } else { format!("{path}: {message}") }
-        })?;
-        json.end().map_err(words)?;
-        Ok(value)
+            let Problem::Format(message) = error.problem() else { return error.to_string() };
+            match error.field() {
+                "" => message.clone(),
+                field => format!("{field}: {message}"),
+            }
+        })
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::error::{Problem, SceneError};
 use crate::json::{Node, line_column};
+use crate::read::{Fault, read};
 use crate::scene::Scene;
 use crate::version::VERSION;
 use serde::{Deserialize, Serialize};
@@ -31,11 +32,11 @@ impl Scene {
         check_version(text)?;
         let scene: Self = read(text)?;
         scene.check().map_err(|error| match Node::parse(text) {
-            Some(node) => {
+            Ok(node) => {
                 let (line, column) = line_column(text, node.find(error.field()));
                 error.at(line, column)
             }
-            None => error,
+            Err(_) => error,
         })?;
         Ok(scene)
     }
@@ -61,7 +62,7 @@ impl Scene {
         self.check()?;
         let text = compact(self)?;
         let defaults = Defaults::new()?;
-        let mut scene = Node::parse(&text).ok_or_else(unreadable)?;
+        let mut scene = Node::parse(&text).map_err(unreadable)?;
         scene.omit_nulls();
         defaults.omit(&mut scene)?;
         Ok(scene.pretty())
@@ -74,11 +75,7 @@ fn check_version(text: &str) -> Result<(), SceneError> {
     struct Version {
         version: u64,
     }
-    let version = match read::<Version>(text) {
-        Ok(read) => read.version,
-        // Text that is no JSON at all: reading it as a scene finds the field where it breaks off.
-        Err(error) => return Err(read::<Scene>(text).err().unwrap_or(error)),
-    };
+    let Version { version } = read(text)?;
     if version == u64::from(VERSION) {
         return Ok(());
     }
@@ -87,39 +84,12 @@ fn check_version(text: &str) -> Result<(), SceneError> {
     Err(SceneError::new("version", Problem::Version(version)).at(line, column))
 }
 
-fn read<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, SceneError> {
-    let mut json = serde_json::Deserializer::from_str(text);
-    let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
-        let path = error.path().to_string();
-        let field = if path == "." || path == "?" { "" } else { &path };
-        at_value(format_error(field, error.inner()), text, error.inner())
-    })?;
-    json.end().map_err(|error| format_error("", &error))?;
-    Ok(value)
-}
-
-/// `serde_json` puts the place at the end of its message; we put it in front.
-fn format_error(field: &str, error: &serde_json::Error) -> SceneError {
-    let (line, column) = (error.line(), error.column());
-    let message = error.to_string();
-    let place = format!(" at line {line} column {column}");
-    let message = message.strip_suffix(&place).unwrap_or(&message);
-    SceneError::new(field, Problem::Format(message.to_owned())).at(line, column)
-}
-
-/// `serde_json` gives the place after a value that it refuses; we give the place of the value.
-fn at_value(error: SceneError, text: &str, json: &serde_json::Error) -> SceneError {
-    let Some(node) = Node::parse(text).filter(|_| json.is_data()) else { return error };
-    let (line, column) = line_column(text, node.find(error.field()));
-    if error.line() == Some(line) { error.at(line, column) } else { error }
-}
-
 fn compact(value: &impl Serialize) -> Result<String, SceneError> {
     serde_json::to_string(value).map_err(|e| SceneError::new("", Problem::Format(e.to_string())))
 }
 
-fn unreadable() -> SceneError {
-    SceneError::new("", Problem::Format("the text cannot be read again".to_owned()))
+fn unreadable(fault: Fault) -> SceneError {
+    SceneError::new("", Problem::Format(format!("the text cannot be read again: {fault}")))
 }
 
 /// Texts of default descriptions; a field that is the same there need not be written.
@@ -143,7 +113,7 @@ impl Defaults {
 
     fn omit(&self, scene: &mut Node<'_>) -> Result<(), SceneError> {
         let parse = |text| {
-            let mut node = Node::parse(text).ok_or_else(unreadable)?;
+            let mut node = Node::parse(text).map_err(unreadable)?;
             node.omit_nulls();
             Ok::<_, SceneError>(node)
         };

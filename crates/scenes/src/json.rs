@@ -1,8 +1,10 @@
 //! A tree of JSON text that keeps each number as it was written and knows where each value stands.
 //!
-//! It serves three ends: to find the line and column of a field, to leave out what equals a default,
-//! and to lay a file out so that a person can read it. It only reads text that `serde_json` has already
-//! read or written, so it need not explain what is wrong with other text.
+//! It serves four ends: to read values from (see [`read`](crate::read())), to find the line and column of a field, to leave
+//! out what equals a default, and to lay a file out so that a person can read it.
+
+use crate::read::Fault;
+use std::borrow::Cow;
 
 /// Lines get no longer than this where they can be broken.
 const LINE_WIDTH: usize = 110;
@@ -10,12 +12,12 @@ const LINE_WIDTH: usize = 110;
 /// A value and the byte at which it starts.
 #[derive(Clone, Debug)]
 pub(crate) struct Node<'t> {
-    start: usize,
-    kind: Kind<'t>,
+    pub(crate) start: usize,
+    pub(crate) kind: Kind<'t>,
 }
 
 #[derive(Clone, Debug)]
-enum Kind<'t> {
+pub(crate) enum Kind<'t> {
     /// `null`, a boolean, a number or a string in quotes, as written.
     Plain(&'t str),
     Array(Vec<Node<'t>>),
@@ -24,12 +26,12 @@ enum Kind<'t> {
 }
 
 impl<'t> Node<'t> {
-    /// Reads a text; `None` where it is not JSON.
-    pub(crate) fn parse(text: &'t str) -> Option<Self> {
+    /// Reads a text; the error says where it is not JSON.
+    pub(crate) fn parse(text: &'t str) -> Result<Self, Fault> {
         let mut reader = Reader { text, at: 0 };
         let node = reader.value(0)?;
         reader.skip_space();
-        (reader.at == text.len()).then_some(node)
+        if reader.at < text.len() { Err(reader.expected("nothing more")) } else { Ok(node) }
     }
 
     /// Byte at which the value named by a path like `bodies[3].shapes[0].radius` starts, or the deepest
@@ -225,7 +227,7 @@ struct Reader<'t> {
 }
 
 impl<'t> Reader<'t> {
-    /// Deepest nesting, the same as `serde_json` allows.
+    /// Deepest nesting.
     const MAX_DEPTH: usize = 128;
 
     fn peek(&self) -> Option<u8> {
@@ -233,81 +235,183 @@ impl<'t> Reader<'t> {
     }
 
     fn skip_space(&mut self) {
-        while self.peek().is_some_and(|c| c.is_ascii_whitespace()) {
+        while self.peek().is_some_and(|c| b" \t\n\r".contains(&c)) {
             self.at += 1;
         }
     }
 
-    /// Takes a byte if it is next, after space.
-    fn take(&mut self, byte: u8) -> Option<()> {
-        self.skip_space();
-        (self.peek()? == byte).then(|| self.at += 1)
+    /// What was expected is not there.
+    #[cold]
+    fn expected(&self, what: &str) -> Fault {
+        let end = if self.at < self.text.len() { "" } else { "; the text ends here" };
+        Fault::new(format!("expected {what}{end}")).at(self.at)
     }
 
-    fn value(&mut self, depth: usize) -> Option<Node<'t>> {
+    /// Takes a byte if it is next, after space.
+    fn take(&mut self, byte: u8) -> bool {
+        self.skip_space();
+        let there = self.peek() == Some(byte);
+        self.at += usize::from(there);
+        there
+    }
+
+    fn value(&mut self, depth: usize) -> Result<Node<'t>, Fault> {
         if depth > Self::MAX_DEPTH {
-            return None;
+            return Err(Fault::new("it is nested too deeply".to_owned()).at(self.at));
         }
         self.skip_space();
         let start = self.at;
-        let kind = match self.peek()? {
-            b'[' => Kind::Array(self.list(b']', |r| r.value(depth + 1))?),
-            b'{' => Kind::Object(self.list(b'}', |r| {
-                r.skip_space();
-                let key = r.string()?;
-                r.take(b':')?;
-                Some((&key[1..key.len() - 1], r.value(depth + 1)?))
+        let kind = match self.peek() {
+            Some(b'[') => Kind::Array(self.list(b']', |reader, index| {
+                reader.value(depth + 1).map_err(|fault| fault.in_item(index))
             })?),
-            b'"' => Kind::Plain(self.string()?),
+            Some(b'{') => Kind::Object(self.list(b'}', |reader, _| reader.field(depth))?),
+            Some(b'"') => Kind::Plain(self.string()?),
             _ => Kind::Plain(self.word()?),
         };
-        Some(Node { start, kind })
+        Ok(Node { start, kind })
+    }
+
+    fn field(&mut self, depth: usize) -> Result<(&'t str, Node<'t>), Fault> {
+        self.skip_space();
+        if self.peek() != Some(b'"') {
+            return Err(self.expected("a field: a key must be a string"));
+        }
+        let key = self.string()?;
+        let key = &key[1..key.len() - 1];
+        if !self.take(b':') {
+            return Err(self.expected("`:`"));
+        }
+        let value = self.value(depth + 1).map_err(|fault| fault.in_field(&unescaped(key)))?;
+        Ok((key, value))
     }
 
     /// Items between the bracket that is next and `close`.
     fn list<T>(
         &mut self,
         close: u8,
-        mut item: impl FnMut(&mut Self) -> Option<T>,
-    ) -> Option<Vec<T>> {
+        mut item: impl FnMut(&mut Self, usize) -> Result<T, Fault>,
+    ) -> Result<Vec<T>, Fault> {
         self.at += 1;
         let mut items = Vec::new();
-        if self.take(close).is_some() {
-            return Some(items);
+        if self.take(close) {
+            return Ok(items);
         }
         loop {
-            items.push(item(self)?);
-            if self.take(close).is_some() {
-                return Some(items);
+            items.push(item(self, items.len())?);
+            if self.take(close) {
+                return Ok(items);
             }
-            self.take(b',')?;
+            if !self.take(b',') {
+                return Err(self.expected(&format!("`,` or `{}`", char::from(close))));
+            }
         }
     }
 
     /// A string with its quotes.
-    fn string(&mut self) -> Option<&'t str> {
+    fn string(&mut self) -> Result<&'t str, Fault> {
         let start = self.at;
-        self.take(b'"')?;
+        self.at += 1;
         loop {
-            match self.peek()? {
-                b'"' => {
+            match self.peek() {
+                Some(b'"') => {
                     self.at += 1;
-                    return self.text.get(start..self.at);
+                    return Ok(&self.text[start..self.at]);
                 }
-                b'\\' => self.at += 2,
-                _ => self.at += 1,
+                Some(b'\\') => match escape(&self.text.as_bytes()[self.at..]) {
+                    Some((_, length)) => self.at += length,
+                    None => return Err(self.expected("an escape of JSON")),
+                },
+                Some(32..) => self.at += 1,
+                _ => return Err(self.expected("the end of a string")),
             }
         }
     }
 
     /// A number, `true`, `false` or `null`.
-    fn word(&mut self) -> Option<&'t str> {
-        let start = self.at;
-        while self.peek().is_some_and(|c| c.is_ascii_alphanumeric() || b"+-.".contains(&c)) {
-            self.at += 1;
+    fn word(&mut self) -> Result<&'t str, Fault> {
+        let rest = &self.text[self.at..];
+        let inside = |c: char| c.is_ascii_alphanumeric() || "+-.".contains(c);
+        let word = &rest[..rest.find(|c| !inside(c)).unwrap_or(rest.len())];
+        if !matches!(word, "true" | "false" | "null") && !is_number(word.as_bytes()) {
+            return Err(self.expected("value"));
         }
-        (self.at > start).then(|| &self.text[start..self.at])
+        self.at += word.len();
+        Ok(word)
     }
+}
+
+/// Is it a number by the grammar of JSON, which has no `+1`, `01`, `1.` and `.5`?
+fn is_number(text: &[u8]) -> bool {
+    let digits = |text: &[u8]| text.iter().take_while(|c| c.is_ascii_digit()).count();
+    let text = text.strip_prefix(b"-").unwrap_or(text);
+    let whole = digits(text);
+    if whole == 0 || (whole > 1 && text[0] == b'0') {
+        return false;
+    }
+    let mut rest = &text[whole..];
+    if let Some(fraction) = rest.strip_prefix(b".") {
+        let count = digits(fraction);
+        if count == 0 {
+            return false;
+        }
+        rest = &fraction[count..];
+    }
+    if let [b'e' | b'E', exponent @ ..] = rest {
+        let exponent = match exponent {
+            [b'+' | b'-', exponent @ ..] => exponent,
+            _ => exponent,
+        };
+        return !exponent.is_empty() && digits(exponent) == exponent.len();
+    }
+    rest.is_empty()
+}
+
+/// The character of an escape at the beginning of a text, and its bytes.
+fn escape(text: &[u8]) -> Option<(char, usize)> {
+    let plain = |c| Some((c, 2));
+    match text.get(1)? {
+        b'n' => plain('\n'),
+        b't' => plain('\t'),
+        b'r' => plain('\r'),
+        b'b' => plain('\u{8}'),
+        b'f' => plain('\u{c}'),
+        c @ (b'"' | b'\\' | b'/') => plain(char::from(*c)),
+        b'u' => {
+            let high = code_unit(text)?;
+            if let Some(c) = char::from_u32(high) {
+                return Some((c, 6));
+            }
+            let low = code_unit(text.get(6..)?)?;
+            let mut pair = char::decode_utf16([high as u16, low as u16]);
+            Some((pair.next()?.ok()?, 12))
+        }
+        _ => None,
+    }
+}
+
+/// The number of an escape like `\u00e9`.
+fn code_unit(text: &[u8]) -> Option<u32> {
+    let [b'\\', b'u', digits @ ..] = text else { return None };
+    let digits = digits.get(..4)?.iter();
+    digits.map(|c| char::from(*c).to_digit(16)).try_fold(0, |all, digit| Some(all * 16 + digit?))
+}
+
+/// What a string of a text that has been read says: without quotes and escapes.
+pub(crate) fn unescaped(text: &str) -> Cow<'_, str> {
+    let text = text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text);
+    if !text.contains('\\') {
+        return Cow::Borrowed(text);
+    }
+    let (mut plain, mut rest) = (String::new(), text);
+    while let Some(at) = rest.find('\\') {
+        plain.push_str(&rest[..at]);
+        let Some((c, length)) = escape(&rest.as_bytes()[at..]) else { break };
+        plain.push(c);
+        rest = &rest[at + length..];
+    }
+    plain.push_str(rest);
+    Cow::Owned(plain)
 }
 
 #[cfg(test)]
@@ -354,10 +458,40 @@ mod tests {
 
     #[test]
     fn refuses_what_is_not_json() {
-        for text in
-            ["", "{", "[1,]", "{\"a\" 1}", "\"open", "[1 2]", "1 2", "\"\\", &"[".repeat(500)]
-        {
-            assert!(Node::parse(text).is_none(), "{text}");
+        for text in [
+            "",
+            "{",
+            "[1,]",
+            "{\"a\" 1}",
+            "\"open",
+            "[1 2]",
+            "1 2",
+            "\"\\",
+            &"[".repeat(500),
+            "+1",
+            "01",
+            "1.",
+            ".5",
+            "1e",
+            "-",
+            "nan",
+            "\"\\x\"",
+            "\"\\ud800\"",
+            "\"\n\"",
+            "\u{c}1",
+            "{1: 2}",
+        ] {
+            assert!(Node::parse(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn strings_lose_their_escapes_and_numbers_have_the_grammar_of_json() {
+        let text = r#""a\"b\\\/\n\u00e9\ud83d\ude00z""#;
+        assert!(Node::parse(text).is_ok());
+        assert_eq!(unescaped(text), "a\"b\\/\n\u{e9}\u{1f600}z");
+        for number in ["0", "-0", "10.5", "-1e5", "1E+5", "2.5e-30"] {
+            assert!(Node::parse(number).is_ok(), "{number}");
         }
     }
 }

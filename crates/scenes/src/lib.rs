@@ -27,6 +27,7 @@ mod human;
 mod json;
 mod player;
 mod random;
+mod read;
 mod scene;
 mod script;
 mod shapes;
@@ -44,6 +45,7 @@ pub use host::Host;
 pub use human::Human;
 pub use player::Player;
 pub use random::Random;
+pub use read::read;
 pub use scene::{Counts, Scene, SceneJoint};
 pub use script::{
     Act, Character, Deed, Key, Leg, Pull, Queries, Rain, Ride, Script, Terrain, Timeline,

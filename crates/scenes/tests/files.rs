@@ -105,7 +105,7 @@ fn bad_files_are_refused_with_line_field_and_value() {
         ("\"dt\": 0.0166", "\"dt\": 0", 2, "dt", "above 0"),
         ("[0, -9.8]", "[0, -1e50]", 2, "gravity[1]", "number out of range"),
         ("\"version\": 1", "\"version\": 2, \"new\": 1", 2, "version", "version is 2; this program reads version 1"),
-        ("\"version\": 1,", "", 6, "", "missing field `version`"),
+        ("\"version\": 1,", "", 1, "", "missing field `version`"),
         ("\"dt\": 0.0166,", "\"dt\": 0.0166,\n \"wind\": 3,", 3, "wind", "unknown field `wind`"),
         ("\"substeps\": 4 }", "\"substeps\": 4 }, \"script\": { \"walkers\": { \"first\": 1, \"count\": 9, \"speed\": 1 } }", 5, "script.walkers.count", "9, but bodies"),
         ("\"substeps\": 4 }", "\"substeps\": 4 }, \"script\": { \"rain\": { \"rows\": 0 } }", 5, "script.rain.rows", "0; allowed is 1"),

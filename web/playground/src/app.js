@@ -2,6 +2,7 @@
 
 import { FixedStep, World } from "tiny-physics";
 import { Figures } from "./figures.js";
+import { Health } from "./health.js";
 import { framing, rows, SHOW } from "./picture.js";
 import { look } from "./looks.js";
 
@@ -71,6 +72,7 @@ export class App extends EventTarget {
     Object.assign(this, { world, name, steps, selected: undefined });
     this.clock = new FixedStep(world.dt, 8);
     this.figures = new Figures(world);
+    this.health = new Health(world);
     if (!keepCamera) this.fit();
     this.say("select");
     this.say("time");
@@ -91,13 +93,11 @@ export class App extends EventTarget {
   /** One step on: what was recorded, or a new one at the end. */
   advance() {
     const { at, length } = this.world.history;
-    if (at < length) {
-      this.world.goTo(at + 1);
-      return;
-    }
     const start = performance.now();
-    this.world.step();
+    if (at < length) this.world.goTo(at + 1);
+    else this.world.step();
     this.figures.note(this.world, at + 1, performance.now() - start);
+    this.health.watch(at + 1);
   }
 
   step(count) {
@@ -121,6 +121,7 @@ export class App extends EventTarget {
     try {
       const made = work(this.world);
       this.figures.cut(this.at);
+      this.health.cut(this.at);
       this.say("time");
       return made;
     } catch (error) {

@@ -8,6 +8,8 @@ export const KINDS = {
   break: { label: "joint broke", colour: "#ff9f43" },
   wake: { label: "woke up", colour: "#4fd1c5" },
   sleep: { label: "fell asleep", colour: "#7f8ea3" },
+  error: { label: "doctor", colour: "#ff3b6b" },
+  warning: { label: "doctor", colour: "#ffc861" },
 };
 
 export class Figures {
@@ -15,12 +17,16 @@ export class Figures {
     this.steps = [];
     this.rows = { kinetic: [], potential: [], momentum: [], deepest: [], contacts: [], awake: [], time: [] };
     this.marks = [];
+    this.last = 0;
     const settings = world.settings;
     this.deep = 0.02 * settings.length_unit;
     this.was = { deep: false };
   }
 
+  /** Takes a step in, once. */
   note(world, step, milliseconds) {
+    if (step <= this.last) return;
+    this.last = step;
     this.#events(world, step);
     const every = this.many ? 4 : 1;
     if (step % every) return;
@@ -53,8 +59,21 @@ export class Figures {
     else this.marks.push({ step, kind, last: step });
   }
 
+  /** Marks what the doctor has found where it was first seen. */
+  found(findings) {
+    for (const { severity, code, first_step } of findings) {
+      if (severity === "note") continue;
+      const label = `doctor: ${code.replaceAll("_", " ")}`;
+      if (!this.marks.some((mark) => mark.kind === severity && mark.label === label && mark.step === first_step)) {
+        this.marks.push({ step: first_step, kind: severity, last: first_step, label });
+        this.marks.sort((a, b) => a.step - b.step);
+      }
+    }
+  }
+
   /** Forgets what came after a step. */
   cut(step) {
+    this.last = Math.min(this.last, step);
     const count = this.steps.findIndex((at) => at > step);
     if (count >= 0) {
       this.steps.length = count;

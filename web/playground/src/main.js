@@ -8,6 +8,7 @@ import { $, button, h, icon, menu, toast } from "./dom.js";
 import { editor } from "./editor.js";
 import { files, fromLink, share } from "./files.js";
 import { gallery } from "./gallery.js";
+import { clinic } from "./health.js";
 import { inspector } from "./inspector.js";
 import { scenes } from "./picture.js";
 import { plots } from "./plots.js";
@@ -52,14 +53,17 @@ async function main() {
   // The panel at the side: one of three leaves.
 
   const panel = $("#panel");
-  const leaves = { inspect: h("div.leaf"), scene: h("div.leaf.code"), plot: h("div.leaf") };
+  const leaves = { inspect: h("div.leaf"), scene: h("div.leaf.code"), plot: h("div.leaf"), doctor: h("div.leaf") };
   const inspect = inspector(app, leaves.inspect);
   const code = editor(app, leaves.scene);
   const curves = plots(app, leaves.plot);
+  const health = clinic(app, leaves.doctor, $("#finding"));
+  $("#finding").onclick = () => leaf("doctor", false);
   const TABS = [
     ["inspect", "sliders-horizontal", "Inspector (I)"],
     ["scene", "braces", "Scene file (E)"],
     ["plot", "chart-line", "Plots (P)"],
+    ["doctor", "stethoscope", "Doctor (D)"],
   ];
   const tabs = TABS.map(([name, picture, title]) => button(picture, title, () => leaf(name), { id: `tab-${name}` }));
   panel.append(h("div.row.tabs", {}, ...tabs, h("span.grow"), button("x", "Close (Esc)", () => leaf(undefined))), ...Object.values(leaves));
@@ -76,6 +80,7 @@ async function main() {
     if (shownLeaf === "inspect") inspect.rebuild();
     if (shownLeaf === "scene") code.show();
     if (shownLeaf === "plot") curves.build();
+    if (shownLeaf === "doctor") health.build();
     room();
   }
 
@@ -137,6 +142,7 @@ async function main() {
     if (shownLeaf === "scene") code.show();
     if (shownLeaf === "plot") curves.build();
     if (shownLeaf === "inspect") inspect.rebuild();
+    if (shownLeaf === "doctor") health.build();
   });
   app.addEventListener("select", () => {
     if (shownLeaf === "inspect") inspect.rebuild();
@@ -160,6 +166,7 @@ async function main() {
     i: () => leaf("inspect"),
     e: () => leaf("scene"),
     p: () => leaf("plot"),
+    d: () => leaf("doctor"),
     o: () => overlays.click(),
     l: () => lights.click(),
     x: () => pointer.choose("erase"),
@@ -194,7 +201,7 @@ async function main() {
         ["R", "restart"],
         ["F", "fit the view"],
         ["G, N, B", "gallery, next and previous scene"],
-        ["I, E, P", "inspector, scene file, plots"],
+        ["I, E, P, D", "inspector, scene file, plots, doctor"],
         ["O, L", "overlays, light or dark"],
         ["1 … 0, X", "tools"],
         ["Delete", "remove the selected body"],
@@ -249,6 +256,7 @@ async function main() {
       status.textContent = `${bodies} bodies · ${awake} awake · ${contacts} contacts · deepest ${(1000 * deepest).toFixed(1)} mm · ${rate} fps`;
       if (shownLeaf === "inspect") inspect.refresh();
       if (shownLeaf === "plot") curves.refresh();
+      health.refresh(shownLeaf === "doctor");
       [pictures, since] = [0, now];
     }
   }

@@ -18,7 +18,7 @@ export function transport(app) {
     if (!list.length) return [["info", "Nothing has happened yet", () => {}]];
     return list.map((mark) => [
       "flag",
-      `${KINDS[mark.kind].label} · step ${mark.step}`,
+      `${mark.label ?? KINDS[mark.kind].label} · step ${mark.step}`,
       () => {
         app.setPlaying(false);
         app.goTo(mark.step);
@@ -75,7 +75,7 @@ export function transport(app) {
       marked = state;
       marks.replaceChildren(
         ...app.figures.marks.slice(-200).map((mark) =>
-          h("i", { style: `left:${(100 * mark.step) / most}%;background:${KINDS[mark.kind].colour}`, title: KINDS[mark.kind].label }),
+          h("i", { style: `left:${(100 * mark.step) / most}%;background:${KINDS[mark.kind].colour}`, title: mark.label ?? KINDS[mark.kind].label }),
         ),
       );
     }

@@ -192,7 +192,7 @@ pub(crate) fn run(
     blocks: JointBlocks<'_>,
 ) {
     with_blocks!(blocks, blocks => {
-        dispatch_narrow(level, RunPass { pass, substep, rows, blocks, lanes: BLOCK });
+        run_pass(level, RunPass { pass, substep, rows, blocks, lanes: BLOCK });
     });
 }
 
@@ -223,10 +223,16 @@ fn one_by_one<B: JointKernel>(
                 continue; // An empty lane.
             }
             let blocks = core::slice::from_mut(&mut one);
-            dispatch_narrow(level, RunPass { pass, substep, rows, blocks, lanes: 1 });
+            run_pass(level, RunPass { pass, substep, rows, blocks, lanes: 1 });
             block.copy_lane(lane, &one, 0);
         }
     }
+}
+
+/// Not inlined, so that both of its users share the kernels' machine code: there is much of it.
+#[inline(never)]
+fn run_pass<B: JointKernel>(level: SimdLevel, pass: RunPass<'_, B>) {
+    dispatch_narrow(level, pass);
 }
 
 struct RunPass<'a, B> {
