@@ -11,8 +11,7 @@ dpkg -s chromium >/dev/null 2>&1 || {
   apt-get install -y -q --no-install-recommends -o DPkg::Lock::Timeout=300 chromium
 }
 [ "${1:-}" = --built ] || scripts/web.sh
-size=$(gzip -9 -c web/npm/tiny_physics.wasm | wc -c)
-echo "the package's module: $size bytes gzip"
+scripts/web-size.sh
 
 # Bits are those of a release.
 native() { RUSTFLAGS="--cfg tiny_physics_quick" cargo build -q --profile quick "$@"; }

@@ -7,7 +7,7 @@ import { build } from "esbuild";
 import { launch, pageOf } from "../../web/test/browser.mjs";
 import { serve } from "../../web/test/serve.mjs";
 
-const rounds = Number(process.argv[2] ?? 3);
+const rounds = Number(process.argv[2] ?? 5);
 const here = new URL(".", import.meta.url).pathname;
 const work = mkdtempSync(join(tmpdir(), "peers-"));
 

@@ -298,6 +298,33 @@ await check(
   "#breaking_bridge",
 );
 
+await check("what the doctor finds comes up, with a jump to its step", async (page) => {
+  await page.evaluate(() => {
+    const box = (half_extents) => [{ shape: { rect: { half_extents } } }];
+    const bodies = [
+      { kind: "static", shapes: box([10, 1]) },
+      { position: [0, 1.1], shapes: box([0.5, 0.5]) },
+      { position: [3, 4], shapes: box([0.5, 0.5]) },
+    ];
+    playground.open(JSON.stringify({ version: 1, bodies }));
+  });
+  await page.waitForSelector("#finding:not([hidden])");
+  await page.waitForFunction(() => playground.at > 30);
+  await page.click("#finding");
+  await page.waitForSelector("#panel article.finding");
+  const found = await page.evaluate(() => playground.health.findings.map(({ code, first_step, bodies }) => ({ code, first_step, bodies })));
+  assert.equal(found[0].code, "overlap_at_start");
+  assert((await page.evaluate(() => playground.figures.marks)).some((mark) => mark.label === "doctor: overlap at start"));
+  await picture(page, "doctor");
+  await page.click("#panel article.finding .link >> nth=0");
+  assert.deepEqual(await page.evaluate(() => [playground.at, playground.playing]), [found[0].first_step, false]);
+  await page.click("#panel article.finding .link >> text=body");
+  assert.deepEqual(await page.evaluate(() => playground.selected.id), found[0].bodies[0]);
+  // Another future without the cause: what was found stays, and what comes of it anew is added.
+  await page.evaluate(() => playground.act((world) => world.body(playground.selected.id).setPosition(0, 5)));
+  assert.equal(await page.evaluate(() => playground.health.read().length), 1);
+});
+
 for (const scheme of ["light", "dark"]) {
   await check(
     `the gallery, ${scheme}`,

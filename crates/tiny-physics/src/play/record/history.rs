@@ -199,7 +199,6 @@ impl Frames {
             delta = delta::encode(&[], &frame);
             self.whole = frame;
         }
-        if step % 400 < 40 && step > 1500 {}
         delta.shrink_to_fit();
         self.bytes += delta.len();
         self.kept.push(Kept { step, work: self.work, whole, delta });
@@ -216,7 +215,7 @@ impl Frames {
         let cost = |i: usize| {
             let gap = u128::from(work(i + 1) - if i > 0 { work(i - 1) } else { 0 });
             let age = ((1 + now - self.kept[i].step) as u128) << 20;
-            (gap * gap << 30) / age.isqrt()
+            ((gap * gap) << 30) / age.isqrt()
         };
         let last = self.kept.len().saturating_sub(1);
         let Some(least) = (0..last).filter(|&i| !needed(i)).min_by_key(|&i| cost(i)) else {
