@@ -14,6 +14,11 @@
 //! # }
 //! ```
 //!
+#![doc = ""]
+#![doc = include_str!("../guide/front.svg")]
+//!
+//! The [guide] has a page for each topic.
+//!
 //! # Contents
 //!
 //! | to | use |
@@ -21,8 +26,8 @@
 //! | make a world, add to it, step it | [`World`], [`Settings`] |
 //! | describe a body and its shapes | [`RigidBody`], [`ShapeDef`], [`Material`], [`Filter`], [`Shape`], [`Polygon`] |
 //! | describe a joint | [`JointDef`], [`JointKind`] |
-//! | draw ground | [`ChainDef`], [`TileGrid`] |
-//! | let somebody walk | [`CharacterMover`] |
+//! | draw ground | [`ChainDef`], [`TileGrid`], [the page](guide::ground) |
+//! | let somebody walk | [`CharacterMover`], [the page](guide::character) |
 //! | read a body, change it | [`Body`], [`BodyMut`], by its [`BodyId`] |
 //! | read a joint, change it | [`JointRef`], [`JointMut`], by its [`JointId`] |
 //! | read shapes and contacts | [`ShapeRef`], [`ContactView`] |
@@ -83,44 +88,41 @@ pub use world::*;
 
 /// The examples of the README are tests.
 #[cfg(doctest)]
-#[doc = include_str!("../../../README.md")]
+#[doc = include_str!("../README.md")]
 struct Readme;
 
-/// The pages of the guide: their examples are tests.
-#[cfg(doctest)]
-mod guide {
-    #[doc = include_str!("../../../docs/guide/bodies.md")]
-    mod bodies {}
-    #[doc = include_str!("../../../docs/guide/changes-and-hooks.md")]
-    mod changes_and_hooks {}
-    #[doc = include_str!("../../../docs/guide/character.md")]
-    mod character {}
-    #[doc = include_str!("../../../docs/guide/coming-from-box2d.md")]
-    mod coming_from_box2d {}
-    #[doc = include_str!("../../../docs/guide/coming-from-rapier.md")]
-    mod coming_from_rapier {}
-    #[doc = include_str!("../../../docs/guide/debug-drawing.md")]
-    mod debug_drawing {}
-    #[doc = include_str!("../../../docs/guide/events.md")]
-    mod events {}
-    #[doc = include_str!("../../../docs/guide/faq.md")]
-    mod faq {}
-    #[doc = include_str!("../../../docs/guide/filters-and-sensors.md")]
-    mod filters_and_sensors {}
-    #[doc = include_str!("../../../docs/guide/first-steps.md")]
-    mod first_steps {}
-    #[doc = include_str!("../../../docs/guide/forces.md")]
-    mod forces {}
-    #[doc = include_str!("../../../docs/guide/joints.md")]
-    mod joints {}
-    #[doc = include_str!("../../../docs/guide/performance.md")]
-    mod performance {}
-    #[doc = include_str!("../../../docs/guide/queries.md")]
-    mod queries {}
-    #[doc = include_str!("../../../docs/guide/saving.md")]
-    mod saving {}
-    #[doc = include_str!("../../../docs/guide/shapes.md")]
-    mod shapes {}
-    #[doc = include_str!("../../../docs/guide/troubleshooting.md")]
-    mod troubleshooting {}
+/// Declares the pages of the guide. Their examples are tests; their links lead from page to page here, too.
+#[cfg(any(doc, doctest))]
+macro_rules! pages {
+    ($($page:ident $file:literal)+) => {$(
+        #[doc = include_str!("../guide/links.txt")]
+        #[doc = include_str!(concat!("../guide/", $file, ".md"))]
+        pub mod $page {}
+    )+};
+}
+
+#[cfg(any(doc, doctest))]
+#[doc = include_str!("../guide/links.txt")]
+#[doc = include_str!("../guide/README.md")]
+pub mod guide {
+    pages! {
+        bodies "bodies"
+        changes_and_hooks "changes-and-hooks"
+        character "character"
+        coming_from_box2d "coming-from-box2d"
+        coming_from_rapier "coming-from-rapier"
+        debug_drawing "debug-drawing"
+        events "events"
+        faq "faq"
+        filters_and_sensors "filters-and-sensors"
+        first_steps "first-steps"
+        forces "forces"
+        ground "ground"
+        joints "joints"
+        performance "performance"
+        queries "queries"
+        saving "saving"
+        shapes "shapes"
+        troubleshooting "troubleshooting"
+    }
 }
