@@ -1,5 +1,6 @@
 //! Barrels of powder: lit, they blow up.
 
+use crate::pieces::solid;
 use serde::{Deserialize, Serialize};
 use tiny_physics::prelude::*;
 use tiny_physics::{Explosion, Vec2};
@@ -28,7 +29,7 @@ impl Barrel {
     /// # Errors
     /// The place is none.
     pub fn add(world: &mut World, place: DVec2) -> Result<Self, Error> {
-        let body = crate::game::solid(place, Shape::rect(BARREL.0, BARREL.1)?, 200.0);
+        let body = solid(place, Shape::rect(BARREL.0, BARREL.1)?, 200.0);
         Ok(Self { body: world.add_body(body)?, fuse: None })
     }
 

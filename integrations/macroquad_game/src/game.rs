@@ -2,13 +2,12 @@
 
 use crate::barrel::{Barrel, Flash};
 use crate::level::{self, Thing};
-use crate::moving::{Door, Lift, MOVING};
+use crate::moving::{Door, Lift};
+use crate::pieces::{DT, MOVING, solid};
 use crate::sounds::{self, Sound};
 use serde::{Deserialize, Serialize};
 use tiny_physics::prelude::*;
 
-/// Length of a step, seconds.
-pub const DT: f32 = 1.0 / 60.0;
 /// Height and radius of the hero, metres.
 pub const HERO: (f32, f32) = (1.5, 0.35);
 const WALK: f32 = 5.0;
@@ -200,11 +199,4 @@ impl Game {
 
 fn sensor(place: DVec2, shape: Shape) -> RigidBody {
     RigidBody::fixed().position(place).shape(ShapeDef::new(shape).sensor())
-}
-
-/// Something to push, which is heard when it falls.
-pub fn solid(place: DVec2, shape: Shape, density: f32) -> RigidBody {
-    let mut def = ShapeDef::new(shape).density(density).friction(0.5);
-    (def.hit_events, def.filter.category) = (true, MOVING);
-    RigidBody::dynamic().position(place).shape(def)
 }

@@ -4,4 +4,5 @@ pub mod barrel;
 pub mod game;
 pub mod level;
 pub mod moving;
+pub mod pieces;
 pub mod sounds;

@@ -5,7 +5,8 @@ mod draw;
 mod speaker;
 
 use macroquad::prelude::*;
-use macroquad_game::game::{DT, Game, Input};
+use macroquad_game::game::{Game, Input};
+use macroquad_game::pieces::DT;
 use tiny_physics::FixedStep;
 
 fn window() -> Conf {

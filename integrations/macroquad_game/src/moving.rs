@@ -1,10 +1,9 @@
 //! Lifts, which are kinematic, and doors, which a motor moves.
 
+use crate::pieces::{DT, MOVING};
 use serde::{Deserialize, Serialize};
 use tiny_physics::prelude::*;
 
-/// Category of what a door stops: all that moves. Walls are not among it.
-pub const MOVING: u64 = 2;
 /// Half width and half height of a lift, metres.
 pub const LIFT: (f32, f32) = (0.95, 0.1);
 /// Half width and half height of a door, metres.
@@ -39,11 +38,11 @@ impl Lift {
     /// Sends it to where it is to be at the end of a step.
     pub fn run(&self, world: &mut World, step: u32) {
         let period = 2.0 * (WAY + WAIT);
-        let time = (step as f32 * crate::game::DT) % period;
+        let time = (step as f32 * DT) % period;
         let up = ((time - WAIT) / WAY).min((period - time) / WAY).clamp(0.0, 1.0);
         let at = self.home + DVec2::new(0.0, f64::from(RISE * up));
         if let Some(mut body) = world.body_mut(self.body) {
-            body.set_target(Transform::from_angle(at.to_vec2(), 0.0), crate::game::DT);
+            body.set_target(Transform::from_angle(at.to_vec2(), 0.0), DT);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Somebody plays it to the end, without a window.
 
-use macroquad_game::game::{DT, Game, Input};
+use macroquad_game::game::{Game, Input};
+use macroquad_game::pieces::DT;
 use macroquad_game::sounds::Sound;
 
 /// Until when to do what.
