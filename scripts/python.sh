@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the Python package in a clean virtual environment and runs its tests. PYTHON chooses the interpreter (3.10 or
-# later); arguments go to pytest. `PROFILE=quick` builds what one tries things with.
+# later); arguments go to pytest, in the folder of the tests. `PROFILE=quick` builds what one tries things with.
 set -euo pipefail
 cd "$(dirname "$0")/../python"
 
@@ -17,4 +17,6 @@ else
     pip install .
 fi
 pip install pytest "gymnasium>=1.1" pygame
+# Not from this folder: its `tiny_physics` is the source, without the built module.
+cd tests
 "$venv/bin/python" -m pytest -q "$@"
