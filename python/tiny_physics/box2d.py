@@ -25,10 +25,11 @@ _ITERATIONS_PER_ITERATION = 24
 _MOST_ITERATIONS = 8
 #: Substeps of a step: those steps are long, and light legs carry heavy hulls.
 _SUBSTEPS = 8
-#: Metres that the anchors of a new joint may be apart; steps to bring them together, and seconds of each.
-_LOOSE = 0.02
-_SETTLING_STEPS = 240
-_SETTLING_STEP = 1.0 / 1000.0
+#: Metres and radians by which a new joint may be off; rounds to put it right, and the most radians of one.
+_LOOSE = 0.005
+_LOOSE_ANGLE = math.radians(2.0)
+_ROUNDS = 60
+_MOST_TURN = math.radians(8.0)
 
 
 class b2Vec2(tuple):
@@ -233,6 +234,11 @@ class b2Body:
     def angle(self, value: float) -> None:
         self._inner.angle = self._turns = float(value)
 
+    def _from_center(self, point: Any) -> tuple[float, float]:
+        """A point of its frame, from its center of mass."""
+        x, y = self._inner.to_local(self._inner.center)
+        return (float(point[0]) - x, float(point[1]) - y)
+
     @property
     def worldCenter(self) -> b2Vec2:
         return b2Vec2(self._inner.center)
@@ -259,7 +265,9 @@ class b2Body:
 
     @property
     def inertia(self) -> float:
-        return self._inner.inertia
+        """About its origin."""
+        x, y = self._from_center((0.0, 0.0))
+        return self._inner.inertia + self._inner.mass * (x * x + y * y)
 
     @property
     def awake(self) -> bool:
@@ -357,11 +365,40 @@ class b2RevoluteJoint:
         self._inner = inner
         self.bodyA, self.bodyB = definition.bodyA, definition.bodyB
         self._reference = definition.referenceAngle
+        self._limits = (definition.lowerAngle, definition.upperAngle) if definition.enableLimit else None
         self._motor = (float(definition.motorSpeed), float(definition.maxMotorTorque))
+        self._anchors = [
+            body._from_center(anchor)
+            for body, anchor in (
+                (definition.bodyA, definition.localAnchorA),
+                (definition.bodyB, definition.localAnchorB),
+            )
+        ]
 
-    def _gap(self) -> float:
-        """Metres between its anchors."""
-        return math.dist(*self._inner.anchors)
+    def _tighten(self, places: "dict[b2Body, _Place]") -> bool:
+        """Turns and moves its bodies so that the angle is within the limits, then the anchors together; lighter bodies
+        more. Was it right before?"""
+        a, b = places[self.bodyA], places[self.bodyB]
+        turn = 0.0
+        if self._limits is not None:
+            angle, (lower, upper) = b.angle - a.angle - self._reference, self._limits
+            turn = min(0.0, angle - lower + _LOOSE_ANGLE) + max(0.0, angle - upper - _LOOSE_ANGLE)
+            inverse = a.inv_inertia + b.inv_inertia
+            share = max(-_MOST_TURN, min(turn, _MOST_TURN)) / inverse if inverse > 0.0 else 0.0
+            a.angle += a.inv_inertia * share
+            b.angle -= b.inv_inertia * share
+        (ax, ay), (bx, by) = a.arm(self._anchors[0]), b.arm(self._anchors[1])
+        x, y = b.x + bx - a.x - ax, b.y + by - a.y - ay
+        inverse = a.inv_mass + b.inv_mass
+        xx = inverse + a.inv_inertia * ay * ay + b.inv_inertia * by * by
+        yy = inverse + a.inv_inertia * ax * ax + b.inv_inertia * bx * bx
+        xy = -a.inv_inertia * ax * ay - b.inv_inertia * bx * by
+        det = xx * yy - xy * xy
+        if det > 0.0:
+            push = ((yy * x - xy * y) / det, (xx * y - xy * x) / det)
+            a.move(push, (ax, ay))
+            b.move((-push[0], -push[1]), (bx, by))
+        return turn == 0.0 and math.hypot(x, y) < _LOOSE
 
     @property
     def angle(self) -> float:
@@ -398,6 +435,33 @@ class b2Contact:
 
     def __init__(self, fixtureA: b2Fixture, fixtureB: b2Fixture) -> None:
         self.fixtureA, self.fixtureB = fixtureA, fixtureB
+
+
+class _Place:
+    """Center of mass and angle of a body, and how easily they change."""
+
+    def __init__(self, body: b2Body) -> None:
+        self.body = body
+        (self.x, self.y), self.angle = body._inner.center, body.angle
+        mass, inertia = body._inner.mass, body._inner.inertia
+        moves = body._inner.kind == "dynamic"
+        self.inv_mass = 1.0 / mass if moves and mass > 0.0 else 0.0
+        self.inv_inertia = 1.0 / inertia if moves and inertia > 0.0 else 0.0
+
+    def arm(self, point: tuple[float, float]) -> tuple[float, float]:
+        """A point of the body, from its center of mass, turned as the body is."""
+        (x, y), c, s = point, math.cos(self.angle), math.sin(self.angle)
+        return (c * x - s * y, s * x + c * y)
+
+    def move(self, push: tuple[float, float], arm: tuple[float, float]) -> None:
+        self.x += self.inv_mass * push[0]
+        self.y += self.inv_mass * push[1]
+        self.angle += self.inv_inertia * (arm[0] * push[1] - arm[1] * push[0])
+
+    def give(self) -> None:
+        """Puts the body there."""
+        x, y = self.arm(self.body._from_center((0.0, 0.0)))
+        self.body.angle, self.body.position = self.angle, (self.x + x, self.y + y)
 
 
 class b2ContactListener:
@@ -509,38 +573,40 @@ class b2World:
         for call, args in self._forces:
             call(*args)
         self._forces.clear()
-        self._move(float(timeStep))
-
-    def _move(self, dt: float) -> None:
-        self._inner.step(dt)
-        if self.contactListener is not None:
-            self._tell(self.contactListener)
+        self._inner.step(float(timeStep))
+        self._tell(*self._changes())
 
     def _settle(self) -> None:
-        """Puts the bodies of new joints together: Gymnasium's robots begin in parts half a metre apart. Box2D brings
-        positions together without giving anything a velocity, so what the solver gives here is taken away again."""
+        """Puts the bodies of new joints together: Gymnasium's robots begin in parts half a metre apart. That gives
+        nothing a velocity, and asks not what the bodies touch."""
         fresh, self._fresh = self._fresh, []
-        if not any(joint._gap() > _LOOSE for joint in fresh):
+        places = {body: _Place(body) for joint in fresh for body in (joint.bodyA, joint.bodyB)}
+        if all([joint._tighten(places) for joint in fresh]):
             return
-        bodies = [body for body in self.bodies if body._inner.kind == "dynamic"]
-        kept = [(b._inner.velocity, b._inner.angular_velocity) for b in bodies]
-        gravity, self._inner.gravity = self._inner.gravity, (0.0, 0.0)
-        for _ in range(_SETTLING_STEPS):
-            self._move(_SETTLING_STEP)
-            for body in bodies:
-                body._inner.velocity, body._inner.angular_velocity = (0.0, 0.0), 0.0
-        self._inner.gravity = gravity
-        for body, (velocity, spin) in zip(bodies, kept):
-            body._inner.velocity, body._inner.angular_velocity = velocity, spin
+        for _ in range(_ROUNDS):
+            if all([joint._tighten(places) for joint in fresh]):
+                break
+        for place in places.values():
+            place.give()
 
     def ClearForces(self) -> None:
         """Forces last one step; this drops those of the next."""
         self._forces.clear()
 
-    def _tell(self, listener: Any) -> None:
+    def _changes(self) -> tuple[list[Any], list[Any]]:
+        """Pairs of shapes that no longer touch, and that began to, in the last step."""
         events = self._inner.events()
-        for end, call in (("end", listener.EndContact), ("begin", listener.BeginContact)):
-            for pair in (*events[f"contact_{end}"], *events[f"sensor_{end}"]):
+        ended, begun = ([*events[f"contact_{x}"], *events[f"sensor_{x}"]] for x in ("end", "begin"))
+        return ended, begun
+
+    def _tell(self, ended: list[Any], begun: list[Any]) -> None:
+        if self.contactListener is None:
+            return
+        for pairs, call in (
+            (ended, self.contactListener.EndContact),
+            (begun, self.contactListener.BeginContact),
+        ):
+            for pair in pairs:
                 fixtures = [self._fixtures.get(shape) for shape in pair]
                 if None not in fixtures:
                     call(b2Contact(*fixtures))  # type: ignore[arg-type]
