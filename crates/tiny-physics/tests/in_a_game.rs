@@ -864,3 +864,30 @@ fn a_hero_passes_gaps_a_fiftieth_wider_than_himself() {
     go(&mut world, &mut hero, walk(3.0), 240);
     assert!(hero.position.x > 11.5, "along: {:?}", hero.position);
 }
+
+#[test]
+fn a_ledge_goes_as_one_or_not_at_all() {
+    let mut world = World::new((0.0, -10.0));
+    let floor = world.add_body(RigidBody::fixed()).unwrap();
+    let ledge = world.add_chain(floor, &ChainDef::heights(1.0, &[1.0; 9])).unwrap();
+    let load = RigidBody::dynamic()
+        .position((4.0, 1.3))
+        .shape(square(0.3))
+        .shape(ShapeDef::new(square(0.3)).offset((0.6, 0.0)));
+    let load = world.add_body(load).unwrap();
+    steps(&mut world, 300);
+    assert!(!world.body(load).unwrap().is_awake());
+    let (half, mass) =
+        (world.body(load).unwrap().shapes().next().unwrap(), world.body(load).unwrap().mass());
+    world.remove_shape(ledge[0]).unwrap();
+    assert!(world.remove_shapes(&ledge).is_err(), "one is gone");
+    assert_eq!(world.shape_count(), 9);
+    // Shapes of two bodies, one of them named twice.
+    let gone = [&ledge[1..], &[half, half]].concat();
+    world.remove_shapes(&gone).unwrap();
+    assert_eq!((world.shape_count(), world.body(load).unwrap().mass()), (1, 0.5 * mass));
+    world.validate().unwrap();
+    steps(&mut world, 60);
+    assert!(world.body(load).unwrap().position().y < -1.0, "it woke and fell");
+    world.remove_shapes(&[]).unwrap();
+}

@@ -122,3 +122,16 @@ fn what_is_cut_off_or_damaged_is_refused_with_the_reason() {
     let other = serde_json::to_string(&saved.replay).unwrap();
     assert!(refusal(&other).contains("does not begin like one"), "{}", refusal(&other));
 }
+
+#[test]
+fn statistics_are_data() {
+    let mut world = World::new(Vec2::new(0.0, -10.0));
+    world.time_stages(true);
+    world.step(1.0 / 60.0);
+    let text = serde_json::to_string(world.stats()).unwrap();
+    assert_eq!(&serde_json::from_str::<tiny_physics::Stats>(&text).unwrap(), world.stats());
+    assert_eq!(
+        serde_json::to_string(&tiny_physics::Stage::NarrowPhase).unwrap(),
+        "\"narrow_phase\""
+    );
+}

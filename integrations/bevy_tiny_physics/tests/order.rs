@@ -34,7 +34,7 @@ fn spawn(app: &mut App, at: usize, variant: usize) {
             body
         }
     };
-    if variant > 0 && at % 2 == 0 {
+    if variant > 0 && at.is_multiple_of(2) {
         app.world_mut().entity_mut(entity).insert(Tag);
     }
 }
@@ -42,7 +42,9 @@ fn spawn(app: &mut App, at: usize, variant: usize) {
 fn hash_of(order: impl Iterator<Item = usize>, variant: usize) -> Vec<u64> {
     let mut app = app();
     if variant > 0 {
-        (0..17).for_each(|_| drop(app.world_mut().spawn(Tag)));
+        for _ in 0..17 {
+            app.world_mut().spawn(Tag);
+        }
     }
     for at in order {
         spawn(&mut app, at, variant);

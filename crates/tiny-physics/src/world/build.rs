@@ -137,12 +137,42 @@ impl World {
     /// # Errors
     /// The handle is stale.
     pub fn remove_shape(&mut self, id: ShapeId) -> Result<(), Error> {
-        let shape = self.shape_index(id)?;
-        let body = self.state.shapes.records[shape as usize].body;
-        self.wake_index(body);
-        self.destroy_contacts_of(body, |contact| contact.0 == shape || contact.1 == shape);
-        self.unlink_shape(shape);
-        self.update_mass(body);
+        self.remove_shapes(&[id])
+    }
+
+    /// Removes many shapes, such as those of a chain: mass and inertia of each body are counted once.
+    ///
+    /// ```
+    /// use tiny_physics::prelude::*;
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let mut world = World::new((0.0, -10.0));
+    /// let ground = world.add_body(RigidBody::fixed())?;
+    /// let ledge = world.add_chain(ground, &ChainDef::heights(1.0, &[0.0, 0.2, 0.1, 0.3]))?;
+    /// world.remove_shapes(&ledge)?;
+    /// assert_eq!(world.shape_count(), 0);
+    /// assert!(world.remove_shapes(&ledge).is_err());
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// A handle is stale. Nothing has been removed then.
+    pub fn remove_shapes(&mut self, ids: &[ShapeId]) -> Result<(), Error> {
+        let shapes: Result<Vec<u32>, Error> = ids.iter().map(|id| self.shape_index(*id)).collect();
+        let mut shapes = shapes?;
+        shapes.sort_unstable();
+        shapes.dedup();
+        let body_of = |shape: &u32| self.state.shapes.records[*shape as usize].body;
+        let mut bodies: Vec<u32> = shapes.iter().map(body_of).collect();
+        bodies.sort_unstable();
+        bodies.dedup();
+        let goes = |shape: u32| shapes.binary_search(&shape).is_ok();
+        for &body in &bodies {
+            self.wake_index(body);
+            self.destroy_contacts_of(body, |contact| goes(contact.0) || goes(contact.1));
+        }
+        shapes.iter().for_each(|&shape| self.unlink_shape(shape));
+        bodies.into_iter().for_each(|body| self.update_mass(body));
         Ok(())
     }
 

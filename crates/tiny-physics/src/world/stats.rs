@@ -2,6 +2,8 @@
 
 /// The stages of a step that are timed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Stage {
     /// Finding pairs whose boxes overlap, creating and dropping contacts.
     Pairs,
@@ -48,6 +50,7 @@ impl Stage {
 /// Times and counts of the last step. Not part of the world's state: never saved, hashed or
 /// compared.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Stats {
     pub(crate) timed: bool,
     pub(crate) seconds: [f64; Stage::ALL.len()],

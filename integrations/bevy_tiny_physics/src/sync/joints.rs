@@ -63,11 +63,8 @@ fn add(
     joint: &Joint,
 ) -> Result<(), Error> {
     physics.remove_joint(entity);
-    let id = physics.world.add_joint(a, b, joint.def.clone())?;
-    physics.enter_joint(
-        entity,
-        JointRecord { id, bodies: (joint.a, joint.b), def: joint.def.clone() },
-    );
+    let id = physics.world.add_joint(a, b, joint.def)?;
+    physics.enter_joint(entity, JointRecord { id, bodies: (joint.a, joint.b), def: joint.def });
     Ok(())
 }
 
@@ -75,8 +72,8 @@ fn change(physics: &mut PhysicsWorld, entity: Entity, joint: &Joint) -> Result<(
     let PhysicsWorld { world, maps, .. } = physics;
     match maps.joints.get_mut(&entity) {
         Some(record) if record.def != joint.def => {
-            world.set_joint(record.id, joint.def.clone())?;
-            record.def.clone_from(&joint.def);
+            world.set_joint(record.id, joint.def)?;
+            record.def = joint.def;
             Ok(())
         }
         _ => Ok(()),
