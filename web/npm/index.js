@@ -64,7 +64,13 @@ function give(bytes) {
 }
 
 const giveText = (text) => give(encoder.encode(text));
-const giveData = (data) => giveText(JSON.stringify(data));
+const giveData = (data) => giveText(JSON.stringify(data, finite));
+
+/** JSON has no such numbers, and would write nothing instead. */
+function finite(name, value) {
+  if (typeof value === "number" && !Number.isFinite(value)) throw new PhysicsError(`${name} is ${value}; it has to be finite`);
+  return value;
+}
 
 /** A question without anything unusual in it is nothing at all. */
 function giveQuestion(filter, shape, angle = 0) {

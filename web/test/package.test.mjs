@@ -57,6 +57,7 @@ test("what is wrong is said in the engine's words, and changes nothing", () => {
   const { world } = pile();
   const before = world.hash();
   const wrong = (work, words) => assert.throws(work, (error) => error instanceof PhysicsError && words.test(error.message));
+  wrong(() => world.addBody({ mass: NaN }), /mass is NaN; it has to be finite/);
   wrong(() => world.addBody({ shapes: [{ shape: { circle: { radius: -1 } } }] }), /shapes\[0\].*radius is -1/);
   wrong(() => world.addBody({ weight: 3 }), /unknown field `weight`, expected/);
   wrong(() => world.addJoint(0, 0, { kind: { revolute: {} } }), /body|joint/);
