@@ -77,7 +77,7 @@ export function clinic(app, root, line) {
       h("p.hint", {}, step(first_step), ...seen, measured.length ? ` · ${measured.join(", ")}` : ""),
       h("p.advice", {}, icon("arrow-right"), h("span", {}, advice)),
       bodies.length
-        ? h("p.hint", {}, ...bodies.slice(0, 4).map((id) => h("button.link", { onclick: () => app.select({ kind: "body", id }) }, `body ${id % 2 ** 24} `)))
+        ? h("p.hint", {}, ...bodies.slice(0, 4).flatMap((id) => [h("button.link", { onclick: () => app.select({ kind: "body", id }) }, `body ${id % 2 ** 24}`), " "]))
         : undefined,
     );
   }
