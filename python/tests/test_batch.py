@@ -119,3 +119,23 @@ def test_bad_input_is_named():
         tp.WorldBatch(world, 1, 1, [("warp", cart)])
     with pytest.raises(ValueError, match="templates"):
         tp.WorldBatch([], 1)
+
+
+def test_ten_thousand_worlds_go_on_the_same_after_going_back_and_on_any_number_of_threads():
+    count, steps = 10_000, 4
+    actions = np.random.default_rng(1).integers(0, 4, (2 * steps, count)).astype(np.float32)
+    runs = []
+    for threads in (1, 2):
+        many = tp.TaskBatch("lunar_lander", count, threads=threads)
+        for action in actions[:steps]:
+            many.step(action)
+        saved = many.to_bytes()
+        later = []
+        for _ in range(2):
+            for action in actions[steps:]:
+                many.step(action)
+            later.append((many.state_hashes().tobytes(), many.observations.tobytes()))
+            many.restore_bytes(saved)
+        assert later[0] == later[1]
+        runs.append((saved, later[0]))
+    assert runs[0] == runs[1]
