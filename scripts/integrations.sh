@@ -15,5 +15,5 @@ export RUSTFLAGS="${RUSTFLAGS---cfg tiny_physics_quick}"
     cd bevy_tiny_physics
     cargo test -p bevy_tiny_physics --no-default-features
     cargo test -p bevy_tiny_physics --features gizmos,doctor,parallel
-    [ "${1-}" = --tests ] || cargo build -p demos --bins
+    [ "${1-}" = --tests ] || { cargo build -p demos --bins; cargo test -p demos --doc; }
 )

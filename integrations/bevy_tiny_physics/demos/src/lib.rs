@@ -6,3 +6,8 @@ mod stage;
 
 pub use brush::{Brush, Ink, PALETTE};
 pub use stage::{Camera, Cursor, Demo};
+
+/// The example of the README is built.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
