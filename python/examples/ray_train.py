@@ -22,7 +22,7 @@ from stand import play, ranks
 
 import tiny_physics as tp
 
-SPREAD, RATE = 0.03, 0.3
+SPREAD, RATE = 0.01, 0.3
 
 
 def directions(generation: int, shard: int, pairs: int, size: int) -> np.ndarray:
