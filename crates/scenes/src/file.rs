@@ -1,8 +1,9 @@
 //! Scene files: JSON that people can read, write and compare.
 
 use crate::error::{Problem, SceneError};
-use crate::json::{Node, line_column};
-use crate::read::{Fault, read};
+use crate::fault::{Fault, line_column};
+use crate::json::Node;
+use crate::read::read;
 use crate::scene::Scene;
 use crate::version::VERSION;
 use serde::{Deserialize, Serialize};

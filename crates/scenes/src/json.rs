@@ -3,7 +3,7 @@
 //! It serves four ends: to read values from (see [`read`](crate::read())), to find the line and column of a field, to leave
 //! out what equals a default, and to lay a file out so that a person can read it.
 
-use crate::read::Fault;
+use crate::fault::Fault;
 use std::borrow::Cow;
 
 /// Lines get no longer than this where they can be broken.
@@ -213,14 +213,6 @@ fn write_key(out: &mut String, key: &str) {
     out.push_str("\": ");
 }
 
-/// Line and column, counted from 1, of a byte of a text.
-pub(crate) fn line_column(text: &str, byte: usize) -> (usize, usize) {
-    let before = text.get(..byte).unwrap_or(text);
-    let line = before.matches('\n').count() + 1;
-    let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
-    (line, column)
-}
-
 struct Reader<'t> {
     text: &'t str,
     at: usize,
@@ -417,6 +409,7 @@ pub(crate) fn unescaped(text: &str) -> Cow<'_, str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fault::line_column;
 
     const TEXT: &str = "{\n  \"a\": [1.50, {\"b\": \"x\\\"]\"}],\n  \"c\": null\n}";
 

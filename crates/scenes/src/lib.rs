@@ -19,6 +19,7 @@ mod catalogue;
 mod check;
 mod churn;
 mod error;
+mod fault;
 mod file;
 mod golden;
 mod grip;

@@ -4,7 +4,9 @@
 
 use std::cell::Cell;
 use tiny_physics::geometry::distance;
-use tiny_physics::{BodyId, Filter, Polygon, Pose, RigidBody, Rot, Shape, ShapeDef, Vec2, World};
+use tiny_physics::{
+    BodyId, Filter, JointDef, Polygon, Pose, RigidBody, Rot, Shape, ShapeDef, Vec2, World,
+};
 
 const DT: f32 = 1.0 / 60.0;
 
@@ -376,4 +378,29 @@ fn the_same_bits_on_any_number_of_threads() {
     };
     let alone = run(1);
     assert_eq!([run(2), run(3)], [alone; 2]);
+}
+
+#[test]
+fn hinged_bars_stop_at_pegs() {
+    all(100, |random| {
+        let mut world = weightless();
+        let (half, thick, radius) =
+            (random.range(0.4, 2.0), random.range(0.03, 0.2), random.range(0.02, 0.3));
+        let (speed, angle) = (random.range(5.0, 100.0), random.range(0.4, 2.4));
+        let place = Vec2::new(angle.cos(), angle.sin()) * (random.range(0.5, 1.9) * half);
+        if place.y < thick + radius + 0.1 && place.x > -radius - 0.1 {
+            return true;
+        }
+        let wall = world.add_body(RigidBody::fixed()).unwrap();
+        let bar = dynamic(rect(half, thick), half, 0.0);
+        let bar = bar.velocity(Vec2::new(0.0, speed * half)).angular_velocity(speed);
+        let bar = world.add_body(bar).unwrap();
+        let hinge = JointDef::revolute().anchors(Vec2::ZERO, Vec2::new(-half, 0.0));
+        world.add_joint(wall, bar, hinge).unwrap();
+        let peg = RigidBody::fixed().position(place).shape(Shape::circle(radius).unwrap());
+        world.add_body(peg).unwrap();
+        steps(&mut world, (angle / (speed * DT)).ceil() as u32);
+        // The peg is still on the side of the bar that it came from.
+        world.body(bar).unwrap().pose().unapply(place.into()).y > 0.0
+    });
 }

@@ -15,7 +15,7 @@ use tiny_physics::record::{
 use tiny_physics::*;
 
 /// Functions that change a world and need no command, with the reason.
-const WITHOUT_COMMAND: [(&str, &str); 17] = [
+const WITHOUT_COMMAND: [(&str, &str); 18] = [
     ("World::step", "every step is recorded"),
     ("World::try_step", "the same"),
     ("World::body_mut", "what it gives has commands"),
@@ -26,6 +26,7 @@ const WITHOUT_COMMAND: [(&str, &str); 17] = [
     ("ShapeMut::set_restitution", "what SetMaterial does"),
     ("ShapeMut::set_density", "what SetMaterial does"),
     ("CharacterMover::lead_body", "what SetPose and SetShape do"),
+    ("World::remove_shapes", "what RemoveShape does, one by one"),
     ("World::set_threads", "changes no results"),
     ("World::set_simd", "changes no results"),
     ("World::time_stages", "changes no results"),

@@ -121,9 +121,15 @@ pub(super) fn bar_and_peg(lab: &mut Lab<'_>) -> Vec<Measure> {
             lab.step(&mut trial);
             // Looked at after the step in which a bar reaches its peg: later it may come round again.
             let meets = |&i: &usize| (f64::from(angle(i)) / turn).ceil() as u32 == step;
+            // The hinge may give when a bar is stopped: who has the peg before it still has not passed.
             let past = |&i: &usize| {
-                let beyond = trial.angle(1 + 2 * i) - f64::from(angle(i));
-                (beyond + PI).rem_euclid(TAU) - PI > 0.0
+                let (bar, peg) = (1 + 2 * i, 2 + 2 * i);
+                let beyond = trial.angle(bar) - f64::from(angle(i));
+                let (from, to) = (trial.position(bar), trial.position(peg));
+                let (sin, cos) = trial.angle(bar).sin_cos();
+                let (x, y) = (to.x - from.x, to.y - from.y);
+                let held = x * cos + y * sin < 0.5 * f64::from(length) && y * cos > x * sin;
+                (beyond + PI).rem_euclid(TAU) - PI > 0.0 && !held
             };
             through += (0..COUNT).filter(meets).filter(past).count();
         }

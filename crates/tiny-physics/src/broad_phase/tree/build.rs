@@ -58,6 +58,8 @@ impl DynamicTree {
     fn build(&mut self, branches: &mut [Branch], level: u8) -> u32 {
         let index = self.allocate(level);
         if level == 0 {
+            // How parts were halved leaves the order within them to the library's algorithm; bits must not hang on that.
+            branches.sort_unstable_by_key(|branch| branch.child);
             self.fill(index, branches);
             return index;
         }
