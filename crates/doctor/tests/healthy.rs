@@ -102,7 +102,7 @@ fn is_confirmed(code: Code, scene: &Scene, judged: &arena::Findings) -> bool {
         }
         Code::LimitOverrun => judged.overrun.is_some_and(|over| over > 0.03) || starts_apart(scene),
         Code::OverlapAtStart => starts_inside(scene),
-        Code::DeepOverlap | Code::Stuck => judged.deepest > 0.04,
+        Code::DeepOverlap | Code::Stuck | Code::Sinking => judged.deepest > 0.04,
         Code::Tunnelling => judged.passed > 0,
         _ => false,
     }
