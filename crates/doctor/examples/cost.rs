@@ -4,8 +4,8 @@
 //! in per cent, and the bytes that the doctor holds. On a very noisy machine count instructions instead:
 //!
 //! ```sh
-//! valgrind --tool=callgrind --callgrind-out-file=/tmp/cost.out target/release/examples/cost 200 game
-//! callgrind_annotate --inclusive=yes /tmp/cost.out | grep 'cost::\(make_step\|watch\)'
+//! valgrind --tool=callgrind --callgrind-out-file=target/cost.out target/release/examples/cost 200 game
+//! callgrind_annotate --inclusive=yes target/cost.out | grep 'cost::\(make_step\|watch\)'
 //! ```
 
 use std::time::{Duration, Instant};

@@ -2,7 +2,7 @@
 //!
 //! Before pairs are looked for, [`reach`] lets the boxes of what is fast hold all that the step will take it through;
 //! two shapes are near if they will be as one sees the other move. The narrow phase names the pairs that close in so
-//! fast that they might meet in the step. [`Predictions::find`] looks for the time of impact of those alone and, where
+//! fast that they might meet in the step. [`Predictions::round`] looks for the time of impact of those alone and, where
 //! there is one, makes the contact of that moment: its normal and points, and separations as far apart as the motion
 //! up to then. The solver sees a contact with a gap, as any other. What passes by gets none, so nothing is deflected
 //! that would not have been hit.

@@ -21,7 +21,7 @@ use core::ops::ControlFlow;
 const ROUNDS: usize = 6;
 /// Contacts that one member of the team looks at at a time.
 const CHUNK: usize = 32;
-/// The same for what touches already.
+/// What touches already is looked at again only if its body was taken further off its way than this, in half thicknesses.
 const HARD_HIT: f32 = 0.5;
 /// Points whose separations differ by less than this are hit together, metres; multiplied by the length unit.
 const NEAR: f32 = 0.02;
