@@ -380,27 +380,55 @@ fn the_same_bits_on_any_number_of_threads() {
     assert_eq!([run(2), run(3)], [alone; 2]);
 }
 
+/// Bars of any shape, hinged anywhere to a wall or to a heavy body, against pegs of any shape: fixed, or heavy and free.
 #[test]
 fn hinged_bars_stop_at_pegs() {
-    all(100, |random| {
+    let played = Cell::new(0);
+    all(200, |random| {
         let mut world = weightless();
         let (half, thick, radius) =
             (random.range(0.4, 2.0), random.range(0.03, 0.2), random.range(0.02, 0.3));
-        let (speed, angle) = (random.range(5.0, 100.0), random.range(0.4, 2.4));
-        let place = Vec2::new(angle.cos(), angle.sin()) * (random.range(0.5, 1.9) * half);
-        if place.y < thick + radius + 0.1 && place.x > -radius - 0.1 {
+        let (speed, angle) = (random.range(5.0, 60.0), random.range(0.4, 2.4));
+        // From the hinge to the middle of the bar.
+        let off = half * random.range(0.2, 1.0);
+        let place = Vec2::new(angle.cos(), angle.sin()) * (random.range(0.5, 0.9) * (off + half));
+        if place.y < thick + 1.5 * radius + 0.1 && place.x > off - half - 2.0 * radius {
             return true;
         }
-        let wall = world.add_body(RigidBody::fixed()).unwrap();
-        let bar = dynamic(rect(half, thick), half, 0.0);
-        let bar = bar.velocity(Vec2::new(0.0, speed * half)).angular_velocity(speed);
-        let bar = world.add_body(bar).unwrap();
-        let hinge = JointDef::revolute().anchors(Vec2::ZERO, Vec2::new(-half, 0.0));
+        played.set(played.get() + 1);
+        let wall = match random.part() < 0.5 {
+            true => RigidBody::fixed(),
+            false => RigidBody::dynamic().mass(1.0e4).inertia(1.0e4),
+        };
+        let wall = world.add_body(wall).unwrap();
+        let bar = match random.part() < 0.5 {
+            true => rect(half, thick),
+            false => {
+                let end = Vec2::new(half - thick, 0.0);
+                Shape::capsule(-end, end, thick).unwrap()
+            }
+        };
+        let bar = dynamic(bar, off, 0.0).velocity(Vec2::new(0.0, speed * off));
+        let bar = world.add_body(bar.angular_velocity(speed)).unwrap();
+        let hinge = JointDef::revolute().anchors(Vec2::ZERO, Vec2::new(-off, 0.0));
         world.add_joint(wall, bar, hinge).unwrap();
-        let peg = RigidBody::fixed().position(place).shape(Shape::circle(radius).unwrap());
-        world.add_body(peg).unwrap();
-        steps(&mut world, (angle / (speed * DT)).ceil() as u32);
-        // The peg is still on the side of the bar that it came from.
-        world.body(bar).unwrap().pose().unapply(place.into()).y > 0.0
+        let peg = match random.part() < 0.5 {
+            true => Shape::circle(radius).unwrap(),
+            false => rect(radius, radius),
+        };
+        let body = match random.part() < 0.5 {
+            true => RigidBody::fixed(),
+            false => RigidBody::dynamic().mass(1.0e4),
+        };
+        let peg = world.add_body(body.position(place).shape(peg)).unwrap();
+        steps(&mut world, (angle / (speed * DT)).ceil() as u32 - 1);
+        // From then on the peg stays on the side of the bar that it was on, as long as it is beside it.
+        (0..6).all(|_| {
+            world.step(DT);
+            let peg = world.body(peg).unwrap().pose().p;
+            let seen = world.body(bar).unwrap().pose().unapply(peg);
+            seen.y > 0.0 || seen.x.abs() > half
+        })
     });
+    assert!(played.get() > 100, "only {}", played.get());
 }
