@@ -109,14 +109,16 @@ Examples:
     /// Draw a scene into a PNG picture or a GIF animation
     #[command(
         after_help = "A .png shows the last step; with --every, numbered pictures of every K-th step are written.
-A .gif shows every K-th step (2 where not said) from the start.
-Contact points are coloured by penetration depth; bodies that overlap too deeply take that colour.
+A .gif shows every K-th step (2 where not said) from the start on. The camera holds all that moves in the run, or what
+the scene file's view says; where bodies go far, it goes along.
+With --style debug, contact points are coloured by penetration depth, and bodies that overlap too deeply take that colour.
 
 Examples:
   tiny-physics render seed_demo --steps 300 -o heap.png
   tiny-physics render domino --every 2 -o domino.gif
   tiny-physics render tumbler --area=-11,-1,11,21 --size 800x800 -o drum.png
-  tiny-physics render my_scene.json --show bounds,mass --hide normals -o scene.png"
+  tiny-physics render my_scene.json --style debug --show bounds,mass --hide normals -o scene.png
+  tiny-physics render bowl --from 60 --steps 300 --every 5 --theme dark --colors 64 -o bowl.gif"
     )]
     Render(RenderArgs),
     /// Watch a scene in a window, step by step if you like, and pull at bodies with the mouse
@@ -409,15 +411,23 @@ pub struct RenderArgs {
     /// Steps to run; the scene's own number where not said
     #[arg(long, value_name = "N")]
     pub steps: Option<u32>,
+    /// Leave out the steps before this one
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub from: u32,
     /// Draw every K-th step
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..))]
     pub every: Option<u32>,
     /// Pixels; 1280x720 for pictures, 640x360 for animations where not said
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<(u32, u32)>,
-    /// The part of the world to show, metres; all of the scene's start where not said
+    /// Colours of an animation, 8 to 255: fewer make a smaller file
+    #[arg(long, value_name = "N", default_value_t = 255, value_parser = clap::value_parser!(u16).range(8..=255))]
+    pub colors: u16,
+    /// The part of the world to show, metres; what moves in the run, or what the scene says, where not said
     #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = area, allow_hyphen_values = true)]
     pub area: Option<Area>,
+    #[command(flatten)]
+    pub looks: Looks,
     /// Show more
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     pub show: Vec<Overlay>,
@@ -441,7 +451,40 @@ pub struct ViewArgs {
     #[arg(long)]
     pub paused: bool,
     #[command(flatten)]
+    pub looks: Looks,
+    #[command(flatten)]
     pub world: WorldArgs,
+}
+
+/// How a picture looks.
+#[derive(Args, Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Looks {
+    /// For people who look at it, or for those who look for trouble
+    #[arg(long, value_enum, default_value_t)]
+    pub style: Style,
+    /// By day or by night; the debug style has its own colours
+    #[arg(long, value_enum, default_value_t)]
+    pub theme: Light,
+}
+
+/// What a picture is for.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Style {
+    /// Bodies as one likes to look at them
+    #[default]
+    Show,
+    /// Kinds of bodies, contacts, normals and depths
+    Debug,
+}
+
+/// Bright or dark.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Light {
+    /// By day
+    #[default]
+    Light,
+    /// By night
+    Dark,
 }
 
 /// Things that can be drawn or left out.

@@ -4,6 +4,7 @@ mod args;
 mod commands;
 mod failure;
 mod picture;
+mod preview;
 mod simulation;
 mod source;
 mod text_frame;

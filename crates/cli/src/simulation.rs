@@ -5,9 +5,10 @@ use crate::failure::Outcome;
 use core::fmt;
 use std::time::{Duration, Instant};
 use tiny_physics::record::Command;
-use tiny_physics::{Aabb, BodyKind, DVec2, Pose, Rot, Vec2, World};
+use tiny_physics::{Aabb, BodyKind, DVec2, Pose, Rot, Transform, Vec2, World};
 use tiny_physics_doctor::Doctor;
-use tiny_physics_scenes::{Grip, PausedScript, Run, Scene, Tape};
+use tiny_physics_draw::Water;
+use tiny_physics_scenes::{Deed, Grip, PausedScript, Run, Scene, Script, Tape, When};
 
 /// A scene, its world, and a body that the mouse may hold.
 pub struct Simulation {
@@ -89,6 +90,8 @@ impl fmt::Display for Status {
 
 /// Time for steps between two pictures.
 const PICTURE_TIME: Duration = Duration::from_millis(25);
+/// What a camera leaves free around what it is to show, as a part of that: a view that a scene says is met exactly.
+const EDGE: f32 = 0.04;
 /// Memory of a run that one can go back in, bytes.
 const MEMORY: usize = 256 << 20;
 
@@ -241,25 +244,40 @@ impl Simulation {
         }
     }
 
-    /// What a picture should show at the start: all bodies with room for large ones to turn, but of
+    /// The deepest overlap of all that touches, metres; that of sleeping bodies as it is a step after they were woken.
+    pub fn overlap(&self) -> f32 {
+        let mut world = self.world().clone();
+        let ids: Vec<_> = world.body_ids().collect();
+        for id in ids {
+            if let Some(mut body) = world.body_mut(id) {
+                body.wake();
+            }
+        }
+        world.step(self.dt());
+        // Adding nothing turns -0 into 0.
+        world.max_penetration() + 0.0
+    }
+
+    /// What a picture should show at the start: what the scene says, or all bodies with room for large ones to turn, but of
     /// ground much larger than what moves only the part near it.
     pub fn framing(&self) -> Framing {
-        let world = self.world();
+        if let Some((min, max)) = self.scene.view {
+            let edge = (max - min) * EDGE;
+            return Framing { min: (min + edge).into(), max: (max - edge).into(), goes_on: false };
+        }
+        if let Some(middle) = self.character() {
+            let (min, max) = (middle + Vec2::new(-9.0, -3.5), middle + Vec2::new(9.0, 6.5));
+            return Framing { min, max, goes_on: true };
+        }
         let origin = self.some_position();
-        let reference = Pose::new(origin, Rot::IDENTITY);
-        let (mut moving, mut fixed, mut turning) = (Aabb::EMPTY, Aabb::EMPTY, Vec::new());
-        for shape in world.shape_ids().filter_map(|id| world.shape(id)) {
-            let Some(body) = world.body(shape.body()) else { continue };
-            let frame = body.pose().relative_to(reference);
-            let bounds = shape.shape().aabb(frame.compose(shape.local()));
-            if body.kind() == BodyKind::Static {
-                fixed = fixed.union(&bounds);
-            } else {
-                moving = moving.union(&bounds);
+        let (mut moving, fixed) = self.extents(origin);
+        let mut turning = Vec::new();
+        self.each_shape(origin, |kind, frame, bounds| {
+            if kind != BodyKind::Static {
                 let reach = (bounds.min - frame.p).abs().max((bounds.max - frame.p).abs()).length();
                 turning.push((frame.p, reach));
             }
-        }
+        });
         let large = 0.3 * largest_side(&moving);
         for (center, reach) in turning.into_iter().filter(|(_, reach)| *reach > large) {
             moving = moving.union(&Aabb::from_center(center, Vec2::splat(reach)));
@@ -269,8 +287,58 @@ impl Simulation {
         Framing { min: origin + bounds.min, max: origin + bounds.max, goes_on }
     }
 
-    /// The point with as many moving bodies left as right of it, and above as below.
+    /// Boxes around what moves and what stands still, relative to a point.
+    fn extents(&self, origin: DVec2) -> (Aabb, Aabb) {
+        let (mut moving, mut fixed) = (Aabb::EMPTY, Aabb::EMPTY);
+        self.each_shape(origin, |kind, _, bounds| {
+            let all = if kind == BodyKind::Static { &mut fixed } else { &mut moving };
+            *all = all.union(&bounds);
+        });
+        (moving, fixed)
+    }
+
+    /// Kind and frame of each shape's body, and the shape's box, relative to a point.
+    pub fn each_shape(&self, origin: DVec2, mut see: impl FnMut(BodyKind, Transform, Aabb)) {
+        let reference = Pose::new(origin, Rot::IDENTITY);
+        for shape in self.world().shapes() {
+            let Some(body) = self.world().body(shape.body()) else { continue };
+            let frame = body.pose().relative_to(reference);
+            see(body.kind(), frame, shape.shape().aabb(frame.compose(shape.local())));
+        }
+    }
+
+    /// The water of the scene at the moment, which its world does not know.
+    pub fn waters(&self) -> Vec<Water> {
+        let step = self.world().step_count();
+        let Some(Script::Timeline(timeline)) = &self.scene.script else { return Vec::new() };
+        let now = timeline.acts.iter().filter(|act| match act.when {
+            When::Always => true,
+            When::At(at) => u64::from(at) == step,
+            When::During(from, to) => (u64::from(from)..u64::from(to)).contains(&step),
+            When::Entered(_) => false,
+        });
+        let waters = now.filter_map(|act| match act.deed {
+            Deed::Water { surface, between, .. } => Some(Water {
+                surface: surface.into(),
+                between: between.map(|(left, right)| (left.into(), right.into())),
+            }),
+            _ => None,
+        });
+        waters.collect()
+    }
+
+    /// Where the scene's character is, if it has one.
+    pub fn character(&self) -> Option<DVec2> {
+        let Some(Script::Character(character)) = &self.scene.script else { return None };
+        let id = self.world().body_ids().nth(character.body)?;
+        Some(self.world().body(id)?.center())
+    }
+
+    /// Where the scene's character is, or the point with as many moving bodies left as right of it, and above as below.
     pub fn middle_of_motion(&self) -> Option<DVec2> {
+        if let Some(character) = self.character() {
+            return Some(character);
+        }
         let world = self.world();
         let bodies = world.body_ids().filter_map(|id| world.body(id));
         let moving = bodies.filter(|body| body.kind() != BodyKind::Static);
@@ -281,7 +349,8 @@ impl Simulation {
         Some(DVec2::new(*xs.get(xs.len() / 2)?, *ys.get(ys.len() / 2)?))
     }
 
-    fn some_position(&self) -> DVec2 {
+    /// Where some body is: a point near all that matters.
+    pub fn some_position(&self) -> DVec2 {
         let world = self.world();
         let first = world.body_ids().find_map(|id| world.body(id));
         first.map_or(DVec2::ZERO, |body| body.position_f64())
@@ -341,7 +410,7 @@ fn part_of_interest(moving: Aabb, fixed: Aabb) -> Aabb {
     }
 }
 
-fn largest_side(bounds: &Aabb) -> f32 {
+pub fn largest_side(bounds: &Aabb) -> f32 {
     let size = bounds.max - bounds.min;
     size.x.max(size.y)
 }

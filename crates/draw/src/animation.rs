@@ -10,6 +10,7 @@ use std::io::Write;
 /// of each frame only what has changed.
 pub struct Animation<W: Write> {
     state: State<W>,
+    colors: Option<ColorTable>,
     /// Hundredths of a second.
     delay: u16,
 }
@@ -28,15 +29,18 @@ struct Running<W: Write> {
     shown: Vec<u8>,
 }
 
-/// The index that means "as before".
-const TRANSPARENT: u8 = 255;
-
 impl<W: Write> Animation<W> {
     /// An endless animation that shows each frame for `delay_ms` milliseconds; players treat less
     /// than 20 as 100.
     pub fn new(writer: W, delay_ms: u32) -> Self {
         let delay = (delay_ms.clamp(20, 60_000) + 5) / 10;
-        Self { state: State::Waiting(writer), delay: delay as u16 }
+        Self { state: State::Waiting(writer), colors: None, delay: delay as u16 }
+    }
+
+    /// Sets the colours, where not those of the first frame and of debug drawings.
+    pub fn colors(mut self, colors: ColorTable) -> Self {
+        self.colors = Some(colors);
+        self
     }
 
     /// Adds a frame; all must have the size of the first.
@@ -46,7 +50,9 @@ impl<W: Write> Animation<W> {
     pub fn add(&mut self, canvas: &Canvas) -> Result<(), DrawError> {
         match core::mem::replace(&mut self.state, State::Failed) {
             State::Waiting(writer) => {
-                let mut running = Running::start(writer, canvas)?;
+                let own = || ColorTable::for_frames(canvas.rgb());
+                let table = self.colors.take().unwrap_or_else(own);
+                let mut running = Running::start(writer, canvas, table)?;
                 running.write_first(canvas, self.delay)?;
                 self.state = State::Running(Box::new(running));
             }
@@ -55,6 +61,28 @@ impl<W: Write> Animation<W> {
                 self.state = State::Running(running);
             }
             State::Failed => return Err(DrawError::Encode("an earlier frame failed".into())),
+        }
+        Ok(())
+    }
+
+    /// Lets the last frame be seen for `ms` milliseconds more.
+    ///
+    /// # Errors
+    /// What the writer says.
+    pub fn hold(&mut self, ms: u32) -> Result<(), DrawError> {
+        if let State::Running(running) = &mut self.state {
+            let delay = (ms.clamp(20, 60_000) / 10) as u16;
+            let transparent = running.table.len() as u8;
+            let frame = Frame {
+                delay,
+                dispose: DisposalMethod::Keep,
+                transparent: Some(transparent),
+                width: 1,
+                height: 1,
+                buffer: vec![transparent].into(),
+                ..Frame::default()
+            };
+            running.encoder.write_frame(&frame).map_err(encode_error)?;
         }
         Ok(())
     }
@@ -73,8 +101,7 @@ impl<W: Write> Animation<W> {
 }
 
 impl<W: Write> Running<W> {
-    fn start(writer: W, canvas: &Canvas) -> Result<Self, DrawError> {
-        let table = ColorTable::for_frames(canvas.rgb());
+    fn start(writer: W, canvas: &Canvas, table: ColorTable) -> Result<Self, DrawError> {
         let (width, height) = (canvas.width() as u16, canvas.height() as u16);
         let mut encoder =
             Encoder::new(writer, width, height, &table.bytes()).map_err(encode_error)?;
@@ -104,17 +131,19 @@ impl<W: Write> Running<W> {
             return Err(DrawError::Encode("frames of different sizes".into()));
         }
         let (left, top, right, bottom) = self.changed(&next);
+        // The index after the last colour means "as before".
+        let transparent = self.table.len() as u8;
         let mut buffer = Vec::with_capacity((right - left) * (bottom - top));
         for row in top..bottom {
             let line = row * self.width + left..row * self.width + right;
             let pairs = next[line.clone()].iter().zip(&self.shown[line]);
-            buffer.extend(pairs.map(|(new, old)| if new == old { TRANSPARENT } else { *new }));
+            buffer.extend(pairs.map(|(new, old)| if new == old { transparent } else { *new }));
         }
         self.shown = next;
         let frame = Frame {
             delay,
             dispose: DisposalMethod::Keep,
-            transparent: Some(TRANSPARENT),
+            transparent: Some(transparent),
             left: left as u16,
             top: top as u16,
             width: (right - left) as u16,
@@ -166,6 +195,7 @@ mod tests {
         for x in [-2.0, -2.0, 1.5] {
             animation.add(&frame(x)).unwrap();
         }
+        animation.hold(500).unwrap();
         let bytes = animation.finish().unwrap();
 
         let mut options = gif::DecodeOptions::new();
@@ -174,8 +204,8 @@ mod tests {
         let mut screen = vec![[0_u8; 3]; 64 * 48];
         let mut count = 0;
         while let Some(part) = decoder.read_next_frame().unwrap() {
-            assert_eq!(part.delay, 5);
             count += 1;
+            assert_eq!(part.delay, if count == 4 { 50 } else { 5 });
             for (i, p) in part.buffer.chunks_exact(4).enumerate() {
                 let (x, y) = (i % usize::from(part.width), i / usize::from(part.width));
                 let at = (y + usize::from(part.top)) * 64 + x + usize::from(part.left);
@@ -184,7 +214,7 @@ mod tests {
                 }
             }
         }
-        assert_eq!(count, 3);
+        assert_eq!(count, 4);
         for (shown, meant) in screen.iter().zip(frame(1.5).rgb()) {
             let off = (0..3).map(|i| shown[i].abs_diff(meant[i])).max();
             assert!(off <= Some(24), "{shown:?} for {meant:?}");

@@ -32,11 +32,16 @@ impl Camera {
         Self { center: (min + max) * 0.5, scale, width, height }
     }
 
-    /// Like [`Camera::fit`], but leaves `pixels` free along the lower edge for a legend.
-    pub fn fit_above(min: DVec2, max: DVec2, width: u32, height: u32, pixels: u32) -> Self {
-        let room = height.saturating_sub(pixels).max(height / 2);
+    /// Like [`Camera::fit`], but leaves pixels free along the upper and the lower edge, for text and a legend.
+    pub fn fit_between(
+        min: DVec2,
+        max: DVec2,
+        (width, height): (u32, u32),
+        [above, below]: [u32; 2],
+    ) -> Self {
+        let room = height.saturating_sub(above + below).max(height / 2);
         let mut camera = Self { height, ..Self::fit(min, max, width, room) };
-        camera.pan(Vec2::new(0.0, -0.5 * (height - room) as f32));
+        camera.pan(Vec2::new(0.0, 0.5 * (above as f32 - below as f32)));
         camera
     }
 
@@ -107,7 +112,7 @@ mod tests {
 
     #[test]
     fn room_for_a_legend_stays_free() {
-        let camera = Camera::fit_above(DVec2::ZERO, DVec2::new(10.0, 10.0), 400, 400, 100);
+        let camera = Camera::fit_between(DVec2::ZERO, DVec2::new(10.0, 10.0), (400, 400), [0, 100]);
         let lower = camera.to_pixels(DVec2::new(5.0, 0.0).relative_to(camera.center));
         let upper = camera.to_pixels(DVec2::new(5.0, 10.0).relative_to(camera.center));
         assert!(lower.y < 300.0 && upper.y > 0.0, "{lower} {upper}");

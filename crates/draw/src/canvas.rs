@@ -2,7 +2,8 @@
 
 use crate::camera::Camera;
 use crate::error::DrawError;
-use crate::{font, outline};
+use crate::font;
+use crate::paths::polyline;
 use tiny_physics::{Color, DebugDraw, Layer, Transform, Vec2};
 use tiny_skia::{
     FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Rect, Stroke,
@@ -18,11 +19,17 @@ pub struct Canvas {
     pub(crate) pixmap: Pixmap,
     camera: Camera,
     layer: Layer,
+    /// Paper and ink of notes.
+    pub(crate) note: [Color; 2],
+    /// Height of the strip with the status, pixels.
+    pub(crate) strip: i32,
 }
 
 /// Widths in pixels.
 const OUTLINE_WIDTH: f32 = 1.4;
 const LINE_WIDTH: f32 = 1.6;
+/// Paper and ink of notes beside debug drawings.
+const NOTE: [Color; 2] = [Color::rgb(30, 34, 43), Color::rgb(226, 230, 238)];
 /// Shapes smaller than this many pixels are plain squares: an outline would hide them.
 const TINY: f32 = 2.5;
 
@@ -42,7 +49,7 @@ impl Canvas {
         }
         let pixmap = Pixmap::new(width, height).ok_or(size)?;
         let camera = Camera { center: tiny_physics::DVec2::ZERO, scale: 1.0, width, height };
-        Ok(Self { pixmap, camera, layer: Layer::Awake })
+        Ok(Self { pixmap, camera, layer: Layer::Awake, note: NOTE, strip: 0 })
     }
 
     /// A picture of given pixels: red, green and blue, row by row from the top.
@@ -74,6 +81,7 @@ impl Canvas {
     pub fn begin(&mut self, camera: &Camera) {
         self.camera = Camera { width: self.width(), height: self.height(), ..*camera };
         self.pixmap.fill(skia_color(Self::BACKGROUND));
+        (self.note, self.strip) = (NOTE, 0);
     }
 
     /// The camera of the frame.
@@ -111,7 +119,7 @@ impl Canvas {
         }
     }
 
-    fn stroke_path(&mut self, path: &Path, width: f32, color: Color) {
+    pub(crate) fn stroke_path(&mut self, path: &Path, width: f32, color: Color) {
         let stroke = Stroke {
             width,
             line_cap: LineCap::Round,
@@ -122,10 +130,7 @@ impl Canvas {
     }
 
     pub(crate) fn line(&mut self, a: Vec2, b: Vec2, width: f32, color: Color) {
-        let mut path = PathBuilder::new();
-        path.move_to(a.x, a.y);
-        path.line_to(b.x, b.y);
-        if let Some(path) = path.finish() {
+        if let Some(path) = polyline(&[a, b]) {
             self.stroke_path(&path, width, color);
         }
     }
@@ -134,11 +139,6 @@ impl Canvas {
     fn body(&mut self, path: Option<Path>, color: Color) {
         let Some(path) = path else { return };
         let bounds = path.bounds();
-        let far = 4.0 * self.width().max(self.height()) as f32;
-        let near = bounds.left() > -far && bounds.top() > -far;
-        if !(near && bounds.right() < far && bounds.bottom() < far) {
-            return;
-        }
         if bounds.width() < TINY && bounds.height() < TINY {
             let size = bounds.width().max(bounds.height()).max(1.0);
             self.fill_rect(bounds.left(), bounds.top(), size, size, color);
@@ -155,75 +155,6 @@ impl Canvas {
         let small = bounds.width().min(bounds.height()) < 8.0;
         self.stroke_path(&path, if small { 1.0 } else { OUTLINE_WIDTH }, color);
     }
-
-    /// A circle far larger than the picture would overflow the rasteriser's numbers: it goes as a
-    /// polygon that can be cut.
-    fn giant_circle(&mut self, pose: &Transform, radius: f32, color: Color) {
-        const CORNERS: usize = 720;
-        let step = core::f32::consts::TAU / CORNERS as f32;
-        let corner = |i: usize| Transform::from_angle(Vec2::ZERO, i as f32 * step).q.x_axis();
-        let corners: Vec<_> = (0..CORNERS).map(|i| corner(i) * radius).collect();
-        self.polygon(pose, &corners, 0.0, color);
-    }
-
-    /// Is a disk of `radius` metres around `p` out of the picture, or not a number?
-    fn unseen(&self, p: Vec2, radius: f32) -> bool {
-        let half = self.camera.view().half_extents() + Vec2::splat(radius);
-        let seen = p.x.abs() <= half.x && p.y.abs() <= half.y;
-        !seen
-    }
-
-    /// A line of the world cut to what the picture can show: huge coordinates would overflow the
-    /// rasteriser. `None` where nothing is left.
-    fn cut_line(&self, a: Vec2, b: Vec2) -> Option<(Vec2, Vec2)> {
-        if !a.is_finite() || !b.is_finite() {
-            return None;
-        }
-        let half = self.camera.view().half_extents() * 1.1;
-        let (mut enter, mut leave) = (0.0_f32, 1.0_f32);
-        let way = b - a;
-        for axis in 0..2 {
-            for (distance, speed) in
-                [(half[axis] - a[axis], way[axis]), (half[axis] + a[axis], -way[axis])]
-            {
-                if speed == 0.0 {
-                    if distance < 0.0 {
-                        return None;
-                    }
-                } else if speed > 0.0 {
-                    leave = leave.min(distance / speed);
-                } else {
-                    enter = enter.max(distance / speed);
-                }
-            }
-        }
-        (enter < leave).then(|| (a.lerp(b, enter), a.lerp(b, leave)))
-    }
-
-    /// Cuts a convex polygon to a box somewhat larger than the picture (Sutherland-Hodgman), so that
-    /// huge ground boxes stay within the rasteriser's numbers.
-    fn cut_polygon(&self, points: Vec<Vec2>) -> Vec<Vec2> {
-        let half = self.camera.view().half_extents() * 1.5;
-        let sides = [(Vec2::X, half.x), (-Vec2::X, half.x), (Vec2::Y, half.y), (-Vec2::Y, half.y)];
-        let inside_all = points.iter().all(|p| p.x.abs() <= half.x && p.y.abs() <= half.y);
-        if inside_all {
-            return points;
-        }
-        sides.into_iter().fold(points, |points, (normal, offset)| {
-            let mut kept = Vec::with_capacity(points.len() + 2);
-            for (i, &p) in points.iter().enumerate() {
-                let q = points[(i + 1) % points.len()];
-                let (out_p, out_q) = (p.dot(normal) - offset, q.dot(normal) - offset);
-                if out_p <= 0.0 {
-                    kept.push(p);
-                }
-                if (out_p < 0.0) != (out_q < 0.0) && out_p != out_q {
-                    kept.push(p.lerp(q, (out_p / (out_p - out_q)).clamp(0.0, 1.0)));
-                }
-            }
-            kept
-        })
-    }
 }
 
 impl DebugDraw for Canvas {
@@ -232,55 +163,31 @@ impl DebugDraw for Canvas {
     }
 
     fn polygon(&mut self, pose: &Transform, vertices: &[Vec2], radius: f32, color: Color) {
-        let reach = vertices.iter().fold(0.0_f32, |reach, v| reach.max(v.length())) + radius;
-        if self.unseen(pose.p, reach) {
-            return;
-        }
-        let points = self.cut_polygon(vertices.iter().map(|v| pose.apply(*v)).collect());
-        let points: Vec<_> = points.iter().map(|p| self.camera.to_pixels(*p)).collect();
-        self.body(outline::rounded(&points, radius * self.camera.scale), color);
+        self.body(self.camera.polygon_path(pose, vertices, radius), color);
     }
 
     fn circle(&mut self, pose: &Transform, radius: f32, color: Color) {
-        if self.unseen(pose.p, radius) {
-            return;
-        }
-        let center = self.camera.to_pixels(pose.p);
+        let Some(path) = self.camera.circle_path(pose, radius) else { return };
+        self.body(Some(path), color);
         let size = radius * self.camera.scale;
-        if size > self.width().max(self.height()) as f32 {
-            self.giant_circle(pose, radius, color);
-            return;
-        }
-        self.body(PathBuilder::from_circle(center.x, center.y, size), color);
-        if size > 3.0 {
+        if size > 3.0 && size <= self.width().max(self.height()) as f32 {
             let rim = self.camera.to_pixels(pose.apply(Vec2::new(radius, 0.0)));
-            self.line(center, rim, 1.0, color);
+            self.line(self.camera.to_pixels(pose.p), rim, 1.0, color);
         }
     }
 
     fn capsule(&mut self, a: Vec2, b: Vec2, radius: f32, color: Color) {
-        let Some((a, b)) = self.cut_line(a, b).or((a == b).then_some((a, b))) else { return };
-        let middle = (a + b) * 0.5;
-        if self.unseen(middle, radius + a.distance(b)) {
-            return;
-        }
-        let points = [self.camera.to_pixels(a), self.camera.to_pixels(b)];
-        let size = radius * self.camera.scale;
-        if a == b {
-            self.body(PathBuilder::from_circle(points[0].x, points[0].y, size), color);
-        } else {
-            self.body(outline::rounded(&points, size), color);
-        }
+        self.body(self.camera.capsule_path(a, b, radius), color);
     }
 
     fn segment(&mut self, a: Vec2, b: Vec2, color: Color) {
-        let Some((a, b)) = self.cut_line(a, b) else { return };
-        let (a, b) = (self.camera.to_pixels(a), self.camera.to_pixels(b));
-        self.line(a, b, LINE_WIDTH, color);
+        if let Some(path) = self.camera.line_path(a, b) {
+            self.stroke_path(&path, LINE_WIDTH, color);
+        }
     }
 
     fn point(&mut self, p: Vec2, size_px: f32, color: Color) {
-        if self.unseen(p, size_px / self.camera.scale) {
+        if self.camera.unseen(p, size_px / self.camera.scale) {
             return;
         }
         let p = self.camera.to_pixels(p);
@@ -290,18 +197,18 @@ impl DebugDraw for Canvas {
     }
 
     fn text(&mut self, p: Vec2, text: &str, color: Color) {
-        if !self.unseen(p, 0.0) {
+        if !self.camera.unseen(p, 0.0) {
             let p = self.camera.to_pixels(p);
             font::draw(&mut self.pixmap, p.x as i32 + 4, p.y as i32 - 8, text, color);
         }
     }
 }
 
-fn skia_color(color: Color) -> tiny_skia::Color {
+pub fn skia_color(color: Color) -> tiny_skia::Color {
     tiny_skia::Color::from_rgba8(color.r, color.g, color.b, color.a)
 }
 
-fn paint(color: Color) -> Paint<'static> {
+pub fn paint(color: Color) -> Paint<'static> {
     let mut paint = Paint { anti_alias: true, ..Paint::default() };
     paint.set_color(skia_color(color));
     paint

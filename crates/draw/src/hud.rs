@@ -16,19 +16,31 @@ impl Canvas {
     /// Height that the legend takes along the lower edge, pixels.
     pub const LEGEND_HEIGHT: u32 = 78;
 
-    /// Lines of text in the upper left corner; the first stands out.
-    pub fn status<S: AsRef<str>>(&mut self, lines: &[S]) {
-        self.text_panel(MARGIN, MARGIN, lines);
+    /// Height that so many lines of [`Canvas::status`] take along the upper edge, pixels.
+    pub const fn status_height(lines: u32) -> u32 {
+        if lines == 0 { 0 } else { lines * LINE_HEIGHT as u32 + MARGIN as u32 }
     }
 
-    /// Lines of text in the upper right corner.
+    /// Lines of text in a strip of their own along the upper edge; the first stands out.
+    pub fn status<S: AsRef<str>>(&mut self, lines: &[S]) {
+        let [paper, ink] = self.note;
+        self.strip = Self::status_height(lines.len() as u32) as i32;
+        self.fill_rect(0.0, 0.0, self.width() as f32, self.strip as f32, paper);
+        for (i, line) in lines.iter().enumerate() {
+            let color = if i == 0 { ink } else { ink.mix(paper, 0.3) };
+            let y = MARGIN / 2 + i as i32 * LINE_HEIGHT;
+            font::draw(&mut self.pixmap, MARGIN, y, line.as_ref(), color);
+        }
+    }
+
+    /// Lines of text on the picture, in its upper right corner.
     pub fn side_text<S: AsRef<str>>(&mut self, lines: &[S]) {
         let widest = lines.iter().map(|line| font::width(line.as_ref())).max().unwrap_or(0);
         let x = self.width() as i32 - widest - 3 * MARGIN;
-        self.text_panel(x, MARGIN, lines);
+        self.text_panel(x, self.strip + MARGIN, lines);
     }
 
-    /// The legend along the lower edge: the colours of bodies, and the scale of penetration depth.
+    /// The legend in a strip along the lower edge: the colours of bodies, and the scale of penetration depth.
     /// Pictures that are too small for it go without.
     pub fn legend(&mut self, palette: &Palette) {
         let (width, height) = (self.width() as i32, self.height() as i32);
@@ -36,6 +48,8 @@ impl Canvas {
         if height < 160 || width < bar_panel + 2 * MARGIN {
             return;
         }
+        let strip = Self::LEGEND_HEIGHT as f32;
+        self.fill_rect(0.0, height as f32 - strip, width as f32, strip, self.note[0]);
         self.depth_legend(width - bar_panel - MARGIN, height - MARGIN);
         let names = [
             ("static", Layer::Static),

@@ -1,6 +1,7 @@
 //! Pictures of tiny-physics worlds.
 //!
-//! One rasteriser, [`Canvas`], draws what the engine's [`DebugDraw`](tiny_physics::DebugDraw) says;
+//! One rasteriser, [`Canvas`], draws what the engine's [`DebugDraw`](tiny_physics::DebugDraw) says, or paints a world in a
+//! presentation style ([`Canvas::paint`]) with the colours of a [`Theme`];
 //! PNG files, GIF animations ([`Animation`]) and the [`Window`] all show its pixels. [`TextView`]
 //! draws the same calls with letters.
 //!
@@ -23,8 +24,11 @@ mod error;
 mod font;
 mod hud;
 mod outline;
+mod painting;
 mod palette;
+mod paths;
 mod text_view;
+mod theme;
 #[cfg(feature = "window")]
 mod window;
 
@@ -32,6 +36,9 @@ pub use animation::Animation;
 pub use camera::Camera;
 pub use canvas::Canvas;
 pub use error::DrawError;
+pub use painting::{Painting, Water};
+pub use palette::ColorTable;
 pub use text_view::TextView;
+pub use theme::Theme;
 #[cfg(feature = "window")]
 pub use window::{Input, Key, Window};

@@ -4,9 +4,16 @@ use tiny_physics::Vec2;
 use tiny_skia::{Path, PathBuilder};
 
 /// The outline of the convex polygon `points` (in order, pixels), pushed out by `radius` pixels. Two
-/// points give a capsule. `None` where there is nothing to draw.
+/// points give a capsule. `None` where there is nothing to draw. All go round in the same sense, that of circles.
 pub fn rounded(points: &[Vec2], radius: f32) -> Option<Path> {
     let mut path = PathBuilder::new();
+    let turned: Vec<Vec2>;
+    let points = if turn_of(points) < 0.0 {
+        turned = points.iter().rev().copied().collect();
+        &turned
+    } else {
+        points
+    };
     if points.len() < 2 || radius <= 0.0 {
         for (i, p) in points.iter().enumerate() {
             if i == 0 { path.move_to(p.x, p.y) } else { path.line_to(p.x, p.y) }
@@ -26,6 +33,17 @@ pub fn rounded(points: &[Vec2], radius: f32) -> Option<Path> {
             before = after;
         }
     }
+    path.close();
+    path.finish()
+}
+
+/// The half of a disk that lies on the right of `way` (on a screen, y down), which is as long as the radius.
+pub fn half_disk(center: Vec2, way: Vec2) -> Option<Path> {
+    let (from, radius) = (way.normalized(), way.length());
+    let mut path = PathBuilder::new();
+    path.move_to(center.x + way.x, center.y + way.y);
+    arc(&mut path, center, radius, from, from.perp());
+    arc(&mut path, center, radius, from.perp(), -from);
     path.close();
     path.finish()
 }
@@ -76,6 +94,32 @@ mod tests {
             let bounds = rounded(&points, 3.0).unwrap().compute_tight_bounds().unwrap();
             assert!((bounds.left() + 3.0).abs() < 0.02 && (bounds.right() - 13.0).abs() < 0.02);
             assert!((bounds.top() + 3.0).abs() < 0.02 && (bounds.bottom() - 3.0).abs() < 0.02);
+        }
+    }
+
+    #[test]
+    fn where_outlines_overlap_there_is_no_hole() {
+        let circle = PathBuilder::from_circle(20.0, 20.0, 8.0).unwrap();
+        let mut corners = [
+            Vec2::new(12.0, 12.0),
+            Vec2::new(34.0, 12.0),
+            Vec2::new(34.0, 34.0),
+            Vec2::new(12.0, 34.0),
+        ];
+        let capsule = rounded(&[Vec2::new(10.0, 20.0), Vec2::new(30.0, 20.0)], 4.0).unwrap();
+        for _ in 0..2 {
+            corners.reverse();
+            let square = rounded(&corners, 0.0).unwrap();
+            for other in [&circle, &capsule] {
+                let mut both = PathBuilder::new();
+                both.push_path(&square);
+                both.push_path(other);
+                let mut mask = tiny_skia::Mask::new(40, 40).unwrap();
+                let identity = tiny_skia::Transform::identity();
+                let rule = tiny_skia::FillRule::Winding;
+                mask.fill_path(&both.finish().unwrap(), rule, true, identity);
+                assert_eq!(mask.data()[20 * 40 + 20], 255);
+            }
         }
     }
 

@@ -4,6 +4,7 @@ use crate::canvas::Canvas;
 use std::collections::HashMap;
 use tiny_physics::{Color, DEPTH_SCALE, Layer, Palette};
 
+/// Red, green and blue.
 type Rgb = [u8; 3];
 
 /// Colours that an animation may use, chosen by median cut, and the way to the nearest.
@@ -17,21 +18,36 @@ impl ColorTable {
     /// Greatest number of colours; one of 256 is kept for "as before".
     pub const MAX_COLORS: usize = 255;
 
-    /// A table for the colours of a first frame and everything that later frames can bring: bodies
+    /// A table for the colours of a first frame and everything that later frames of a debug drawing can bring: bodies
     /// that fall asleep, depths, text, each with its shades against the background.
     pub fn for_frames(first: impl Iterator<Item = Rgb>) -> Self {
+        const EXPECTED: usize = 50;
+        let expected = drawing_colors();
+        let expected = expected.iter().flat_map(|color| core::iter::repeat_n(*color, EXPECTED));
+        Self::of(first.chain(expected), Self::MAX_COLORS + 1)
+    }
+
+    /// A table of fewer than `most` colours (8 to 256) for pixels like these: frequent ones are met best.
+    pub fn of(pixels: impl IntoIterator<Item = Rgb>, most: usize) -> Self {
         let mut counts: HashMap<Rgb, f32> = HashMap::new();
-        for color in first {
+        for color in pixels {
             *counts.entry(color).or_default() += 1.0;
-        }
-        let expected = 50.0;
-        for color in drawing_colors() {
-            *counts.entry(color).or_default() += expected;
         }
         let mut weighted: Vec<_> =
             counts.into_iter().map(|(color, count)| (color, count.sqrt())).collect();
         weighted.sort_by_key(|(color, _)| *color);
-        Self { colors: median_cut(weighted, Self::MAX_COLORS), known: HashMap::new() }
+        let most = (most - 1).clamp(7, Self::MAX_COLORS);
+        Self { colors: median_cut(weighted, most), known: HashMap::new() }
+    }
+
+    /// Number of colours.
+    pub fn len(&self) -> usize {
+        self.colors.len()
+    }
+
+    /// Has it no colour? Only where there were no pixels.
+    pub fn is_empty(&self) -> bool {
+        self.colors.is_empty()
     }
 
     /// Red, green, blue of all colours in a row.

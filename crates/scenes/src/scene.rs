@@ -43,6 +43,8 @@ pub struct Scene {
     pub steps: u32,
     /// Length of a step, seconds.
     pub dt: f32,
+    /// What a picture should show: lower left and upper right corner, metres. Where it is not said, what moves.
+    pub view: Option<(Vec2, Vec2)>,
     /// The bodies; their order gives them their index.
     pub bodies: Vec<RigidBody>,
     /// The joints, in the order in which they are added.
@@ -62,6 +64,7 @@ impl Default for Scene {
             settings: Settings::default(),
             steps: 600,
             dt: 1.0 / 60.0,
+            view: None,
             bodies: Vec::new(),
             joints: Vec::new(),
             script: None,
@@ -144,6 +147,7 @@ impl Scene {
         finite_vec("gravity", self.gravity)?;
         check_settings(&self.settings).map_err(|e| e.under("settings"))?;
         positive("dt", self.dt)?;
+        check_view(self.view).map_err(|e| e.under("view"))?;
         each("bodies", &self.bodies, check_body)?;
         each("joints", &self.joints, |joint| check_scene_joint(joint, self.bodies.len()))?;
         match &self.script {
@@ -151,6 +155,14 @@ impl Scene {
             None => Ok(()),
         }
     }
+}
+
+fn check_view(view: Option<(Vec2, Vec2)>) -> Check {
+    let Some((min, max)) = view else { return Ok(()) };
+    finite_vec("[0]", min)?;
+    finite_vec("[1]", max)?;
+    positive("width", max.x - min.x)?;
+    positive("height", max.y - min.y)
 }
 
 fn check_scene_joint(joint: &SceneJoint, bodies: usize) -> Check {

@@ -13,6 +13,8 @@ const COLUMNS: usize = 80;
 const ROWS: usize = 24;
 /// Printed frames: these steps, and the last.
 const FRAMES: [u64; 4] = [0, 45, 90, 150];
+/// An overlap that is seen, metres.
+const DEEP: f32 = 0.01;
 /// Steps at most; it ends earlier when everything sleeps.
 const MOST_STEPS: u64 = 1800;
 
@@ -32,7 +34,7 @@ pub fn run(args: &DemoArgs) -> Outcome {
 fn print_frames(out: &mut impl Write, mut simulation: Simulation, args: &DemoArgs) -> Outcome {
     let framing = simulation.framing();
     let mut view = TextView::new(COLUMNS, ROWS);
-    let mut deepest = 0.0_f32;
+    let (mut deepest, mut deep) = (0.0_f32, 0);
     let mut print = |simulation: &Simulation| -> Outcome {
         text_frame::draw(&mut view, simulation, &framing);
         writeln!(out, "--- {}", simulation.status())?;
@@ -52,7 +54,9 @@ fn print_frames(out: &mut impl Write, mut simulation: Simulation, args: &DemoArg
             break;
         }
         simulation.step();
-        deepest = deepest.max(simulation.world().max_penetration());
+        let depth = simulation.world().max_penetration();
+        deepest = deepest.max(depth);
+        deep += u64::from(depth > DEEP);
     }
     let status = simulation.status();
     let seconds = status.frame as f32 * simulation.dt();
@@ -68,7 +72,9 @@ fn print_frames(out: &mut impl Write, mut simulation: Simulation, args: &DemoArg
     )?;
     writeln!(
         out,
-        "Deepest penetration on the way {:.1} mm; state {:016x}.",
+        "Overlaps: {:.1} mm now; on the way over {:.0} mm in {deep} frames, where they hit hardest {:.1} mm. State {:016x}.",
+        simulation.overlap() * 1000.0,
+        DEEP * 1000.0,
         deepest * 1000.0,
         simulation.world().state_hash()
     )?;

@@ -135,8 +135,10 @@ fn take_picture(canvas: &mut Canvas, world: &World, finding: &Finding, path: &Pa
     let corner = DVec2::new(1.6 * reach, reach);
     let camera = Camera::fit(center - corner, center + corner, SIZE.0, SIZE.1);
     let text = [format!("{}   step {}", finding.code, finding.first_step), finding.what.clone()];
-    picture::draw_world(canvas, world, &camera, &Overlays::default(), &text);
+    let overlays = Overlays::debug();
+    picture::draw_world(canvas, world, &camera, &overlays, Vec::new());
     mark(canvas, world, &camera, finding);
+    picture::draw_notes(canvas, &overlays, &text);
     std::fs::write(path, canvas.to_png()?)?;
     // Not among the report's lines, which a program may read.
     Ok(writeln!(stderr(), "{}", path.display())?)

@@ -4,15 +4,19 @@ use super::run::Progress;
 use crate::args::{Area, RenderArgs};
 use crate::failure::{Failure, Outcome};
 use crate::picture::{self, Follower, Overlays};
+use crate::preview::Preview;
 use crate::simulation::Simulation;
 use crate::source;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
-use tiny_physics_draw::{Animation, Camera, Canvas};
+use tiny_physics_draw::{Animation, Camera, Canvas, ColorTable};
 
 /// Draws every so many steps of an animation, where not said: 30 frames a second.
 const USUAL_EVERY: u32 = 2;
+
+/// How long an animation stays at its end, milliseconds.
+const HOLD_MS: u32 = 800;
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Format {
@@ -28,25 +32,29 @@ pub fn run(args: &RenderArgs) -> Outcome {
     let format = format_of(&args.output)?;
     let scene = source::open(&args.scene, args.world.seed)?;
     let steps = args.steps.unwrap_or(scene.steps);
-    let simulation = Simulation::new(scene, &args.world)?;
-    let (width, height) = args.size.unwrap_or(match format {
+    let size = args.size.unwrap_or(match format {
         Format::Png => (1280, 720),
         Format::Gif => (640, 360),
     });
+    let overlays = Overlays::of(args.looks).but(&args.show, &args.hide);
+    let one = format == Format::Png && args.every.is_none();
+    let first = if one { steps } else { args.from };
+    let preview = Preview::of(scene.clone(), &args.world, first..=steps)?;
+    let simulation = Simulation::new(scene, &args.world)?;
     let eye = match args.area {
         Some(Area { min, max }) => {
-            Follower::fixed(Camera::fit(min.into(), max.into(), width, height))
+            let (min, max) = (min.into(), max.into());
+            Follower::fixed(Camera::fit_between(min, max, size, overlays.room()))
         }
-        None => Follower::on(&simulation, width, height),
+        None => Follower::on(&simulation, &preview.framing, size, overlays.room()),
     };
-    let mut film = Film {
-        simulation,
-        eye,
-        canvas: Canvas::new(width, height)?,
-        overlays: Overlays::new(&args.show, &args.hide),
-    };
+    let canvas = Canvas::new(size.0, size.1)?;
+    let mut film = Film { simulation, eye, canvas, overlays, from: args.from };
     match (format, args.every) {
-        (Format::Gif, every) => film.gif(&args.output, steps, every.unwrap_or(USUAL_EVERY)),
+        (Format::Gif, every) => {
+            let colors = film.colors(&preview, args.colors)?;
+            film.gif(&args.output, steps, every.unwrap_or(USUAL_EVERY), colors)
+        }
         (Format::Png, None) => film.png(&args.output, steps),
         (Format::Png, Some(every)) => film.series(&args.output, steps, every),
     }
@@ -67,6 +75,8 @@ struct Film {
     eye: Follower,
     canvas: Canvas,
     overlays: Overlays,
+    /// Steps before this one are left out.
+    from: u32,
 }
 
 impl Film {
@@ -74,6 +84,20 @@ impl Film {
         self.eye.follow(&self.simulation);
         let camera = &self.eye.camera;
         picture::draw(&mut self.canvas, &self.simulation, camera, &self.overlays, "");
+    }
+
+    /// The colours of the whole animation, from moments of it.
+    fn colors(&mut self, preview: &Preview, most: u16) -> Outcome<ColorTable> {
+        let (mut eye, overlays) = (self.eye, self.overlays);
+        let mut colors = Vec::new();
+        for (world, middle) in &preview.moments {
+            eye.look_at(*middle);
+            let waters = self.simulation.waters();
+            picture::draw_world(&mut self.canvas, world, &eye.camera, &overlays, waters);
+            picture::draw_notes(&mut self.canvas, &overlays, &[" ".into()]);
+            colors.extend(self.canvas.rgb());
+        }
+        Ok(ColorTable::of(colors, most.into()))
     }
 
     /// The last step.
@@ -97,7 +121,7 @@ impl Film {
             if step > 0 {
                 self.simulation.step();
             }
-            if step % every == 0 {
+            if step >= self.from && (step - self.from).is_multiple_of(every) {
                 self.draw();
                 self.write_png(&numbered(path, step))?;
                 count += 1;
@@ -114,24 +138,28 @@ impl Film {
     }
 
     /// An animation of every so many steps.
-    fn gif(&mut self, path: &Path, steps: u32, every: u32) -> Outcome {
+    fn gif(&mut self, path: &Path, steps: u32, every: u32, colors: ColorTable) -> Outcome {
         let file = File::create(path).map_err(|error| cannot_write(path, &error))?;
         let delay_ms = self.simulation.dt() * 1000.0 * every as f32;
-        let mut animation = Animation::new(BufWriter::new(file), delay_ms.round() as u32);
+        let file = BufWriter::new(file);
+        let mut animation = Animation::new(file, delay_ms.round() as u32).colors(colors);
         let progress = Progress::new(steps);
+        let mut count = 0;
         for step in 0..=steps {
             if step > 0 {
                 self.simulation.step();
             }
-            if step % every == 0 {
+            if step >= self.from && (step - self.from).is_multiple_of(every) {
                 self.draw();
+                count += 1;
                 animation.add(&self.canvas)?;
             }
             progress.at(step);
         }
         progress.finish();
+        animation.hold(HOLD_MS)?;
         animation.finish()?.flush().map_err(|error| cannot_write(path, &error))?;
-        report(path, &format!("{} frames", steps / every + 1))
+        report(path, &format!("{count} frames"))
     }
 }
 

@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde::{Serialize, Serializer};
 use std::io::{IsTerminal, Write, stderr, stdout};
 use std::time::{Duration, Instant};
-use tiny_physics::Stage;
+use tiny_physics::{BodyKind, Stage, World};
 use tiny_physics_doctor::{Doctor, Finding};
 
 /// The report, with the names of its JSON form.
@@ -26,10 +26,52 @@ struct Report {
     ms_per_step: Times,
     #[serde(serialize_with = "as_map")]
     stage_ms: Vec<(&'static str, f64)>,
+    worst_penetration_m: f32,
     max_penetration_m: f32,
+    ended: Ended,
+    fastest_m_s: f32,
     kinetic_energy_j: f64,
     hash: String,
     findings: Vec<Finding>,
+}
+
+/// How a run ended.
+#[derive(Serialize, Clone, Copy, PartialEq, Eq, Debug)]
+#[serde(rename_all = "snake_case")]
+enum Ended {
+    /// Nothing moves.
+    AtRest,
+    /// Something moves.
+    Moving,
+    /// Bodies were frozen because their numbers stopped being finite, or are at the speed limit.
+    BlownUp,
+}
+
+impl Ended {
+    /// Slower than this (length units a second) is at rest, asleep or not.
+    const SLOW: f32 = 0.02;
+
+    fn of(world: &World, frozen: bool) -> Self {
+        let (fastest, unit) = (fastest(world), world.settings.length_unit);
+        if frozen || fastest >= 0.98 * world.settings.max_speed {
+            Self::BlownUp
+        } else if fastest < Self::SLOW * unit {
+            Self::AtRest
+        } else {
+            Self::Moving
+        }
+    }
+}
+
+/// Speed of the fastest point of a body, about, metres a second.
+fn fastest(world: &World) -> f32 {
+    let moving = world.bodies().filter(|body| body.kind() != BodyKind::Static && body.is_awake());
+    let speed = moving.map(|body| {
+        let shapes = body.shapes().filter_map(|id| world.shape(id));
+        let reach = shapes.map(|shape| shape.shape().bounding_radius()).fold(0.0, f32::max);
+        body.velocity().length() + body.angular_velocity().abs() * reach
+    });
+    speed.fold(0.0, f32::max)
 }
 
 /// Milliseconds a step over a run.
@@ -65,12 +107,15 @@ fn measure(simulation: &mut Simulation, steps: u32) -> Report {
     let mut step_ms = Vec::with_capacity(steps as usize);
     let mut stages = [0.0; Stage::ALL.len()];
     let mut doctor = Doctor::new();
+    let (mut worst, mut frozen) = (0.0_f32, false);
     for step in 0..steps {
         let start = Instant::now();
         simulation.step();
         step_ms.push(start.elapsed().as_secs_f64() * 1000.0);
         doctor.watch(simulation.world());
         let stats = simulation.world().stats();
+        worst = worst.max(simulation.world().max_penetration());
+        frozen |= stats.frozen_bodies > 0;
         for (sum, stage) in stages.iter_mut().zip(Stage::ALL) {
             *sum += stats.seconds(stage) * 1000.0;
         }
@@ -78,22 +123,6 @@ fn measure(simulation: &mut Simulation, steps: u32) -> Report {
     }
     progress.finish();
     let mean = |(sum, stage): (f64, Stage)| (stage.name(), sum / f64::from(steps.max(1)));
-    report(
-        simulation,
-        steps,
-        Times::of(step_ms),
-        stages.into_iter().zip(Stage::ALL).map(mean).collect(),
-        doctor.report().findings,
-    )
-}
-
-fn report(
-    simulation: &Simulation,
-    steps: u32,
-    ms_per_step: Times,
-    stage_ms: Vec<(&'static str, f64)>,
-    findings: Vec<Finding>,
-) -> Report {
     let world = simulation.world();
     Report {
         scene: simulation.scene().name.clone(),
@@ -105,13 +134,15 @@ fn report(
         awake_bodies: world.awake_body_count(),
         threads: world.threads(),
         simd: world.simd().name(),
-        ms_per_step,
-        stage_ms,
-        // Adding nothing turns -0 into 0.
-        max_penetration_m: world.max_penetration() + 0.0,
+        ms_per_step: Times::of(step_ms),
+        stage_ms: stages.into_iter().zip(Stage::ALL).map(mean).collect(),
+        worst_penetration_m: worst,
+        max_penetration_m: simulation.overlap(),
+        ended: Ended::of(world, frozen),
+        fastest_m_s: fastest(world),
         kinetic_energy_j: world.kinetic_energy(),
         hash: format!("{:016x}", world.state_hash()),
-        findings,
+        findings: doctor.report().findings,
     }
 }
 
@@ -147,7 +178,16 @@ fn print_table(out: &mut impl Write, report: &Report) -> Outcome {
         let share = if mean > 0.0 { 100.0 * ms / mean } else { 0.0 };
         writeln!(out, "  {name:<12} {ms:>9.4}  {share:>5.1} %")?;
     }
-    writeln!(out, "penetration  {:.3} mm at most", report.max_penetration_m * 1000.0)?;
+    let [worst, last] =
+        [report.worst_penetration_m, report.max_penetration_m].map(|depth| depth * 1000.0);
+    writeln!(out, "penetration  {worst:.3} mm at worst, {last:.3} mm at the end")?;
+    let ended = match report.ended {
+        Ended::AtRest if report.awake_bodies == 0 => "at rest, asleep".to_owned(),
+        Ended::AtRest => "at rest".to_owned(),
+        Ended::Moving => format!("moving, at most {:.2} m/s", report.fastest_m_s),
+        Ended::BlownUp => "blown up".to_owned(),
+    };
+    writeln!(out, "ended        {ended}")?;
     writeln!(out, "energy       {:.6} J kinetic", report.kinetic_energy_j)?;
     for finding in &report.findings {
         writeln!(out, "doctor       {}", finding.line())?;
@@ -195,6 +235,23 @@ impl Progress {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tiny_physics::RigidBody;
+
+    #[test]
+    fn runs_end_at_rest_moving_or_blown_up() {
+        let ball = RigidBody::dynamic().shape(tiny_physics::Shape::Circle { radius: 0.5 });
+        let ended = |velocity: f32, spin: f32, frozen| {
+            let mut world = World::new(tiny_physics::Vec2::ZERO);
+            let ball = ball.clone().velocity((velocity, 0.0)).angular_velocity(spin);
+            world.add_body(ball).unwrap();
+            Ended::of(&world, frozen)
+        };
+        assert_eq!(ended(0.001, 0.0, false), Ended::AtRest);
+        assert_eq!(ended(1.0, 0.0, false), Ended::Moving);
+        assert_eq!(ended(0.0, 1.0, false), Ended::Moving);
+        assert_eq!(ended(1.0e6, 0.0, false), Ended::BlownUp);
+        assert_eq!(ended(0.0, 0.0, true), Ended::BlownUp);
+    }
 
     #[test]
     fn times_of_a_run() {

@@ -1,6 +1,6 @@
 //! `view`: a scene in a window.
 
-use crate::args::{Overlay, ViewArgs, WorldArgs};
+use crate::args::{Light, Looks, Overlay, Style, ViewArgs, WorldArgs};
 use crate::failure::{Failure, Outcome};
 use crate::picture::{self, Follower, Overlays};
 use crate::simulation::Simulation;
@@ -10,7 +10,7 @@ use tiny_physics::{FixedStep, Vec2};
 use tiny_physics_draw::{Camera, Canvas, Input, Key, Window};
 use tiny_physics_scenes::all;
 
-const HELP: [&str; 19] = [
+const HELP: [&str; 20] = [
     "keys and mouse",
     "space      play, pause",
     "right, s   one step",
@@ -28,6 +28,7 @@ const HELP: [&str; 19] = [
     "j, x       joints, boxes",
     "m, a       masses, velocities",
     "d          tint by depth",
+    "p, k       debug style, dark",
     "t, l       text, legend",
     "h, q       this help, quit",
 ];
@@ -90,12 +91,14 @@ impl Viewer {
     fn new(args: &ViewArgs) -> Outcome<Self> {
         let scene = source::open(&args.scene, args.world.seed)?;
         let simulation = Simulation::kept(scene, &args.world)?.watched();
+        let overlays = overlays(args.looks);
+        let framing = simulation.framing();
         Ok(Self {
             how: args.world.clone(),
-            eye: Follower::on(&simulation, args.size.0, args.size.1),
+            eye: Follower::on(&simulation, &framing, args.size, overlays.room()),
             clock: FixedStep::new(simulation.dt()),
             simulation,
-            overlays: Overlays::default(),
+            overlays,
             speed: USUAL_SPEED,
             playing: !args.paused,
             help: true,
@@ -158,6 +161,17 @@ impl Viewer {
             Key::Char('f') => self.fit(),
             Key::Char('o') => self.eye.follows = !self.eye.follows,
             Key::Char('h') => self.help = !self.help,
+            Key::Char('p') => {
+                let style = match self.overlays.looks.style {
+                    Style::Show => Style::Debug,
+                    Style::Debug => Style::Show,
+                };
+                self.overlays = overlays(Looks { style, ..self.overlays.looks });
+            }
+            Key::Char('k') => {
+                let looks = &mut self.overlays.looks;
+                looks.theme = if looks.theme == Light::Light { Light::Dark } else { Light::Light };
+            }
             Key::Char('n') => return self.other_scene(1),
             Key::Char('b') => return self.other_scene(-1),
             Key::Char(letter) => {
@@ -194,7 +208,8 @@ impl Viewer {
 
     fn fit(&mut self) {
         let Camera { width, height, .. } = self.eye.camera;
-        self.eye = Follower::on(&self.simulation, width, height);
+        let (framing, room) = (self.simulation.framing(), self.overlays.room());
+        self.eye = Follower::on(&self.simulation, &framing, (width, height), room);
     }
 
     /// The built-in scene so many places further on; around at the ends.
@@ -237,6 +252,11 @@ impl Viewer {
     }
 }
 
+/// What a window shows at first: text in any style.
+fn overlays(looks: Looks) -> Overlays {
+    Overlays::of(looks).but(&[Overlay::Text], &[])
+}
+
 fn overlay_of(letter: char) -> Option<Overlay> {
     Some(match letter {
         'c' => Overlay::Contacts,
@@ -258,7 +278,13 @@ mod tests {
 
     fn viewer() -> Viewer {
         let world = WorldArgs { seed: 1, threads: 1, simd: None };
-        let args = ViewArgs { scene: "seed_demo".into(), size: (320, 200), paused: true, world };
+        let args = ViewArgs {
+            scene: "seed_demo".into(),
+            size: (320, 200),
+            paused: true,
+            looks: Looks::default(),
+            world,
+        };
         Viewer::new(&args).unwrap()
     }
 
@@ -287,7 +313,13 @@ mod tests {
     #[test]
     fn the_status_shows_what_the_doctor_found_last() {
         let world = WorldArgs { seed: 1, threads: 1, simd: None };
-        let args = ViewArgs { scene: "bowl".into(), size: (320, 200), paused: true, world };
+        let args = ViewArgs {
+            scene: "bowl".into(),
+            size: (320, 200),
+            paused: true,
+            looks: Looks::default(),
+            world,
+        };
         let mut viewer = Viewer::new(&args).unwrap();
         let last = |viewer: &Viewer| picture::status_lines(&viewer.simulation, "").pop().unwrap();
         assert!(last(&viewer).starts_with("deepest"));

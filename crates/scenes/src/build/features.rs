@@ -84,6 +84,7 @@ fn mixed(i: u32) -> RigidBody {
 pub(crate) fn changing(_: Options) -> Scene {
     let text = "A ball grows, a slope freezes over, and one shelf after the other comes loose.";
     let mut scene = scene("changing", text);
+    scene.view = Some((Vec2::new(-15.9, -1.0), Vec2::new(15.9, 9.0)));
     scene.body(ground(Vec2::new(0.0, -1.0), 16.0, 1.0));
     let mut acts = Vec::new();
 
@@ -131,6 +132,7 @@ pub(crate) fn platforms(options: Options) -> Scene {
     let balls = options.size_or(12, 500);
     let text = "Led platforms carry crates; balls fly up through one-way planks and stay on top.";
     let mut scene = scene("platforms", text);
+    scene.view = Some((Vec2::new(-15.9, -1.0), Vec2::new(15.9, 13.0)));
     scene.body(ground(Vec2::new(0.0, -1.0), 16.0, 1.0));
     let ways = [
         (Vec2::new(-13.0, 1.0), Vec2::new(-13.0, 7.0), 0.0, 8.0),
@@ -170,6 +172,7 @@ pub(crate) fn harbour(options: Options) -> Scene {
     let crates = options.size_or(14, 1000);
     let text = "Light things float, heavy ones sink, and wind drives a boat through them.";
     let mut scene = scene("harbour", text);
+    scene.view = Some((Vec2::new(-15.7, -6.0), Vec2::new(15.7, 8.0)));
     scene.steps = 900;
     let wall = |x: f32| ShapeDef::new(shapes::rect(0.5, 4.5)).offset(Vec2::new(x, -1.5));
     let floor = ShapeDef::new(shapes::rect(16.0, 0.5)).offset(Vec2::new(0.0, -5.5));
@@ -206,6 +209,7 @@ pub(crate) fn harbour(options: Options) -> Scene {
 pub(crate) fn blast(options: Options) -> Scene {
     let houses = options.size_or(5, 100);
     let mut scene = scene("blast", "Three explosions in a town of crates and planks.");
+    scene.view = Some((Vec2::new(-16.0, -1.0), Vec2::new(16.0, 14.0)));
     let half = 3.0 * houses as f32;
     scene.body(ground(Vec2::new(0.0, -1.0), half + 12.0, 1.0));
     for house in 0..houses {
@@ -275,6 +279,7 @@ pub(crate) fn sorting(options: Options) -> Scene {
     let count = options.size_or(36, 2000);
     let text = "A belt carries parcels; each gate holds one kind and lets the others fall.";
     let mut scene = scene("sorting", text);
+    scene.view = Some((Vec2::new(-9.0, -1.0), Vec2::new(17.2, 15.8)));
     scene.steps = 1500;
     let kinds: [u64; 3] = [1 << 1, 1 << 2, 1 << 3];
     let shaft = |i: u32| -2.0 - i as f32;
@@ -340,6 +345,7 @@ pub(crate) fn sensor_door(options: Options) -> Scene {
     let crates = options.size_or(10, 500);
     let text = "A ball rolls through a sensor, a door opens, and what was behind it comes down.";
     let mut scene = scene("sensor_door", text);
+    scene.view = Some((Vec2::new(-15.9, -1.0), Vec2::new(15.9, 9.5)));
     scene.body(ground(Vec2::new(0.0, -1.0), 16.0, 1.0));
     let slope = |x: f32, y: f32, angle: f32, half: f32| {
         RigidBody::fixed().position(Vec2::new(x, y)).angle(angle).shape(shapes::rect(half, 0.15))

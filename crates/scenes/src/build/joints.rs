@@ -14,6 +14,7 @@ fn body(x: f32, y: f32, shape: impl Into<ShapeDef>) -> RigidBody {
 /// Every kind of joint side by side; the size is of no account.
 pub(crate) fn joints(_: Options) -> Scene {
     let mut scene = Scene::new("joints", "Every kind of joint, side by side.");
+    scene.view = Some((Vec2::new(-16.9, -0.8), Vec2::new(16.9, 13.8)));
     scene.gravity = Vec2::new(0.0, -10.0);
     let base = scene.body(
         ground(Vec2::ZERO, 17.0, 0.5)
@@ -116,6 +117,7 @@ pub(crate) fn clockwork(options: Options) -> Scene {
     let count = options.size_or(5, 40).max(2);
     let text = "A motor turns a train of wheels; the last one lifts a stack on a rack.";
     let mut scene = Scene::new("clockwork", text);
+    scene.view = Some((Vec2::new(-11.9, -5.4), Vec2::new(8.0, 5.8)));
     scene.gravity = Vec2::new(0.0, -10.0);
     let ceiling = ShapeDef::new(shapes::rect(12.0, 0.2)).offset(Vec2::new(0.0, 11.5));
     let base = scene.body(ground(Vec2::new(0.0, -5.0), 12.0, 0.5).shape(ceiling));
@@ -157,6 +159,7 @@ pub(crate) fn breaking_bridge(options: Options) -> Scene {
     let planks = options.size_or(20, 500).max(2);
     let mut scene =
         Scene::new("breaking_bridge", "A bridge whose joints break where crates hit too hard.");
+    scene.view = Some((Vec2::new(-13.0, -7.9), Vec2::new(13.0, 5.5)));
     scene.gravity = Vec2::new(0.0, -10.0);
     // The planks hang in an arc, each a chord of it: stretched straight, they would bear nothing.
     let (turn, end) = (0.8 / planks as f32, Rot::from_angle(0.4));

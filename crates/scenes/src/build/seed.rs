@@ -18,6 +18,7 @@ pub(crate) fn seed_demo(options: Options) -> Scene {
     let count = options.size_or(20, 100_000);
     let mut scene =
         Scene::new("seed_demo", "Circles and boxes fall, bounce and come to rest in heaps.");
+    scene.view = Some((Vec2::new(-19.9, -11.0), Vec2::new(19.9, 8.0)));
     scene.body(RigidBody::new(aabb(20.0, 1.0), Vec2::new(0.0, -10.0), 0.0));
     scene.body(RigidBody::new(aabb(2.0, 0.5), Vec2::new(4.0, -8.5), 0.0));
     for x in [-19.5, 19.5] {

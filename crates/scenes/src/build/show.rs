@@ -39,6 +39,7 @@ pub(crate) fn newton_cradle(options: Options) -> Scene {
     let count = options.size_or(5, 50);
     let mut scene =
         Scene::new("newton_cradle", "Five steel balls hand a knock through to the last.");
+    scene.view = Some((Vec2::new(-6.8, 1.2), Vec2::new(6.8, 6.4)));
     let bar = scene.body(RigidBody::fixed());
     for i in 0..count {
         let hook = Vec2::new(2.0 * RADIUS * (i as f32 - 0.5 * (count - 1) as f32), 6.0);
@@ -56,6 +57,7 @@ pub(crate) fn newton_cradle(options: Options) -> Scene {
 pub(crate) fn domino(options: Options) -> Scene {
     let count = options.size_or(30, 1000);
     let mut scene = Scene::new("domino", "A ball tips the first domino; the rest follow.");
+    scene.view = Some((Vec2::new(-6.0, -1.0), Vec2::new(30.5, 4.0)));
     let half_length = 0.5 * count as f32;
     scene.body(ground(Vec2::new(half_length, -1.0), half_length + 12.0, 1.0));
     for i in 0..count {
@@ -109,6 +111,7 @@ pub(crate) fn card_house(options: Options) -> Scene {
 pub(crate) fn bridge(options: Options) -> Scene {
     let planks = options.size_or(30, 1000);
     let mut scene = Scene::new("bridge", "A bridge of hinged planks carries crates and balls.");
+    scene.view = Some((Vec2::new(-16.5, -3.0), Vec2::new(16.5, 8.0)));
     let half = 0.5 * planks as f32;
     let banks = RigidBody::fixed()
         .shape(ShapeDef::new(shapes::rect(5.0, 10.0)).offset(Vec2::new(-half - 5.0, -9.875)))
@@ -140,6 +143,7 @@ pub(crate) fn bridge(options: Options) -> Scene {
 pub(crate) fn ragdoll(options: Options) -> Scene {
     let count = options.size_or(6, 500);
     let mut scene = Scene::new("ragdoll", "Ragdolls tumble down a flight of stairs.");
+    scene.view = Some((Vec2::new(-12.0, -0.4), Vec2::new(0.5, 5.8)));
     let mut stairs = RigidBody::fixed()
         .shape(ShapeDef::new(shapes::rect(40.0, 1.0)).offset(Vec2::new(0.0, -1.0)));
     for step in 0..8 {
@@ -163,6 +167,7 @@ pub(crate) fn ragdoll(options: Options) -> Scene {
 pub(crate) fn bullet_wall(options: Options) -> Scene {
     let planks = options.size_or(8, 100);
     let mut scene = Scene::new("bullet_wall", "A bullet at 400 m/s; the wall behind is 2 cm thin.");
+    scene.view = Some((Vec2::new(-3.0, -0.6), Vec2::new(15.0, 9.4)));
     floor(&mut scene);
     scene.body(ground(Vec2::new(12.0, 5.0), 0.01, 5.0));
     for i in 0..planks {
@@ -231,6 +236,7 @@ pub(crate) fn galton_board(options: Options) -> Scene {
     let count = options.size_or(300, 10_000);
     let mut scene =
         Scene::new("galton_board", "Balls fall through pegs and heap up as a bell curve.");
+    scene.view = Some((Vec2::new(-12.4, -0.6), Vec2::new(12.4, 31.0)));
     scene.steps = 1200;
     let mut board = RigidBody::fixed().shape(shapes::rect(12.0, 0.5));
     for row in 0..12 {
@@ -294,6 +300,7 @@ pub(crate) fn friction_ramp(options: Options) -> Scene {
     let count = options.size_or(5, 20);
     let mut scene =
         Scene::new("friction_ramp", "Crates of rising friction on a slope: some slide, some stay.");
+    scene.view = Some((Vec2::new(-9.0, -1.0), Vec2::new(20.0, 10.5)));
     floor(&mut scene);
     let up = Vec2::new(cos(SLOPE), sin(SLOPE));
     let half_length = 1.5 * count as f32 + 2.0;

@@ -1,0 +1,136 @@
+//! A run seen beforehand: where things go in it, and what it looks like.
+
+use crate::args::WorldArgs;
+use crate::failure::Outcome;
+use crate::simulation::{Framing, Simulation, largest_side};
+use core::ops::RangeInclusive;
+use tiny_physics::{Aabb, BodyKind, DVec2, Vec2, World};
+use tiny_physics_scenes::Scene;
+
+/// What is known of a run before it is drawn.
+pub struct Preview {
+    /// The part of the world in which it takes place.
+    pub framing: Framing,
+    /// Some moments of it, and where the middle of what moves is in them.
+    pub moments: Vec<(World, Option<DVec2>)>,
+}
+
+/// Steps between two looks at where things are.
+const LOOK: u32 = 5;
+/// Moments that are kept.
+const MOMENTS: u32 = 6;
+/// Part of all that is seen which may fly away on each side, and how far a picture goes after it: a part of what the others
+/// take up.
+const AWAY: f32 = 0.02;
+const AFTER: f32 = 0.25;
+/// Room around what moves, as a part of it.
+const ROOM: f32 = 0.06;
+/// A run this many times wider than its start is followed instead of shown whole.
+const FAR: f32 = 4.0;
+
+impl Preview {
+    /// Runs a scene and looks at it in these steps.
+    ///
+    /// # Errors
+    /// The scene holds something that the engine refuses.
+    pub fn of(scene: Scene, how: &WorldArgs, steps: RangeInclusive<u32>) -> Outcome<Self> {
+        let (first, last) = (*steps.start(), *steps.end());
+        let mut simulation = Simulation::new(scene, how)?;
+        let (origin, start) = (simulation.some_position(), simulation.framing());
+        let (mut seen, mut moments) = (Seen::default(), Vec::new());
+        let between = (last.saturating_sub(first) / MOMENTS).max(1);
+        for step in 0..=last {
+            if step > 0 {
+                simulation.step();
+            }
+            if step >= first && (step - first).is_multiple_of(LOOK) {
+                simulation.each_shape(origin, |kind, _, bounds| {
+                    if kind != BodyKind::Static {
+                        seen.add(&bounds);
+                    }
+                });
+            }
+            if step >= first && (step - first).is_multiple_of(between) {
+                moments.push((simulation.world().clone(), simulation.middle_of_motion()));
+            }
+        }
+        let whole = seen.most();
+        let at_first = start.max.relative_to(start.min);
+        let far = largest_side(&whole) > FAR * at_first.x.max(at_first.y);
+        let framing = match simulation.scene().view {
+            None if far => {
+                let room = at_first.x.max(at_first.y);
+                let (below, above) = (Vec2::new(room, 0.2 * room), Vec2::new(room, 0.6 * room));
+                Framing { min: start.min - below, max: start.max + above, goes_on: true }
+            }
+            None if whole.is_valid() && simulation.character().is_none() => {
+                let bounds = whole.grown(ROOM * largest_side(&whole));
+                Framing { min: origin + bounds.min, max: origin + bounds.max, goes_on: false }
+            }
+            _ => start,
+        };
+        Ok(Self { framing, moments })
+    }
+}
+
+/// Sides of all boxes that were seen.
+#[derive(Default)]
+struct Seen {
+    lower: [Vec<f32>; 2],
+    upper: [Vec<f32>; 2],
+}
+
+impl Seen {
+    fn add(&mut self, bounds: &Aabb) {
+        for axis in 0..2 {
+            self.lower[axis].push(bounds.min[axis]);
+            self.upper[axis].push(bounds.max[axis]);
+        }
+    }
+
+    /// The box of all but what flies away.
+    fn most(&mut self) -> Aabb {
+        let [x, y] = [0, 1].map(|axis| side(&mut self.lower[axis], &mut self.upper[axis]));
+        let corners = x.zip(y).map(|(x, y)| (Vec2::new(x.0, y.0), Vec2::new(x.1, y.1)));
+        corners.map_or(Aabb::EMPTY, |(min, max)| Aabb::new(min, max))
+    }
+}
+
+/// Least and greatest of two lists, neither far from where almost all are.
+fn side(lower: &mut [f32], upper: &mut [f32]) -> Option<(f32, f32)> {
+    lower.sort_by(f32::total_cmp);
+    upper.sort_by(f32::total_cmp);
+    let few = (AWAY * lower.len() as f32) as usize;
+    let (low, high) = (*lower.get(few)?, *upper.get(upper.len() - 1 - few)?);
+    let after = AFTER * (high - low);
+    Some((lower[0].max(low - after), upper[upper.len() - 1].min(high + after)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_flies_away_does_not_make_the_picture_small() {
+        let mut seen = Seen::default();
+        for i in 0..1000 {
+            let x = if i % 300 == 7 { 1.0e6 } else { (i % 10) as f32 };
+            seen.add(&Aabb::from_center(Vec2::new(x, 0.0), Vec2::splat(0.5)));
+        }
+        assert_eq!(seen.most(), Aabb::new(Vec2::splat(-0.5), Vec2::new(12.0, 0.5)));
+        assert!(!Seen::default().most().is_valid());
+    }
+
+    #[test]
+    fn a_run_is_shown_whole_or_followed() {
+        let how = WorldArgs { seed: 1, threads: 1, simd: None };
+        let preview = |name: &str| {
+            let scene = tiny_physics_scenes::find(name).unwrap().build(Default::default());
+            Preview::of(scene, &how, 0..=300).unwrap()
+        };
+        // The ball swings through to the other side, which the start does not know.
+        assert!(preview("wrecking_ball").framing.max.x > 9.0);
+        let car = preview("car").framing;
+        assert!(car.goes_on && car.max.relative_to(car.min).x < 60.0);
+    }
+}
