@@ -10,6 +10,7 @@ mkdir -p docs/gallery
 # Name, options of `tiny-physics render`, what there is to see.
 scenes() {
   cat <<'LIST'
+fair | --steps 320 --size 640x360 --every 5 | What stands still beside what moves: a pool, a cradle, an arch, a pyramid, and a tower that a heavy ball knocks over.
 wrecking_ball | --steps 300 | A heavy ball on a light chain: the chain does not stretch, the pyramid comes to rest.
 harbour | --from 20 --steps 660 --every 8 | Light things float, heavy ones sink, wind drives a boat through them.
 bowl | --from 30 --steps 240 | Shapes of every kind in a bowl drawn as a chain of segments.

@@ -1,6 +1,6 @@
 //! The list of all scenes that this crate can build.
 
-use crate::build::{Options, benchmark, course, features, joints, level, seed, show, small};
+use crate::build::{Options, benchmark, course, fair, features, joints, level, seed, show, small};
 use crate::scene::Scene;
 use core::fmt;
 
@@ -103,6 +103,7 @@ static ENTRIES: &[Entry] = &[
     entry("game", "A platformer level with crates, lifts, a door, a rope and a character", 600, &[tags::BENCHMARK, tags::SMALL, tags::SEEDED], small::game),
     entry("tiles", "500 movers walk in a platformer level", 600, &[tags::BENCHMARK, tags::SEEDED], level::tiles),
     entry("tile_map", "Balls and crates on hills and platforms of tiles, and a chain", 600, &[tags::SEEDED], level::tile_map),
+    entry("fair", "A pool, a cradle, an arch, a pyramid, and a ball that knocks a tower over", 600, SHOW, fair::fair),
     entry("stack", "A tower of crates", 600, SHOW, show::stack),
     entry("pyramid", "A small pyramid of crates", 600, SHOW, show::pyramid),
     entry("newton_cradle", "Five balls hand a knock through", 600, SHOW, show::newton_cradle),

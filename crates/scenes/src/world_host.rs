@@ -13,6 +13,9 @@ use tiny_physics::{
     Water, Wind, World, ZoneForce,
 };
 
+/// Water between two ends is so deep, metres.
+const DEPTH: f32 = 1000.0;
+
 /// A scene that runs in a [`World`].
 ///
 /// ```
@@ -267,9 +270,10 @@ impl<T: Commanded> CommandHost<T> {
                 Command::Explode(blast, all)
             }
             Deed::Water { surface, between, density, flow } => {
+                // Boxes as large as numbers go have no half of their size.
                 let area = between.map(|(left, right)| Aabb {
-                    min: Vec2::new(left, f32::MIN),
-                    max: Vec2::new(right, f32::MAX),
+                    min: Vec2::new(left, surface - DEPTH),
+                    max: Vec2::new(right, surface),
                 });
                 let surface = DVec2::new(0.0, surface.into());
                 let water = Water { surface, density, flow, area, ..Water::default() };

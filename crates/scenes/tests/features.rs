@@ -1,7 +1,7 @@
 //! The scenes that show an ability each: at their end, what they show has come about.
 
-use tiny_physics::{BodyKind, Shape};
-use tiny_physics_scenes::{Options, Run, find};
+use tiny_physics::{BodyKind, RigidBody, Shape, ShapeDef, Vec2};
+use tiny_physics_scenes::{Act, Deed, Options, Run, Scene, Script, Timeline, When, find};
 
 /// The run of a scene at its end.
 fn end_of(name: &str) -> Run {
@@ -19,6 +19,23 @@ fn end_of(name: &str) -> Run {
 fn places(run: &Run) -> Vec<tiny_physics::Vec2> {
     let ids = run.bodies().iter().map(|body| run.host().body_id(*body).unwrap());
     ids.map(|id| run.world().body(id).unwrap().position()).collect()
+}
+
+#[test]
+fn at_the_fair_what_is_to_stand_stands() {
+    let (run, scene) = (end_of("fair"), find("fair").unwrap().build(Options::default()));
+    let moved: Vec<f32> = places(&run)
+        .iter()
+        .zip(&scene.bodies)
+        .map(|(now, body)| now.distance(body.position.to_vec2()))
+        .collect();
+    // Land, boat, five things in the pool, five balls; then the arch, and the pyramid.
+    let (arch, pyramid) = (12..25, 25..61);
+    assert!(moved[arch].iter().all(|way| *way < 0.03), "{moved:?}");
+    assert!(moved[pyramid].iter().all(|way| *way < 0.3), "{moved:?}");
+    // The tower does not, and the boat is on the water.
+    assert!(moved[61..77].iter().any(|way| *way > 2.0), "{moved:?}");
+    assert!(moved[1] < 8.0 && places(&run)[1].y > -0.9, "{moved:?}");
 }
 
 #[test]
@@ -123,4 +140,26 @@ fn a_scene_whose_deeds_make_no_sense_is_refused() {
         let error = error.unwrap_err().to_string();
         assert!(error.contains(message), "{error}");
     }
+}
+
+#[test]
+fn water_between_two_ends_bears_what_is_in_it_alone() {
+    let mut scene = Scene::new("pond", "One ball in a pond, one beside it.");
+    let ball = ShapeDef::new(Shape::Circle { radius: 0.5 }).density(500.0);
+    let at = |x: f32| RigidBody::dynamic().position(Vec2::new(x, 0.0)).shape(ball.clone());
+    let [wet, dry] = [-2.0, 2.0].map(|x| scene.body(at(x)));
+    let between = Some((-6.0, 0.0));
+    let deed = Deed::Water { surface: 0.0, between, density: 1000.0, flow: Vec2::ZERO };
+    let acts = vec![Act { when: When::Always, deed }];
+    scene.script = Some(Script::Timeline(Timeline { acts }));
+    let mut run = Run::start(&scene).unwrap();
+    for _ in 0..300 {
+        run.step();
+    }
+    let height = |body: usize| {
+        let id = run.world().body_ids().nth(body).unwrap();
+        run.world().body(id).unwrap().position().y
+    };
+    assert!(height(wet).abs() < 0.1, "{}", height(wet));
+    assert!(height(dry) < -50.0, "{}", height(dry));
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod benchmark;
 pub(crate) mod course;
+pub(crate) mod fair;
 pub(crate) mod features;
 pub(crate) mod joints;
 pub(crate) mod level;
