@@ -147,7 +147,7 @@ impl World {
             chain = chain.friction(friction);
         }
         let ids = slf.borrow_mut().inner.add_chain(body.id, &chain).map_err(error)?;
-        Ok(ids.into_iter().map(|id| Self::shape(slf, id)).collect())
+        Ok(ids.iter().map(|id| Self::shape(slf, *id)).collect())
     }
 
     /// Joins two bodies of this world by a description, as `tiny_physics.revolute()` gives one.

@@ -879,8 +879,18 @@ fn a_ledge_goes_as_one_or_not_at_all() {
     assert!(!world.body(load).unwrap().is_awake());
     let (half, mass) =
         (world.body(load).unwrap().shapes().next().unwrap(), world.body(load).unwrap().mass());
+    let ice = |friction| Material { friction, ..Material::default() };
+    let frictions = |world: &World| -> Vec<f32> {
+        ledge.iter().filter_map(|id| Some(world.shape(*id)?.material().friction)).collect()
+    };
+    ledge.set_material(&mut world, ice(0.1)).unwrap();
+    assert!(ledge.set_material(&mut world, ice(f32::NAN)).is_err());
+    assert_eq!(frictions(&world), [0.1; 8]);
+    assert!(world.body(load).unwrap().is_awake(), "the ground has changed");
     world.remove_shape(ledge[0]).unwrap();
-    assert!(world.remove_shapes(&ledge).is_err(), "one is gone");
+    assert!(ledge.set_material(&mut world, ice(0.2)).is_err());
+    assert_eq!(frictions(&world), [0.1; 7], "one is gone");
+    assert!(ledge.clone().remove(&mut world).is_err(), "one is gone");
     assert_eq!(world.shape_count(), 9);
     // Shapes of two bodies, one of them named twice.
     let gone = [&ledge[1..], &[half, half]].concat();

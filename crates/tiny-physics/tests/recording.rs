@@ -15,7 +15,7 @@ use tiny_physics::record::{
 use tiny_physics::*;
 
 /// Functions that change a world and need no command, with the reason.
-const WITHOUT_COMMAND: [(&str, &str); 18] = [
+const WITHOUT_COMMAND: [(&str, &str); 20] = [
     ("World::step", "every step is recorded"),
     ("World::try_step", "the same"),
     ("World::body_mut", "what it gives has commands"),
@@ -27,6 +27,8 @@ const WITHOUT_COMMAND: [(&str, &str); 18] = [
     ("ShapeMut::set_density", "what SetMaterial does"),
     ("CharacterMover::lead_body", "what SetPose and SetShape do"),
     ("World::remove_shapes", "what RemoveShape does, one by one"),
+    ("Chain::set_material", "what SetMaterial does, one by one"),
+    ("Chain::remove", "what RemoveShape does, one by one"),
     ("World::set_threads", "changes no results"),
     ("World::set_simd", "changes no results"),
     ("World::time_stages", "changes no results"),

@@ -16,8 +16,8 @@ use crate::math::Vec2;
 /// let points = [(8.0, 0.0), (3.0, 0.5), (-3.0, 0.0), (-8.0, 1.0)].map(|(x, y)| Vec2::new(x, y));
 /// let mut world = World::new(Vec2::new(0.0, -9.8));
 /// let ground = world.add_body(RigidBody::fixed())?;
-/// let shapes = world.add_chain(ground, &ChainDef::open(&points).friction(0.8))?;
-/// assert_eq!(shapes.len(), 3);
+/// let chain = world.add_chain(ground, &ChainDef::open(&points).friction(0.8))?;
+/// assert_eq!(chain.len(), 3);
 /// # Ok(())
 /// # }
 /// ```

@@ -5,7 +5,7 @@ use super::descriptions::{check_body, check_shape};
 use super::ids::{BodyId, ShapeId};
 use super::state::State;
 use crate::broad_phase::{ProxyDef, ProxyKind};
-use crate::describe::{BodyKind, ChainDef, RigidBody, ShapeDef};
+use crate::describe::{BodyKind, RigidBody, ShapeDef};
 use crate::dynamics::{BodyInfo, Given, NULL, ShapeRecord};
 use crate::error::Error;
 use crate::geometry::manifold::{RoundedBox, ShapeClass};
@@ -98,14 +98,6 @@ impl World {
         }
         self.create_proxy(id);
         Ok(self.shape_id(id))
-    }
-
-    /// Adds the segments of a chain to a body and gives their handles in order.
-    ///
-    /// # Errors
-    /// The handle is stale, or the points make no chain. Nothing has been added then.
-    pub fn add_chain(&mut self, body: BodyId, chain: &ChainDef) -> Result<Vec<ShapeId>, Error> {
-        self.add_shapes(body, &chain.shapes()?)
     }
 
     /// Adds all shapes to a body, or none.

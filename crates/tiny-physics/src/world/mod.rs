@@ -4,6 +4,7 @@ mod bodies;
 mod body_changes;
 mod build;
 mod bytes;
+mod chains;
 mod check;
 mod contacts;
 mod descriptions;
@@ -29,6 +30,7 @@ mod validate;
 mod waking;
 
 pub use bodies::{Body, BodyMut, BodyPair};
+pub use chains::Chain;
 pub use contacts::{ContactPoint, ContactView};
 pub use events::{
     ContactBegin, ContactEnd, Events, Hit, JointBreak, SensorBegin, SensorEnd, UserData,

@@ -141,7 +141,7 @@ impl Command {
         Ok(match self {
             Self::AddBody(body) => Made::Body(world.add_body(body.clone())?),
             Self::AddShape(body, shape) => Made::Shape(world.add_shape(*body, shape.clone())?),
-            Self::AddChain(body, chain) => Made::Shapes(world.add_chain(*body, chain)?),
+            Self::AddChain(body, chain) => Made::Shapes(world.add_chain(*body, chain)?.into()),
             Self::AddOutline(body, outline, like) => {
                 // What was accepted must be readable again.
                 like.shape.validate()?;
