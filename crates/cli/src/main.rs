@@ -5,6 +5,7 @@ mod commands;
 mod failure;
 mod picture;
 mod preview;
+mod progress;
 mod simulation;
 mod source;
 mod text_frame;

@@ -2,6 +2,7 @@
 
 use crate::args::WorldArgs;
 use crate::failure::Outcome;
+use crate::progress::Progress;
 use crate::simulation::{Framing, Simulation, largest_side};
 use core::ops::RangeInclusive;
 use tiny_physics::{Aabb, BodyKind, DVec2, Vec2, World};
@@ -11,14 +12,22 @@ use tiny_physics_scenes::Scene;
 pub struct Preview {
     /// The part of the world in which it takes place.
     pub framing: Framing,
-    /// Some moments of it, and where the middle of what moves is in them.
-    pub moments: Vec<(World, Option<DVec2>)>,
+    /// Some moments of it.
+    pub moments: Vec<Moment>,
+    /// Its end.
+    pub end: Simulation,
 }
+
+/// A world at a moment, and where the middle of what moves is.
+pub type Moment = (World, Option<DVec2>);
 
 /// Steps between two looks at where things are.
 const LOOK: u32 = 5;
-/// Moments that are kept.
+/// A picture is wider than so many bodies side by side.
+const BODIES_WIDE: f32 = 5.0;
+/// Moments that are kept, and bodies in all of them together.
 const MOMENTS: u32 = 6;
+const BODIES: usize = 100_000;
 /// Part of all that is seen which may fly away on each side, and how far a picture goes after it: a part of what the others
 /// take up.
 const AWAY: f32 = 0.02;
@@ -38,11 +47,14 @@ impl Preview {
         let mut simulation = Simulation::new(scene, how)?;
         let (origin, start) = (simulation.some_position(), simulation.framing());
         let (mut seen, mut moments) = (Seen::default(), Vec::new());
-        let between = (last.saturating_sub(first) / MOMENTS).max(1);
+        let count = MOMENTS.min((BODIES / simulation.world().body_count().max(1)) as u32);
+        let between = (last.saturating_sub(first) / count.max(1)).max(1);
+        let progress = Progress::new(last);
         for step in 0..=last {
             if step > 0 {
                 simulation.step();
             }
+            progress.at(step);
             if step >= first && (step - first).is_multiple_of(LOOK) {
                 simulation.each_shape(origin, |kind, _, bounds| {
                     if kind != BodyKind::Static {
@@ -50,13 +62,19 @@ impl Preview {
                     }
                 });
             }
-            if step >= first && (step - first).is_multiple_of(between) {
+            if first < last && step >= first && (step - first).is_multiple_of(between) {
                 moments.push((simulation.world().clone(), simulation.middle_of_motion()));
             }
         }
+        progress.finish();
         let whole = seen.most();
         let at_first = start.max.relative_to(start.min);
         let far = largest_side(&whole) > FAR * at_first.x.max(at_first.y);
+        let start = if simulation.character().is_some() && first == last {
+            simulation.framing()
+        } else {
+            start
+        };
         let framing = match simulation.scene().view {
             None if far => {
                 let room = at_first.x.max(at_first.y);
@@ -64,12 +82,14 @@ impl Preview {
                 Framing { min: start.min - below, max: start.max + above, goes_on: true }
             }
             None if whole.is_valid() && simulation.character().is_none() => {
-                let bounds = whole.grown(ROOM * largest_side(&whole));
+                let side = largest_side(&whole);
+                let room = (ROOM * side).max(0.5 * (BODIES_WIDE * seen.size() - side));
+                let bounds = whole.grown(room);
                 Framing { min: origin + bounds.min, max: origin + bounds.max, goes_on: false }
             }
             _ => start,
         };
-        Ok(Self { framing, moments })
+        Ok(Self { framing, moments, end: simulation })
     }
 }
 
@@ -78,14 +98,21 @@ impl Preview {
 struct Seen {
     lower: [Vec<f32>; 2],
     upper: [Vec<f32>; 2],
+    sizes: f64,
 }
 
 impl Seen {
     fn add(&mut self, bounds: &Aabb) {
+        self.sizes += f64::from(largest_side(bounds));
         for axis in 0..2 {
             self.lower[axis].push(bounds.min[axis]);
             self.upper[axis].push(bounds.max[axis]);
         }
+    }
+
+    /// Size of a shape in the mean.
+    fn size(&self) -> f32 {
+        (self.sizes / self.lower[0].len().max(1) as f64) as f32
     }
 
     /// The box of all but what flies away.

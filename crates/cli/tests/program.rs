@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 use tiny_physics::{SimdLevel, Stage};
+use tiny_physics_scenes::{all, tags};
 
 fn program(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_tiny-physics"))
@@ -448,4 +449,17 @@ fn the_playground_is_served() {
     child.kill().unwrap();
     child.wait().unwrap();
     assert!(bad(&["play", "no_such_file.json"]).contains("no_such_file.json"));
+}
+
+/// Every show scene has its loop in the gallery, small enough for a page of them.
+#[test]
+fn the_gallery_shows_every_show_scene() {
+    let docs = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs");
+    let page = std::fs::read_to_string(format!("{docs}/gallery.md")).unwrap();
+    for entry in all().iter().filter(|entry| entry.has_tag(tags::SHOW)) {
+        let file = format!("gallery/{}.gif", entry.name);
+        assert!(page.contains(&file), "{} is not in docs/gallery.md", entry.name);
+        let size = std::fs::metadata(format!("{docs}/{file}")).unwrap().len();
+        assert!(size < 300_000, "{file} has {size} bytes");
+    }
 }

@@ -1,10 +1,11 @@
 //! `bench`: scenes timed stage by stage, on every SIMD level, levels taking turns.
 
 use super::figures;
-use super::run::{Progress, Times};
+use super::run::Times;
 use super::timing::{levels, median, milliseconds};
 use crate::args::{BenchArgs, WorldArgs};
 use crate::failure::{Failure, Outcome};
+use crate::progress::Progress;
 use crate::simulation::Simulation;
 use crate::source;
 use serde::Serialize;

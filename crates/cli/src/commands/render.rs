@@ -1,10 +1,10 @@
 //! `render`: a scene into a PNG or GIF.
 
-use super::run::Progress;
 use crate::args::{Area, RenderArgs};
 use crate::failure::{Failure, Outcome};
 use crate::picture::{self, Follower, Overlays};
-use crate::preview::Preview;
+use crate::preview::{Moment, Preview};
+use crate::progress::Progress;
 use crate::simulation::Simulation;
 use crate::source;
 use std::fs::File;
@@ -40,19 +40,20 @@ pub fn run(args: &RenderArgs) -> Outcome {
     let one = format == Format::Png && args.every.is_none();
     let first = if one { steps } else { args.from };
     let preview = Preview::of(scene.clone(), &args.world, first..=steps)?;
-    let simulation = Simulation::new(scene, &args.world)?;
+    let Preview { framing, moments, end } = preview;
+    let simulation = if one { end } else { Simulation::new(scene, &args.world)? };
     let eye = match args.area {
         Some(Area { min, max }) => {
             let (min, max) = (min.into(), max.into());
             Follower::fixed(Camera::fit_between(min, max, size, overlays.room()))
         }
-        None => Follower::on(&simulation, &preview.framing, size, overlays.room()),
+        None => Follower::on(&simulation, &framing, size, overlays.room()),
     };
     let canvas = Canvas::new(size.0, size.1)?;
     let mut film = Film { simulation, eye, canvas, overlays, from: args.from };
     match (format, args.every) {
         (Format::Gif, every) => {
-            let colors = film.colors(&preview, args.colors)?;
+            let colors = film.colors(&moments, args.colors)?;
             film.gif(&args.output, steps, every.unwrap_or(USUAL_EVERY), colors)
         }
         (Format::Png, None) => film.png(&args.output, steps),
@@ -87,10 +88,10 @@ impl Film {
     }
 
     /// The colours of the whole animation, from moments of it.
-    fn colors(&mut self, preview: &Preview, most: u16) -> Outcome<ColorTable> {
+    fn colors(&mut self, moments: &[Moment], most: u16) -> Outcome<ColorTable> {
         let (mut eye, overlays) = (self.eye, self.overlays);
         let mut colors = Vec::new();
-        for (world, middle) in &preview.moments {
+        for (world, middle) in moments {
             eye.look_at(*middle);
             let waters = self.simulation.waters();
             picture::draw_world(&mut self.canvas, world, &eye.camera, &overlays, waters);
@@ -100,14 +101,8 @@ impl Film {
         Ok(ColorTable::of(colors, most.into()))
     }
 
-    /// The last step.
+    /// Where the run is.
     fn png(&mut self, path: &Path, steps: u32) -> Outcome {
-        let progress = Progress::new(steps);
-        for step in 0..steps {
-            self.simulation.step();
-            progress.at(step);
-        }
-        progress.finish();
         self.draw();
         self.write_png(path)?;
         report(path, &format!("step {steps}"))

@@ -2,12 +2,12 @@
 
 use crate::args::RunArgs;
 use crate::failure::Outcome;
+use crate::progress::Progress;
 use crate::simulation::Simulation;
 use crate::source;
-use indicatif::{ProgressBar, ProgressStyle};
 use serde::{Serialize, Serializer};
-use std::io::{IsTerminal, Write, stderr, stdout};
-use std::time::{Duration, Instant};
+use std::io::{Write, stdout};
+use std::time::Instant;
 use tiny_physics::{BodyKind, Stage, World};
 use tiny_physics_doctor::{Doctor, Finding};
 
@@ -194,42 +194,6 @@ fn print_table(out: &mut impl Write, report: &Report) -> Outcome {
     }
     writeln!(out, "hash         {}", report.hash)?;
     Ok(())
-}
-
-/// A progress bar that appears on a terminal when a run takes longer than a moment.
-pub(super) struct Progress {
-    bar: ProgressBar,
-    start: Instant,
-    allowed: bool,
-}
-
-impl Progress {
-    const PATIENCE: Duration = Duration::from_millis(700);
-
-    pub(super) fn new(steps: u32) -> Self {
-        let style = ProgressStyle::with_template("{bar:40} {pos}/{len} steps, {eta} left");
-        let bar = ProgressBar::new(u64::from(steps));
-        bar.set_draw_target(indicatif::ProgressDrawTarget::hidden());
-        if let Ok(style) = style {
-            bar.set_style(style);
-        }
-        Self { bar, start: Instant::now(), allowed: stderr().is_terminal() }
-    }
-
-    /// A step has been made.
-    pub(super) fn at(&self, step: u32) {
-        if !self.allowed || self.start.elapsed() < Self::PATIENCE {
-            return;
-        }
-        if self.bar.is_hidden() {
-            self.bar.set_draw_target(indicatif::ProgressDrawTarget::stderr());
-        }
-        self.bar.set_position(u64::from(step) + 1);
-    }
-
-    pub(super) fn finish(&self) {
-        self.bar.finish_and_clear();
-    }
 }
 
 #[cfg(test)]
