@@ -32,6 +32,8 @@ const BODIES: usize = 100_000;
 /// take up.
 const AWAY: f32 = 0.02;
 const AFTER: f32 = 0.25;
+/// What is larger than this part of all that moves at the start is always in the picture: a drum, a rotor.
+const LARGE: f32 = 0.25;
 /// Room around what moves, as a part of it.
 const ROOM: f32 = 0.06;
 /// A run this many times wider than its start is followed instead of shown whole.
@@ -47,6 +49,7 @@ impl Preview {
         let mut simulation = Simulation::new(scene, how)?;
         let (origin, start) = (simulation.some_position(), simulation.framing());
         let (mut seen, mut moments) = (Seen::default(), Vec::new());
+        seen.large = LARGE * largest_side(&simulation.extents(origin).0);
         let count = MOMENTS.min((BODIES / simulation.world().body_count().max(1)) as u32);
         let between = (last.saturating_sub(first) / count.max(1)).max(1);
         let progress = Progress::new(last);
@@ -99,11 +102,18 @@ struct Seen {
     lower: [Vec<f32>; 2],
     upper: [Vec<f32>; 2],
     sizes: f64,
+    /// Size from which on something is never missed, and the box of all that is so large.
+    large: f32,
+    all_large: Option<Aabb>,
 }
 
 impl Seen {
     fn add(&mut self, bounds: &Aabb) {
-        self.sizes += f64::from(largest_side(bounds));
+        let size = largest_side(bounds);
+        self.sizes += f64::from(size);
+        if size > self.large && self.large > 0.0 {
+            self.all_large = Some(self.all_large.map_or(*bounds, |all| all.union(bounds)));
+        }
         for axis in 0..2 {
             self.lower[axis].push(bounds.min[axis]);
             self.upper[axis].push(bounds.max[axis]);
@@ -115,11 +125,12 @@ impl Seen {
         (self.sizes / self.lower[0].len().max(1) as f64) as f32
     }
 
-    /// The box of all but what flies away.
+    /// The box of all but what is small and flies away.
     fn most(&mut self) -> Aabb {
         let [x, y] = [0, 1].map(|axis| side(&mut self.lower[axis], &mut self.upper[axis]));
         let corners = x.zip(y).map(|(x, y)| (Vec2::new(x.0, y.0), Vec2::new(x.1, y.1)));
-        corners.map_or(Aabb::EMPTY, |(min, max)| Aabb::new(min, max))
+        let most = corners.map_or(Aabb::EMPTY, |(min, max)| Aabb::new(min, max));
+        self.all_large.map_or(most, |all| all.union(&most))
     }
 }
 
@@ -146,6 +157,10 @@ mod tests {
         }
         assert_eq!(seen.most(), Aabb::new(Vec2::splat(-0.5), Vec2::new(12.0, 0.5)));
         assert!(!Seen::default().most().is_valid());
+        // But for what is large.
+        seen.large = 5.0;
+        seen.add(&Aabb::from_center(Vec2::new(0.0, 40.0), Vec2::splat(3.0)));
+        assert_eq!(seen.most().max.y, 43.0);
     }
 
     #[test]

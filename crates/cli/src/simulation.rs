@@ -288,7 +288,7 @@ impl Simulation {
     }
 
     /// Boxes around what moves and what stands still, relative to a point.
-    fn extents(&self, origin: DVec2) -> (Aabb, Aabb) {
+    pub fn extents(&self, origin: DVec2) -> (Aabb, Aabb) {
         let (mut moving, mut fixed) = (Aabb::EMPTY, Aabb::EMPTY);
         self.each_shape(origin, |kind, _, bounds| {
             let all = if kind == BodyKind::Static { &mut fixed } else { &mut moving };

@@ -128,7 +128,7 @@ impl Easel<'_> {
     /// A small ring where a joint turns, well inside of a body of a half width in pixels.
     pub(super) fn pin(&mut self, p: Vec2, room: f32) {
         let radius = self.pixels(0.09, 1.4, 4.0).min(0.4 * room);
-        if radius < 0.8 {
+        if radius < 1.3 {
             return;
         }
         self.dot(p, radius + 1.0, self.theme.shade.with_alpha(150));

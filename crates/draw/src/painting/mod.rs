@@ -45,6 +45,22 @@ pub struct Water {
 impl Canvas {
     /// Paints a world in the presentation style. It takes the place of [`Canvas::begin`] and
     /// [`World::debug_draw`], which may still draw contacts and the like on top.
+    ///
+    /// ```
+    /// use tiny_physics::prelude::*;
+    /// use tiny_physics_draw::{Camera, Canvas, Painting, Theme, Water};
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let mut world = World::new((0.0, -10.0));
+    /// world.add_body(RigidBody::dynamic().position((0.0, 1.0)).shape(Shape::circle(0.5)?))?;
+    /// let camera = Camera::fit((-4.0, -2.0).into(), (4.0, 3.0).into(), 320, 200);
+    /// let pond = Water { surface: 0.0, between: None };
+    /// let painting = Painting { theme: Theme::DARK, waters: vec![pond], ..Painting::default() };
+    /// let mut canvas = Canvas::new(320, 200)?;
+    /// canvas.paint(&world, &camera, &painting);
+    /// assert!(canvas.to_png()?.len() > 1000);
+    /// # Ok(())
+    /// # }
+    /// ```
     pub fn paint(&mut self, world: &World, camera: &Camera, painting: &Painting) {
         self.begin(camera);
         self.note = painting.theme.note;

@@ -13,7 +13,8 @@ pub struct Material {
     pub density: f32,
     /// Coulomb friction, 0 or above.
     pub friction: f32,
-    /// Bounce: 0 none, 1 all of the approach speed comes back.
+    /// Bounce: 0 none, 1 all of the approach speed comes back. 0 unless it is said; [`RigidBody::new`](crate::RigidBody::new)
+    /// says 0.5.
     pub restitution: f32,
     /// Resistance of round shapes against rolling, as a fraction of their radius, 0 or above.
     pub rolling_resistance: f32,
