@@ -53,6 +53,12 @@ impl Bucket {
         let slot = self.contacts.len();
         self.contacts.push(index);
         if slot.is_multiple_of(BLOCK) {
+            if slot == 0 {
+                // Most buckets of small worlds have one block: lists that begin with four would hold three in vain.
+                self.manifolds.reserve_exact(1);
+                self.surfaces.reserve_exact(usize::from(constrained));
+                self.heads.reserve_exact(1);
+            }
             self.manifolds.push(ManifoldBlock::NULL);
             self.heads.push(BlockHead::default());
             if constrained {

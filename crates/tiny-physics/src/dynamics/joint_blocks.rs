@@ -24,9 +24,10 @@ pub(crate) const UNLIMITED: f32 = 1.0e18;
 pub(crate) type Impulses = [f32; IMPULSES];
 
 /// Which kernel solves a joint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum JointClass {
     Distance,
+    #[default]
     Revolute,
     Prismatic,
     Weld,

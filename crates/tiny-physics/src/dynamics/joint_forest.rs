@@ -13,12 +13,13 @@
 use super::bodies::{Bodies, NULL};
 use super::coloured::{TREES, colour_at, place_of};
 use super::disjoint_sets::DisjointSets;
-use super::joint_blocks::{AxisLanes, JointClass};
+use super::joint_blocks::JointClass;
 use super::joints::{JointPlace, Joints};
 use crate::codec::{Data, Reader, Sink, clone_by_field};
 use crate::describe::{JointDef, JointKind};
 use crate::error::Error;
 use crate::footprint::{Footprint, MemoryUse, footprint};
+use crate::simd::Three;
 
 /// Fewer joints than these are solved in lanes.
 const LEAST_LINKS: usize = 2;
@@ -36,14 +37,22 @@ const LINKS_PER_CUT: usize = 8;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct TreeRow {
     /// On body A and on body B: x, y, angular.
-    pub(crate) on: [[f64; 3]; 2],
+    pub(crate) on: [Three; 2],
     /// Lever arms along the direction: how the force turns a body further when that has turned.
-    pub(crate) reach_a: f64,
-    pub(crate) reach_b: f64,
+    pub(crate) reach: [f64; 2],
     /// Position error, metres or radians.
     pub(crate) error: f64,
     /// Velocity that gives way per impulse.
     pub(crate) compliance: f64,
+}
+
+/// A joint's Jacobian on one body.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct TreeJacobian {
+    /// Each row: x, y, angular.
+    pub(crate) rows: [Three; 3],
+    /// The same by columns: x of each row, y, angular.
+    pub(crate) columns: [Three; 3],
 }
 
 /// A body of a tree, and what the solver keeps of it. The first ones are dynamic, in the order of a walk from
@@ -52,27 +61,26 @@ pub(crate) struct TreeRow {
 pub(crate) struct TreeNode {
     pub(crate) body: u32,
     /// Velocity: x, y, angular.
-    pub(crate) v: [f64; 3],
+    pub(crate) v: Three,
     /// Motion since the start of the step, and its turn as cosine and sine.
     pub(crate) d: [f64; 3],
     pub(crate) turn: [f64; 2],
     /// What a substep adds to its velocity by half, where the tree is kicked so.
-    pub(crate) half_gain: [f64; 3],
+    pub(crate) half_gain: Three,
     /// Inverse moment of inertia of its own.
     pub(crate) own_inv_inertia: f64,
-    /// Inverse mass and inverse moment of inertia; the latter with geometric stiffness once the rows are there.
-    pub(crate) inv_mass: f64,
-    pub(crate) inv_inertia: f64,
-    /// Mass matrix as felt from the root's side, or its inverse: xx, xy, xa, yy, ya, aa.
-    pub(crate) hat: [f64; 6],
+    /// Inverse mass, twice, and inverse moment of inertia: with geometric stiffness once the rows are there.
+    pub(crate) inv: Three,
+    /// Mass matrix as felt from the root's side, or its inverse.
+    pub(crate) hat: [Three; 3],
     /// Impulse as felt from the root's side.
-    pub(crate) g: [f64; 3],
+    pub(crate) g: Three,
     /// Change of velocity.
-    pub(crate) dv: [f64; 3],
+    pub(crate) dv: Three,
 }
 
 /// A joint of a tree, and what the solver keeps of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct TreeLink {
     pub(crate) joint: u32,
     pub(crate) class: JointClass,
@@ -99,19 +107,24 @@ pub(crate) struct TreeLink {
     pub(crate) axis: u32,
     /// Motor of a wheel: speed, greatest impulse, impulse.
     pub(crate) motor: [f32; 3],
-    /// Rigid rows and their accumulated impulses.
+    /// Number of rigid rows.
     pub(crate) rigid: usize,
-    pub(crate) rows: [TreeRow; 3],
-    pub(crate) impulses: [f64; 3],
+    /// The rows: on A and on B, and the rest of [`TreeRow`].
+    pub(crate) jacobians: [TreeJacobian; 2],
+    pub(crate) reach: [Three; 2],
+    pub(crate) error: Three,
+    pub(crate) compliance: Three,
+    /// Accumulated impulses of the rigid rows.
+    pub(crate) impulses: Three,
     /// The free coordinate and its value.
     pub(crate) coordinate: TreeRow,
     pub(crate) value: f64,
-    /// Limit that holds: 1 the lower, -1 the upper, 0 none. It is the row after the rigid ones.
+    /// Limit that holds: 1 the lower, -1 the upper, 0 none. Its row, of that sign, comes after the rigid ones.
     pub(crate) limit: f64,
     /// Inverse of the joint's block of the factorisation, right side, change of the impulses.
-    pub(crate) inverse: [f64; 6],
-    pub(crate) rhs: [f64; 3],
-    pub(crate) change: [f64; 3],
+    pub(crate) inverse: [Three; 3],
+    pub(crate) rhs: Three,
+    pub(crate) change: Three,
 }
 
 impl TreeLink {
@@ -123,34 +136,44 @@ impl TreeLink {
         child: u32,
         parent: u32,
     ) -> Self {
-        Self {
-            joint,
-            class,
-            slot: 0,
-            a,
-            b,
-            child,
-            parent,
-            anchor_a: [0.0; 2],
-            anchor_b: [0.0; 2],
-            between: [0.0; 2],
-            direction: [0.0; 2],
-            angle: 0.0,
-            length: 0.0,
-            mesh: [[0.0; 3]; 2],
-            axis: NULL,
-            motor: [0.0; 3],
-            rigid: 0,
-            rows: [TreeRow::default(); 3],
-            impulses: [0.0; 3],
-            coordinate: TreeRow::default(),
-            value: 0.0,
-            limit: 0.0,
-            inverse: [0.0; 6],
-            rhs: [0.0; 3],
-            change: [0.0; 3],
-        }
+        Self { joint, class, a, b, child, parent, axis: NULL, ..Self::default() }
     }
+
+    /// Writes row `i`.
+    #[inline(always)]
+    pub(crate) fn set_row(&mut self, i: usize, row: &TreeRow) {
+        for (side, jacobian) in self.jacobians.iter_mut().enumerate() {
+            jacobian.rows[i] = row.on[side];
+            for (k, column) in jacobian.columns.iter_mut().enumerate() {
+                column[i] = row.on[side][k];
+            }
+            self.reach[side][i] = row.reach[side];
+        }
+        self.error[i] = row.error;
+        self.compliance[i] = row.compliance;
+    }
+}
+
+/// What acts along a link's free coordinate: see [`AxisLanes`](super::AxisLanes), from which it comes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct TreeAxis {
+    /// Coefficients of the spring: push, mass scale, impulse scale; and where it rests.
+    pub(crate) soft: [f64; 3],
+    pub(crate) rest: f64,
+    pub(crate) motor_speed: f64,
+    pub(crate) motor_max: f64,
+    /// Lower and upper end, or `None`.
+    pub(crate) limits: Option<[f64; 2]>,
+    /// Accumulated impulses, those of the limits from the lower and from the upper one.
+    pub(crate) spring: f64,
+    pub(crate) motor: f64,
+    pub(crate) limit: [f64; 2],
+    /// Velocity per impulse, of the two bodies alone, and as the rigid rows tie them.
+    pub(crate) free: f64,
+    pub(crate) tied: f64,
+    /// The row that an impulse of one acts along with what the rigid rows then give, and how much they give.
+    pub(crate) on: [Three; 2],
+    pub(crate) given: Three,
 }
 
 /// A component of joints that is solved directly.
@@ -161,7 +184,7 @@ pub(crate) struct JointTree {
     pub(crate) dynamic: usize,
     /// The root's anchor if it has one, joints from the root outwards, further anchors.
     pub(crate) links: Vec<TreeLink>,
-    pub(crate) axes: Vec<AxisLanes>,
+    pub(crate) axes: Vec<TreeAxis>,
     /// That of all its bodies.
     pub(crate) pace: usize,
     /// The rows have been worked out in this step.

@@ -3,7 +3,7 @@
 use super::lanes::{Lanes, Native};
 use core::fmt;
 use core::str::FromStr;
-use fearless_simd::Level;
+use fearless_simd::{Level, Simd};
 
 /// The instruction set that the kernels run on. Results are the same on all of them.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
@@ -199,6 +199,34 @@ pub(crate) fn dispatch_baseline<K: LaneKernel>(level: SimdLevel, kernel: K) -> K
         Some(Level::WasmSimd128(token)) => run_native(token, kernel),
         _ => kernel.run::<f32>(()),
     }
+}
+
+/// A piece of work on doubles, four at a time.
+pub(crate) trait DoubleKernel {
+    /// Does the work. Implementations must be `#[inline(always)]`.
+    fn run<S: Simd>(self, simd: S);
+}
+
+/// Runs a kernel with the instructions of `level`, or the best below them that there are for doubles.
+#[inline]
+#[allow(unused_variables, reason = "each platform has its own part of the levels")]
+pub(crate) fn dispatch_doubles(level: SimdLevel, kernel: impl DoubleKernel) {
+    #[cfg(target_arch = "x86_64")]
+    match (Level::new().as_avx2(), Level::new().as_sse2()) {
+        (Some(simd), _) if cfg!(tiny_physics_quick) || level.lane_count() > 4 => {
+            simd.vectorize(
+                #[inline(always)]
+                || kernel.run(simd),
+            );
+        }
+        #[cfg(not(tiny_physics_quick))]
+        (_, Some(simd)) => kernel.run(simd),
+        _ => {
+            unreachable!("64-bit x86 has SSE2; --cfg tiny_physics_quick is for machines with AVX2")
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    fearless_simd::dispatch!(Level::new(), simd => kernel.run(simd));
 }
 
 /// Builds the kernel with the instruction set of its token.

@@ -11,11 +11,16 @@
 //! Functions over lanes must be `#[inline(always)]` (and take no closures in hot places): only then
 //! does the compiler build them with the instruction set of the kernel that they end up in.
 
+mod doubles;
 mod lanes;
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 mod lanes_x86;
 mod level;
 
+pub(crate) use doubles::{Three, add_product, add_times, take_product, times};
+pub(crate) use fearless_simd::Simd;
 pub(crate) use lanes::{BLOCK, Lanes, Row};
 pub use level::SimdLevel;
-pub(crate) use level::{LaneKernel, dispatch, dispatch_baseline, dispatch_narrow};
+pub(crate) use level::{
+    DoubleKernel, LaneKernel, dispatch, dispatch_baseline, dispatch_doubles, dispatch_narrow,
+};

@@ -255,7 +255,7 @@ fn run_joints(
         }
     }
     let Some((lanes, trees)) = joint_graph.trees_of_pace(pace) else { return };
-    joint_solver::trees::run(team, pace, pass, substep, rows, trees);
+    joint_solver::trees::run(team, level, pace, pass, substep, rows, trees);
     // Loads are read from the lanes: after the step, and in each substep where joints can break.
     let breakable = !joints.breakable.is_empty();
     if pass == joint_solver::Pass::Finish || breakable && pass == joint_solver::Pass::Relax {

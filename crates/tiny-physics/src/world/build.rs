@@ -42,6 +42,7 @@ impl World {
             ..BodyInfo::default()
         };
         let index = self.state.bodies.insert(info, Pose::new(body.position, rotation));
+        self.state.shapes.records.reserve(body.shapes.len());
         // Pushed to the front of the list, so the last goes first.
         for shape in body.shapes.iter().rev() {
             self.insert_shape(index, shape);
@@ -118,6 +119,7 @@ impl World {
     ) -> Result<Vec<ShapeId>, Error> {
         shapes.iter().try_for_each(check_shape)?;
         self.wake_index(body);
+        self.state.shapes.records.reserve(shapes.len());
         let ids: Vec<u32> = shapes.iter().map(|shape| self.insert_shape(body, shape)).collect();
         self.update_mass(body);
         self.create_proxies(body);

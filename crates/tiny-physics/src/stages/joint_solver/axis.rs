@@ -76,11 +76,29 @@ impl AxisLanes {
         stride: &Stride<L>,
         soft: &Soft<L>,
         give: Give<L>,
-        mut coordinate: Coordinate<L>,
+        coordinate: Coordinate<L>,
     ) -> L {
-        let total = self.drive::<L, BIAS>(stride, &mut coordinate);
         let Coordinate { value, mut velocity, inv_mass } = coordinate;
         let mass = stride.invert(inv_mass);
+        let mut total = stride.zero;
+        if BIAS {
+            let spring = Soft {
+                push: stride.load(&self.push),
+                mass_scale: stride.load(&self.mass_scale),
+                impulse_scale: stride.load(&self.impulse_scale),
+                held: stride.zero,
+            };
+            let old = stride.load(&self.spring);
+            let demand = spring.demand(velocity, value - stride.load(&self.rest));
+            let change = -(mass * demand) - spring.impulse_scale * old;
+            stride.store(old + change, &mut self.spring);
+            velocity = velocity + inv_mass * change;
+            total = total + change;
+        }
+        let held = stride.load(&self.lower_impulse) - stride.load(&self.upper_impulse);
+        let change = self.solve_motor(stride, velocity - inv_mass * held, mass);
+        velocity = velocity + inv_mass * change;
+        total = total + change;
 
         let room = value - stride.load(&self.lower);
         let change = solve_limit::<L, BIAS>(
@@ -104,36 +122,6 @@ impl AxisLanes {
             [-velocity, mass, inv_mass],
         );
         total - change
-    }
-
-    /// The impulse that spring and motor add along the coordinate, whose velocity follows.
-    #[inline(always)]
-    pub(super) fn drive<L: Lanes, const BIAS: bool>(
-        &mut self,
-        stride: &Stride<L>,
-        coordinate: &mut Coordinate<L>,
-    ) -> L {
-        let Coordinate { value, mut velocity, inv_mass } = *coordinate;
-        let mass = stride.invert(inv_mass);
-        let mut total = stride.zero;
-        if BIAS {
-            let spring = Soft {
-                push: stride.load(&self.push),
-                mass_scale: stride.load(&self.mass_scale),
-                impulse_scale: stride.load(&self.impulse_scale),
-                held: stride.zero,
-            };
-            let old = stride.load(&self.spring);
-            let demand = spring.demand(velocity, value - stride.load(&self.rest));
-            let change = -(mass * demand) - spring.impulse_scale * old;
-            stride.store(old + change, &mut self.spring);
-            velocity = velocity + inv_mass * change;
-            total = total + change;
-        }
-        let held = stride.load(&self.lower_impulse) - stride.load(&self.upper_impulse);
-        let change = self.solve_motor(stride, velocity - inv_mass * held, mass);
-        coordinate.velocity = velocity + inv_mass * change;
-        total + change
     }
 
     /// The motor's change of impulse. `velocity` is what it would be without the limits: against one that holds a

@@ -21,6 +21,7 @@
 //! `dl = D^-1 (y - Jp dvp)`, `dvc = Mc^-1 (Jc^T dl + gc)`. An anchor below a node has no child: D = S.
 
 use crate::dynamics::{JointTree, NULL, TreeLink, TreeNode, TreeRow};
+use crate::simd::{Simd, Three, add_product, add_times, take_product, times};
 
 /// Rows of a link: the rigid ones, then the limit that holds.
 #[inline(always)]
@@ -28,224 +29,155 @@ fn row_count(link: &TreeLink) -> usize {
     link.rigid + usize::from(link.limit != 0.0)
 }
 
-/// Jacobian of a row on body B, or on body A.
+/// Not of the fourth, which is none.
 #[inline(always)]
-pub(super) fn jacobian(row: &TreeRow, on_b: bool) -> [f64; 3] {
-    row.on[usize::from(on_b)]
-}
-
-/// Jacobian of row `i` of a link, the limit among them.
-#[inline(always)]
-fn row(link: &TreeLink, i: usize, on_b: bool) -> [f64; 3] {
-    if i < link.rigid {
-        jacobian(&link.rows[i], on_b)
-    } else {
-        jacobian(&link.coordinate, on_b).map(|x| link.limit * x)
-    }
-}
-
-/// A symmetric matrix times a vector; xx, xy, xz, yy, yz, zz.
-#[inline(always)]
-pub(super) fn times(m: &[f64; 6], v: [f64; 3]) -> [f64; 3] {
-    [
-        m[0] * v[0] + m[1] * v[1] + m[2] * v[2],
-        m[1] * v[0] + m[3] * v[1] + m[4] * v[2],
-        m[2] * v[0] + m[4] * v[1] + m[5] * v[2],
-    ]
-}
-
-#[inline(always)]
-pub(super) fn dot3(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(super) fn dot3(a: &Three, b: &Three) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// The inverse of a symmetric matrix of `n` rows, which are the first; zero where it has none.
 #[inline(always)]
-pub(super) fn invert(m: &[f64; 6], n: usize) -> [f64; 6] {
+pub(super) fn invert(
+    [[a, b, c, _], [_, d, e, _], [_, _, f, _]]: &[Three; 3],
+    n: usize,
+) -> [Three; 3] {
     let reciprocal = |x: f64| if x > 0.0 { 1.0 / x } else { 0.0 };
     match n {
-        0 => [0.0; 6],
-        1 => [reciprocal(m[0]), 0.0, 0.0, 0.0, 0.0, 0.0],
+        0 | 1 => [[reciprocal(*a), 0.0, 0.0, 0.0], [0.0; 4], [0.0; 4]],
         2 => {
-            let inv = reciprocal(m[0] * m[3] - m[1] * m[1]);
-            [m[3] * inv, -m[1] * inv, 0.0, m[0] * inv, 0.0, 0.0]
+            let inv = reciprocal(a * d - b * b);
+            [[d * inv, -b * inv, 0.0, 0.0], [-b * inv, a * inv, 0.0, 0.0], [0.0; 4]]
         }
         _ => {
-            let c0 = m[3] * m[5] - m[4] * m[4];
-            let c1 = m[2] * m[4] - m[1] * m[5];
-            let c2 = m[1] * m[4] - m[2] * m[3];
-            let inv = reciprocal(m[0] * c0 + m[1] * c1 + m[2] * c2);
+            let c0 = d * f - e * e;
+            let c1 = c * e - b * f;
+            let c2 = b * e - c * d;
+            let inv = reciprocal(a * c0 + b * c1 + c * c2);
+            let (c0, c1, c2) = (c0 * inv, c1 * inv, c2 * inv);
+            let ya = (b * c - a * e) * inv;
             [
-                c0 * inv,
-                c1 * inv,
-                c2 * inv,
-                (m[0] * m[5] - m[2] * m[2]) * inv,
-                (m[1] * m[2] - m[0] * m[4]) * inv,
-                (m[0] * m[3] - m[1] * m[1]) * inv,
+                [c0, c1, c2, 0.0],
+                [c1, (a * f - c * c) * inv, ya, 0.0],
+                [c2, ya, (a * d - b * b) * inv, 0.0],
             ]
         }
     }
 }
 
 /// Mass matrix of a body. What nothing moves in a direction is `heavy` there.
-fn mass(node: &TreeNode, heavy: f64) -> [f64; 6] {
-    let invert = |inv: f64| if inv > 0.0 { 1.0 / inv } else { heavy };
-    let m = invert(node.inv_mass);
-    [m, 0.0, 0.0, m, 0.0, invert(node.inv_inertia)]
+fn mass(node: &TreeNode, heavy: f64) -> [Three; 3] {
+    let [m, _, inertia, _] = node.inv.map(|inv| if inv > 0.0 { 1.0 / inv } else { heavy });
+    [[m, 0.0, 0.0, 0.0], [0.0, m, 0.0, 0.0], [0.0, 0.0, inertia, 0.0]]
 }
 
 /// A mass and moment of inertia that the bodies of the tree cannot move.
 fn heavy(nodes: &[TreeNode]) -> f64 {
     const MORE: f64 = 1.0e9;
     let mut least = f64::MAX;
-    for inv in nodes.iter().flat_map(|node| [node.inv_mass, node.inv_inertia]) {
+    for &inv in nodes.iter().flat_map(|node| &node.inv[1..3]) {
         least = if inv > 0.0 && inv < least { inv } else { least };
     }
     if least < f64::MAX { MORE / least } else { 1.0 }
 }
 
 /// Factors the matrix of a tree, unless that is done.
-pub(super) fn refactor(tree: &mut JointTree) {
-    if !core::mem::replace(&mut tree.factored, true) {
-        factor(tree);
+#[inline(always)]
+pub(super) fn factor<S: Simd>(simd: S, tree: &mut JointTree) {
+    let JointTree { nodes, dynamic, links, factored, .. } = tree;
+    if core::mem::replace(factored, true) {
+        return;
     }
-}
-
-/// Factors the matrix of a tree.
-pub(super) fn factor(tree: &mut JointTree) {
-    let JointTree { nodes, dynamic, links, .. } = tree;
     let heavy = heavy(&nodes[..*dynamic]);
     for node in &mut nodes[..*dynamic] {
         node.hat = mass(node, heavy);
     }
     let rooted = links.first().is_some_and(|link| link.parent == NULL);
     for link in links.iter_mut().rev() {
-        match row_count(link) {
-            0 => factor_link::<0>(nodes, link),
-            1 => factor_link::<1>(nodes, link),
-            2 => factor_link::<2>(nodes, link),
-            _ => factor_link::<3>(nodes, link),
-        }
+        factor_link(simd, nodes, link);
     }
     if !rooted {
         nodes[0].hat = invert(&nodes[0].hat, 3);
     }
 }
 
-/// Place of (i, j), i <= j, in a symmetric matrix.
-pub(super) const PLACE: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
-
 #[inline(always)]
-fn factor_link<const N: usize>(nodes: &mut [TreeNode], link: &mut TreeLink) {
-    let mut d = [0.0; 6];
+fn factor_link<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
+    if link.rigid < 3 {
+        let TreeRow { on, compliance, .. } = link.coordinate;
+        let on = on.map(|side| side.map(|x| link.limit * x));
+        link.set_row(link.rigid, &TreeRow { on, compliance, ..TreeRow::default() });
+    }
+    let mut d = [[0.0; 4]; 3];
     if link.child != NULL {
         let node = &mut nodes[link.child as usize];
         node.hat = invert(&node.hat, 3);
-        let on_b = link.child == link.b;
-        let jacobians: [[f64; 3]; N] = core::array::from_fn(|i| row(link, i, on_b));
-        for i in 0..N {
-            let response = times(&node.hat, jacobians[i]);
-            for (j, jacobian) in jacobians.iter().enumerate().skip(i) {
-                d[PLACE[i][j]] = dot3(response, *jacobian);
-            }
+        let jacobian = &link.jacobians[usize::from(link.child == link.b)];
+        for (d, row) in d.iter_mut().zip(&jacobian.rows) {
+            add_product(simd, d, &jacobian.columns, &times(simd, &node.hat, row));
         }
     }
-    for i in 0..N {
-        let row = if i < link.rigid { &link.rows[i] } else { &link.coordinate };
-        d[PLACE[i][i]] += row.compliance;
+    for (i, d) in d.iter_mut().enumerate() {
+        d[i] += link.compliance[i];
     }
-    link.inverse = invert(&d, N);
+    link.inverse = invert(&d, row_count(link));
     if link.parent != NULL {
-        let on_b = link.parent == link.b;
-        let jacobians: [[f64; 3]; N] = core::array::from_fn(|i| row(link, i, on_b));
+        let rows = &link.jacobians[usize::from(link.parent == link.b)].rows;
         let hat = &mut nodes[link.parent as usize].hat;
-        for i in 0..N {
-            let mut column = [0.0; 3];
-            for (j, jacobian) in jacobians.iter().enumerate() {
-                let factor = link.inverse[PLACE[i][j]];
-                for k in 0..3 {
-                    column[k] += factor * jacobian[k];
-                }
+        for (row, inverse) in rows.iter().zip(&link.inverse) {
+            let felt = times(simd, rows, inverse);
+            for (hat, x) in hat.iter_mut().zip(row) {
+                add_times(simd, hat, &felt, *x);
             }
-            let own = jacobians[i];
-            hat[0] += own[0] * column[0];
-            hat[1] += own[0] * column[1];
-            hat[2] += own[0] * column[2];
-            hat[3] += own[1] * column[1];
-            hat[4] += own[1] * column[2];
-            hat[5] += own[2] * column[2];
         }
     }
 }
 
 /// Solves for the right sides of the links: changes of impulses in the links, of velocities in the nodes.
-pub(super) fn solve(tree: &mut JointTree) {
+#[inline(always)]
+pub(super) fn solve<S: Simd>(simd: S, tree: &mut JointTree) {
     let JointTree { nodes, dynamic, links, .. } = tree;
     for node in &mut nodes[..*dynamic] {
-        node.g = [0.0; 3];
+        node.g = [0.0; 4];
     }
     for link in links.iter_mut().rev() {
-        match row_count(link) {
-            0 => {}
-            1 => gather::<1>(nodes, link),
-            2 => gather::<2>(nodes, link),
-            _ => gather::<3>(nodes, link),
-        }
+        gather(simd, nodes, link);
     }
     if links.first().is_some_and(|link| link.parent != NULL) {
-        nodes[0].dv = times(&nodes[0].hat, nodes[0].g);
+        nodes[0].dv = times(simd, &nodes[0].hat, &nodes[0].g);
     }
-    for link in links.iter_mut() {
-        match row_count(link) {
-            0 => scatter::<0>(nodes, link),
-            1 => scatter::<1>(nodes, link),
-            2 => scatter::<2>(nodes, link),
-            _ => scatter::<3>(nodes, link),
-        }
+    for link in links {
+        scatter(simd, nodes, link);
     }
 }
 
 /// Towards the root: y, and what the parent feels of it.
 #[inline(always)]
-fn gather<const N: usize>(nodes: &mut [TreeNode], link: &mut TreeLink) {
+fn gather<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
     if link.child != NULL {
         let node = &nodes[link.child as usize];
-        let moved = times(&node.hat, node.g);
-        for i in 0..N {
-            link.rhs[i] -= dot3(row(link, i, link.child == link.b), moved);
-        }
+        let columns = &link.jacobians[usize::from(link.child == link.b)].columns;
+        take_product(simd, &mut link.rhs, columns, &times(simd, &node.hat, &node.g));
     }
     if link.parent != NULL {
-        let push = times(&link.inverse, link.rhs);
-        let g = &mut nodes[link.parent as usize].g;
-        for (i, push) in push.iter().enumerate().take(N) {
-            let jacobian = row(link, i, link.parent == link.b);
-            for k in 0..3 {
-                g[k] += jacobian[k] * push;
-            }
-        }
+        let rows = &link.jacobians[usize::from(link.parent == link.b)].rows;
+        let push = times(simd, &link.inverse, &link.rhs);
+        add_product(simd, &mut nodes[link.parent as usize].g, rows, &push);
     }
 }
 
 /// Away from the root: changes of the impulses and of the child's velocity.
 #[inline(always)]
-fn scatter<const N: usize>(nodes: &mut [TreeNode], link: &mut TreeLink) {
+fn scatter<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
     if link.parent != NULL {
-        let dv = nodes[link.parent as usize].dv;
-        for i in 0..N {
-            link.rhs[i] -= dot3(row(link, i, link.parent == link.b), dv);
-        }
+        let columns = &link.jacobians[usize::from(link.parent == link.b)].columns;
+        take_product(simd, &mut link.rhs, columns, &nodes[link.parent as usize].dv);
     }
-    link.change = times(&link.inverse, link.rhs);
+    link.change = times(simd, &link.inverse, &link.rhs);
     if link.child != NULL {
-        let mut push = nodes[link.child as usize].g;
-        for i in 0..N {
-            let jacobian = row(link, i, link.child == link.b);
-            for k in 0..3 {
-                push[k] += jacobian[k] * link.change[i];
-            }
-        }
         let node = &mut nodes[link.child as usize];
-        node.dv = times(&node.hat, push);
+        let mut push = node.g;
+        let rows = &link.jacobians[usize::from(link.child == link.b)].rows;
+        add_product(simd, &mut push, rows, &link.change);
+        node.dv = times(simd, &node.hat, &push);
     }
 }

@@ -18,10 +18,12 @@ mod rows;
 mod tests;
 
 use super::Pass;
-use super::axis::Coordinate;
-use super::parts::{SNAP, Stride, Substep};
+use super::parts::{SNAP, Substep};
 use crate::dynamics::{
-    AxisLanes, JOINTED, JointClass, JointColour, JointTree, Joints, Motion, TreeLink, TreeNode,
+    JOINTED, JointClass, JointColour, JointTree, Joints, Motion, TreeAxis, TreeLink, TreeNode,
+};
+use crate::simd::{
+    DoubleKernel, Simd, SimdLevel, Three, add_times, dispatch_doubles, take_product,
 };
 use crate::threads::{SharedRows, Team};
 
@@ -54,7 +56,7 @@ pub(crate) fn prepare(
             rows::prepare(tree, lanes, joints);
             for node in &mut tree.nodes[..tree.dynamic] {
                 let Motion { gain, .. } = &motions[node.body as usize];
-                node.half_gain = core::array::from_fn(|k| 0.5 * f64::from(gain[k]));
+                node.half_gain = [gain[0], gain[1], gain[2], 0.0].map(|x| 0.5 * f64::from(x));
             }
         });
     });
@@ -68,6 +70,7 @@ pub(crate) fn finish(pace: usize, trees: &mut [JointTree], lanes: &mut JointColo
 /// Runs a pass over the trees of a pace.
 pub(crate) fn run(
     team: &Team,
+    level: SimdLevel,
     pace: usize,
     pass: Pass,
     substep: Substep,
@@ -81,8 +84,21 @@ pub(crate) fn run(
         return;
     }
     team.for_each_chunk_mut(trees, CHUNK, |_, trees| {
-        of_pace(trees, pace).for_each(|tree| run_tree(pass, substep, bodies, tree));
+        dispatch_doubles(level, RunPass(pass, substep, bodies, trees, pace));
     });
+}
+
+/// A pass over some trees.
+struct RunPass<'a>(Pass, Substep, SharedRows<'a>, &'a mut [JointTree], usize);
+
+impl DoubleKernel for RunPass<'_> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self(pass, substep, bodies, trees, pace) = self;
+        for tree in of_pace(trees, pace) {
+            run_tree(simd, pass, substep, bodies, tree);
+        }
+    }
 }
 
 /// The trees of a pace; those without links are none.
@@ -90,12 +106,19 @@ fn of_pace(trees: &mut [JointTree], pace: usize) -> impl Iterator<Item = &mut Jo
     trees.iter_mut().filter(move |tree| tree.pace == pace && !tree.links.is_empty())
 }
 
-fn run_tree(pass: Pass, substep: Substep, bodies: SharedRows<'_>, tree: &mut JointTree) {
+#[inline(always)]
+fn run_tree<S: Simd>(
+    simd: S,
+    pass: Pass,
+    substep: Substep,
+    bodies: SharedRows<'_>,
+    tree: &mut JointTree,
+) {
     let rates = Rates::new(substep, tree.pace);
     let h = rates.h;
     let moved = pass == Pass::Relax && tree.moved;
     if moved || !tree.fresh {
-        rows::refresh(tree, bodies, h);
+        rows::refresh(simd, tree, bodies, h);
     }
     rows::load(tree, bodies);
     tree.moved = pass == Pass::Solve;
@@ -104,20 +127,20 @@ fn run_tree(pass: Pass, substep: Substep, bodies: SharedRows<'_>, tree: &mut Joi
             if tree.pace == JOINTED {
                 rows::damp(tree);
             } else {
-                kick(tree, -1.0);
+                kick(simd, tree, -1.0);
             }
-            warm_start(tree);
+            warm_start(simd, tree);
         }
         Pass::Solve => {
-            drive::<true>(tree, substep);
-            solve::<true>(tree, &rates);
+            drive::<_, true>(simd, tree);
+            solve::<_, true>(simd, tree, &rates);
         }
         _ => {
             if moved && tree.pace != JOINTED {
-                kick(tree, 1.0);
+                kick(simd, tree, 1.0);
             }
-            drive::<false>(tree, substep);
-            solve::<false>(tree, &rates);
+            drive::<_, false>(simd, tree);
+            solve::<_, false>(simd, tree, &rates);
         }
     }
     rows::store(tree, bodies);
@@ -125,24 +148,26 @@ fn run_tree(pass: Pass, substep: Substep, bodies: SharedRows<'_>, tree: &mut Joi
 
 /// Adds or takes away half of what forces add in a substep: they act half before it and half after it, which
 /// makes the swing of a free tree exact to second order.
-fn kick(tree: &mut JointTree, sign: f64) {
+#[inline(always)]
+fn kick<S: Simd>(simd: S, tree: &mut JointTree, sign: f64) {
     for node in &mut tree.nodes {
-        for k in 0..3 {
-            node.v[k] += sign * node.half_gain[k];
-        }
+        add_times(simd, &mut node.v, &node.half_gain, sign);
     }
 }
 
 /// Applies the impulses of the substep before.
-fn warm_start(tree: &mut JointTree) {
+#[inline(always)]
+fn warm_start<S: Simd>(simd: S, tree: &mut JointTree) {
     let JointTree { nodes, links, axes, .. } = tree;
     for link in links {
         let ends = [link.a, link.b];
-        for (row, impulse) in link.rows[..link.rigid].iter().zip(link.impulses) {
-            rows::push(nodes, ends, row, impulse);
+        for i in 0..link.rigid {
+            let row = [link.jacobians[0].rows[i], link.jacobians[1].rows[i]];
+            rows::push(simd, nodes, ends, &row, link.impulses[i]);
         }
         if let Some(axis) = axes.get(link.axis as usize) {
-            rows::push(nodes, ends, &link.coordinate, f64::from(axis.total_of(0)));
+            let total = axis.spring + axis.motor + axis.limit[0] - axis.limit[1];
+            rows::push(simd, nodes, ends, &link.coordinate.on, total);
         }
         if link.class == JointClass::Wheel {
             turn(nodes, ends, f64::from(link.motor[2]));
@@ -152,30 +177,30 @@ fn warm_start(tree: &mut JointTree) {
 
 /// Applies an angular impulse on B, the opposite on A.
 fn turn(nodes: &mut [TreeNode], [a, b]: [u32; 2], impulse: f64) {
-    let (ia, ib) = (nodes[a as usize].inv_inertia, nodes[b as usize].inv_inertia);
+    let (ia, ib) = (nodes[a as usize].inv[2], nodes[b as usize].inv[2]);
     nodes[a as usize].v[2] -= ia * impulse;
     nodes[b as usize].v[2] += ib * impulse;
 }
 
 /// Springs and motors, joint by joint.
-fn drive<const BIAS: bool>(tree: &mut JointTree, substep: Substep) {
+#[inline(always)]
+fn drive<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree) {
     let JointTree { nodes, links, axes, .. } = tree;
-    let stride = Stride::<f32>::new((), 0, substep);
     for link in links {
         if link.class == JointClass::Wheel && (link.motor[1] > 0.0 || link.motor[2] != 0.0) {
             drive_wheel(link, nodes);
         }
         if let Some(axis) = axes.get_mut(link.axis as usize)
-            && (axis.mass_scale[0] != 0.0 || axis.motor_max[0] != 0.0)
+            && (BIAS && axis.soft[1] != 0.0 || axis.motor_max != 0.0)
         {
-            drive_axis::<BIAS>(&stride, link, axis, nodes);
+            drive_axis::<S, BIAS>(simd, link, axis, nodes);
         }
     }
 }
 
 fn drive_wheel(link: &mut TreeLink, nodes: &mut [TreeNode]) {
     let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
-    let (inv, spin) = (a.inv_inertia + b.inv_inertia, b.v[2] - a.v[2]);
+    let (inv, spin) = (a.inv[2] + b.inv[2], b.v[2] - a.v[2]);
     let [speed, max, old] = link.motor;
     let wanted = if inv > 0.0 { (f64::from(speed) - spin) / inv } else { 0.0 };
     let impulse = (old + wanted as f32).max(-max).min(max);
@@ -183,54 +208,57 @@ fn drive_wheel(link: &mut TreeLink, nodes: &mut [TreeNode]) {
     turn(nodes, [link.a, link.b], f64::from(impulse - old));
 }
 
-/// Along the free coordinate, with the mass of the two bodies as the joint's rigid rows tie them.
-fn drive_axis<const BIAS: bool>(
-    stride: &Stride<f32>,
+/// Along the free coordinate, with the mass of the two bodies as the joint's rigid rows tie them: as
+/// [`AxisLanes::solve`](crate::dynamics::AxisLanes) does.
+#[inline(always)]
+fn drive_axis<S: Simd, const BIAS: bool>(
+    simd: S,
     link: &mut TreeLink,
-    axis: &mut AxisLanes,
+    axis: &mut TreeAxis,
     nodes: &mut [TreeNode],
 ) {
     let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
-    let own = &link.coordinate;
-    let free = rows::response(own, own, a, b);
-    let mut coupling = [0.0; 3];
-    let mut mass = [0.0; 6];
-    for i in 0..link.rigid {
-        coupling[i] = rows::response(&link.rows[i], own, a, b);
-        for j in i..link.rigid {
-            mass[factor::PLACE[i][j]] = rows::response(&link.rows[i], &link.rows[j], a, b);
-        }
+    let mut velocity = rows::velocity(&link.coordinate.on, a, b);
+    let mass = if axis.tied > 0.0 { 1.0 / axis.tied } else { 0.0 };
+    let mut change = 0.0;
+    if BIAS {
+        let [push, share, decay] = axis.soft;
+        let demand = share * velocity + push * (link.value - axis.rest);
+        change = -mass * demand - decay * axis.spring;
+        axis.spring += change;
+        velocity += axis.tied * change;
     }
-    let per = factor::times(&factor::invert(&mass, link.rigid), coupling);
-    let tied = free - factor::dot3(coupling, per);
-    let least = f64::from(super::parts::LEAST_COMPLEMENT) * free;
-    let mut coordinate = Coordinate {
-        value: link.value as f32,
-        velocity: rows::velocity(own, a, b) as f32,
-        inv_mass: if tied > least { tied } else { least } as f32,
-    };
-    let change = f64::from(axis.drive::<f32, BIAS>(stride, &mut coordinate));
-    let ends = [link.a, link.b];
-    rows::push(nodes, ends, own, change);
-    for (i, per) in per.iter().enumerate().take(link.rigid) {
-        link.impulses[i] -= per * change;
-        rows::push(nodes, ends, &link.rows[i], -per * change);
+    let held = axis.limit[0] - axis.limit[1];
+    let wanted = axis.motor + mass * (axis.motor_speed - (velocity - axis.tied * held));
+    let motor = clamp(wanted, axis.motor_max);
+    change += motor - axis.motor;
+    axis.motor = motor;
+    rows::push(simd, nodes, [link.a, link.b], &axis.on, change);
+    for (impulse, given) in link.impulses[..link.rigid].iter_mut().zip(axis.given) {
+        *impulse += given * change;
     }
+}
+
+/// At most `most` either way.
+fn clamp(value: f64, most: f64) -> f64 {
+    let value = if value > -most { value } else { -most };
+    if value < most { value } else { most }
 }
 
 /// Solves the rigid rows together with the limits that hold.
 ///
 /// Which do is not known before: those that pushed before, and those that would be overrun, begin. A limit that
 /// would have to pull goes, one that is overrun comes, and the tree is solved again.
-fn solve<const BIAS: bool>(tree: &mut JointTree, rates: &Rates) {
-    begin_limits::<BIAS>(tree, rates);
-    let share = if BIAS { snap_share(tree, rates) } else { 0.0 };
+#[inline(always)]
+fn solve<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) {
+    begin_limits::<S, BIAS>(simd, tree, rates);
+    let share = if BIAS { snap_share(simd, tree, rates) } else { 0.0 };
     for _ in 0..MOST_SOLVES {
-        factor::refactor(tree);
-        demand::<BIAS>(tree, rates, share);
-        factor::solve(tree);
-        apply(tree);
-        if !change_limits::<BIAS>(tree, rates) {
+        factor::factor(simd, tree);
+        demand::<S, BIAS>(simd, tree, rates, share);
+        factor::solve(simd, tree);
+        apply(simd, tree);
+        if !change_limits::<S, BIAS>(simd, tree, rates) {
             break;
         }
     }
@@ -254,6 +282,7 @@ impl Rates {
 
     /// Velocity that a limit asks for: within the substep it may be reached, but not passed. An overrun goes as it
     /// does in lanes, softly while it is small, and no faster than what the limit has taken.
+    #[inline(always)]
     fn limit_bias<const BIAS: bool>(&self, class: JointClass, room: f64, taken: f64) -> f64 {
         if room > 0.0 {
             return room / self.h;
@@ -277,24 +306,22 @@ impl Rates {
 
 /// The part of all position errors that is taken away: they may add up along a tree, and to make them good at once would
 /// hurl it about. What they alone would do tells.
-fn snap_share(tree: &mut JointTree, rates: &Rates) -> f64 {
+#[inline(always)]
+fn snap_share<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) -> f64 {
     let mut sum = 0.0;
     for link in &mut tree.links {
-        link.rhs = [0.0; 3];
-        for (rhs, row) in link.rhs.iter_mut().zip(&link.rows[..link.rigid]) {
-            *rhs = -rates.rigid_bias(row.error);
-            sum += rhs.abs();
-        }
+        link.rhs = link.error.map(|error| -rates.rigid_bias(error));
+        sum += link.rhs[0].abs() + link.rhs[1].abs() + link.rhs[2].abs();
     }
     let [most, most_turn] = rates.snap;
     if sum < most {
         return 1.0;
     }
-    factor::refactor(tree);
-    factor::solve(tree);
+    factor::factor(simd, tree);
+    factor::solve(simd, tree);
     let mut over = 1.0;
     for node in &tree.nodes[..tree.dynamic] {
-        let [x, y, turn] = node.dv;
+        let [x, y, turn, _] = node.dv;
         let (way, turn) = ((x * x + y * y).sqrt() / most, turn.abs() / most_turn);
         let most = if way > turn { way } else { turn };
         over = if most > over { most } else { over };
@@ -303,52 +330,65 @@ fn snap_share(tree: &mut JointTree, rates: &Rates) -> f64 {
 }
 
 /// What is missing in the velocity at the lower (1) or upper (-1) limit; above 0 where it would be overrun.
+#[inline(always)]
 fn overrun<const BIAS: bool>(
     link: &TreeLink,
-    axis: &AxisLanes,
-    nodes: &[TreeNode],
+    axis: &TreeAxis,
+    velocity: f64,
     side: f64,
     rates: &Rates,
 ) -> f64 {
-    let end = f64::from(if side > 0.0 { axis.lower[0] } else { axis.upper[0] });
-    let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
-    let velocity = rows::velocity(&link.coordinate, a, b);
-    let velocity = side * velocity;
-    let impulse = if side > 0.0 { axis.lower_impulse[0] } else { axis.upper_impulse[0] };
-    let stopped = rows::response(&link.coordinate, &link.coordinate, a, b) * f64::from(impulse);
+    let Some(ends) = axis.limits else { return -f64::MAX };
+    let at = usize::from(side < 0.0);
+    let (velocity, stopped) = (side * velocity, axis.free * axis.limit[at]);
+    let room = side * (link.value - ends[at]);
     let taken = if velocity < 0.0 { stopped - velocity } else { stopped };
-    -(velocity + rates.limit_bias::<BIAS>(link.class, side * (link.value - end), taken))
+    -(velocity + rates.limit_bias::<BIAS>(link.class, room, taken))
+}
+
+/// Velocity along the free coordinate of a link.
+fn velocity(link: &TreeLink, nodes: &[TreeNode]) -> f64 {
+    rows::velocity(&link.coordinate.on, &nodes[link.a as usize], &nodes[link.b as usize])
 }
 
 /// The accumulated impulse of a limit.
-fn limit_impulse(axis: &mut AxisLanes, side: f64) -> &mut f32 {
-    if side > 0.0 { &mut axis.lower_impulse[0] } else { &mut axis.upper_impulse[0] }
+fn limit_impulse(axis: &mut TreeAxis, side: f64) -> &mut f64 {
+    &mut axis.limit[usize::from(side < 0.0)]
 }
 
 /// Takes back what a limit has given.
-fn release(link: &TreeLink, axis: &mut AxisLanes, nodes: &mut [TreeNode], side: f64) {
+#[inline(always)]
+fn release<S: Simd>(
+    simd: S,
+    link: &TreeLink,
+    axis: &mut TreeAxis,
+    nodes: &mut [TreeNode],
+    side: f64,
+) {
     let impulse = core::mem::take(limit_impulse(axis, side));
-    rows::push(nodes, [link.a, link.b], &link.coordinate, -side * f64::from(impulse));
+    rows::push(simd, nodes, [link.a, link.b], &link.coordinate.on, -side * impulse);
 }
 
 /// Begins with the limits that pushed or would be overrun.
-fn begin_limits<const BIAS: bool>(tree: &mut JointTree, rates: &Rates) {
+#[inline(always)]
+fn begin_limits<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) {
     let JointTree { nodes, links, axes, factored, .. } = tree;
     for link in links {
-        let Some(axis) = axes.get_mut(link.axis as usize) else { continue };
-        let wants = |axis: &mut AxisLanes, side: f64| {
-            *limit_impulse(axis, side) > 0.0
-                || overrun::<BIAS>(link, axis, nodes, side, rates) > 0.0
+        let axis = axes.get_mut(link.axis as usize).filter(|axis| axis.limits.is_some());
+        let Some(axis) = axis else { continue };
+        let velocity = velocity(link, nodes);
+        let wants = |impulse: f64, side: f64| {
+            impulse > 0.0 || overrun::<BIAS>(link, axis, velocity, side, rates) > 0.0
         };
-        let side = if wants(axis, 1.0) {
+        let side = if wants(axis.limit[0], 1.0) {
             1.0
-        } else if wants(axis, -1.0) {
+        } else if wants(axis.limit[1], -1.0) {
             -1.0
         } else {
             0.0
         };
-        if side > 0.0 && axis.upper_impulse[0] != 0.0 {
-            release(link, axis, nodes, -1.0);
+        if side > 0.0 && axis.limit[1] != 0.0 {
+            release(simd, link, axis, nodes, -1.0);
         }
         if side != link.limit {
             link.limit = side;
@@ -358,21 +398,24 @@ fn begin_limits<const BIAS: bool>(tree: &mut JointTree, rates: &Rates) {
 }
 
 /// Lets go of limits that pull, takes hold of those that are overrun. Has anything changed?
-fn change_limits<const BIAS: bool>(tree: &mut JointTree, rates: &Rates) -> bool {
+#[inline(always)]
+fn change_limits<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) -> bool {
     let JointTree { nodes, links, axes, factored, .. } = tree;
     let mut changed = false;
     for link in links {
-        let Some(axis) = axes.get_mut(link.axis as usize) else { continue };
+        let axis = axes.get_mut(link.axis as usize).filter(|axis| axis.limits.is_some());
+        let Some(axis) = axis else { continue };
         if link.limit != 0.0 {
             if *limit_impulse(axis, link.limit) < 0.0 {
-                release(link, axis, nodes, link.limit);
+                release(simd, link, axis, nodes, link.limit);
                 link.limit = 0.0;
                 changed = true;
             }
             continue;
         }
+        let velocity = velocity(link, nodes);
         for side in [1.0, -1.0] {
-            if overrun::<BIAS>(link, axis, nodes, side, rates) > LEAST_OVERRUN {
+            if overrun::<BIAS>(link, axis, velocity, side, rates) > LEAST_OVERRUN {
                 link.limit = side;
                 changed = true;
             }
@@ -383,50 +426,51 @@ fn change_limits<const BIAS: bool>(tree: &mut JointTree, rates: &Rates) -> bool 
 }
 
 /// Right sides: minus what the velocities and position errors are short of.
-fn demand<const BIAS: bool>(tree: &mut JointTree, rates: &Rates, share: f64) {
+#[inline(always)]
+fn demand<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates, share: f64) {
     let JointTree { nodes, links, axes, .. } = tree;
     for link in links {
         let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
-        let curve = if BIAS { curve(link, a, b, rates.h) } else { [0.0; 3] };
-        for (i, curve) in curve.iter().enumerate().take(link.rigid) {
-            let row = &link.rows[i];
-            link.rhs[i] = -rows::velocity(row, a, b);
-            if BIAS {
-                let give = row.compliance * link.impulses[i];
-                link.rhs[i] -= curve + share * rates.rigid_bias(row.error) + give;
+        let mut rhs = [0.0; 4];
+        if BIAS {
+            rhs = curve(simd, link, a, b, rates.h);
+            let push = share * rates.rigid_bias(1.0);
+            for i in 0..4 {
+                rhs[i] -= push * link.error[i] + link.compliance[i] * link.impulses[i];
             }
         }
+        take_product(simd, &mut rhs, &link.jacobians[1].columns, &b.v);
+        take_product(simd, &mut rhs, &link.jacobians[0].columns, &a.v);
         if let Some(axis) = axes.get_mut(link.axis as usize)
             && link.limit != 0.0
         {
-            let mut wanted = overrun::<BIAS>(link, axis, nodes, link.limit, rates);
+            let velocity = rows::velocity(&link.coordinate.on, a, b);
+            let mut wanted = overrun::<BIAS>(link, axis, velocity, link.limit, rates);
             if BIAS {
-                let impulse = f64::from(*limit_impulse(axis, link.limit));
-                wanted -= link.coordinate.compliance * impulse;
+                wanted -= link.coordinate.compliance * *limit_impulse(axis, link.limit);
             }
-            link.rhs[link.rigid] = wanted;
+            rhs[link.rigid] = wanted;
         }
+        link.rhs = rhs;
     }
 }
 
-/// What the circles of anchors and rods add to the mean velocities over a substep, to second order:
-/// `-h w^2 r / 2` for an anchor, `h vt^2 / (2 d)` for a rod.
-fn curve(link: &TreeLink, a: &TreeNode, b: &TreeNode, h: f64) -> [f64; 3] {
-    let mut sums = [0.0; 3];
+/// What the circles of anchors and rods take from the mean velocities over a substep, to second order:
+/// `h w^2 r / 2` for an anchor, `-h vt^2 / (2 d)` for a rod.
+#[inline(always)]
+fn curve<S: Simd>(simd: S, link: &TreeLink, a: &TreeNode, b: &TreeNode, h: f64) -> Three {
+    let mut sums = [0.0; 4];
     if matches!(link.class, JointClass::Prismatic | JointClass::Wheel | JointClass::Gear) {
         return sums;
     }
-    let inward = |w: f64| -0.5 * w * slow_turn(h * w);
-    let (inward_a, inward_b) = (inward(a.v[2]), inward(b.v[2]));
-    for (sum, row) in sums.iter_mut().zip(&link.rows[..link.rigid]) {
-        *sum = inward_b * row.reach_b - inward_a * row.reach_a;
-    }
+    let inward = |w: f64| 0.5 * w * slow_turn(h * w);
+    add_times(simd, &mut sums, &link.reach[1], inward(b.v[2]));
+    add_times(simd, &mut sums, &link.reach[0], -inward(a.v[2]));
     if link.class == JointClass::Distance && link.value > 0.0 {
-        let row = &link.rows[0];
-        let [x, y, _] = row.on[1];
+        let [x, y, ..] = link.jacobians[1].rows[0];
         let across = x * (b.v[1] - a.v[1]) - y * (b.v[0] - a.v[0])
-            + (row.reach_b * b.v[2] - row.reach_a * a.v[2]);
-        sums[0] += 0.5 * across * slow_turn(h * across / link.value);
+            + (link.reach[1][0] * b.v[2] - link.reach[0][0] * a.v[2]);
+        sums[0] -= 0.5 * across * slow_turn(h * across / link.value);
     }
     sums
 }
@@ -438,21 +482,18 @@ fn slow_turn(turn: f64) -> f64 {
 }
 
 /// Adds the solution to velocities and impulses.
-fn apply(tree: &mut JointTree) {
+#[inline(always)]
+fn apply<S: Simd>(simd: S, tree: &mut JointTree) {
     let JointTree { nodes, dynamic, links, axes, .. } = tree;
     for node in &mut nodes[..*dynamic] {
-        for k in 0..3 {
-            node.v[k] += node.dv[k];
-        }
+        add_times(simd, &mut node.v, &node.dv, 1.0);
     }
     for link in links {
-        for i in 0..link.rigid {
-            link.impulses[i] += link.change[i];
-        }
         if let Some(axis) = axes.get_mut(link.axis as usize)
             && link.limit != 0.0
         {
-            *limit_impulse(axis, link.limit) += link.change[link.rigid] as f32;
+            *limit_impulse(axis, link.limit) += core::mem::take(&mut link.change[link.rigid]);
         }
+        add_times(simd, &mut link.impulses, &link.change, 1.0);
     }
 }

@@ -2,13 +2,14 @@
 //!
 //! Equations are those of the lane kernels; see [`revolute`](super::super::revolute) and its neighbours.
 
-use super::factor::{dot3, jacobian};
+use super::factor::{dot3, invert};
 use crate::dynamics::{
     AngleLanes, AxisLanes, DirectionLanes, FrameLanes, JOINTED, JointClass, JointColour,
-    JointPlace, JointTree, Joints, LaneBlock, NULL, Slot, TreeLink, TreeNode, TreeRow,
+    JointPlace, JointTree, Joints, NULL, Slot, TreeAxis, TreeLink, TreeNode, TreeRow, UNLIMITED,
 };
 use crate::math::Rot;
-use crate::simd::BLOCK;
+use crate::simd::{BLOCK, Simd, Three, add_times, times};
+use crate::stages::joint_solver::parts::LEAST_COMPLEMENT;
 use crate::threads::SharedRows;
 
 /// Compliance of a rigid row, as a fraction of the inverse mass of its two bodies alone: it bears loops that cannot
@@ -33,9 +34,9 @@ pub(super) fn prepare(tree: &mut JointTree, lanes: &JointColour, joints: &Joints
     }
 }
 
-fn read(link: &mut TreeLink, axes: &mut Vec<AxisLanes>, lanes: &JointColour) {
+fn read(link: &mut TreeLink, axes: &mut Vec<TreeAxis>, lanes: &JointColour) {
     let (at, lane) = (link.slot as usize / BLOCK, link.slot as usize % BLOCK);
-    link.impulses = [0.0; 3];
+    link.impulses = [0.0; 4];
     match link.class {
         JointClass::Distance => {
             let block = &lanes.distance.blocks[at];
@@ -111,13 +112,32 @@ fn read_direction(link: &mut TreeLink, direction: &DirectionLanes, lane: usize) 
     link.direction = [f64::from(direction.x[lane]), f64::from(direction.y[lane])];
 }
 
-fn read_axis(link: &mut TreeLink, axes: &mut Vec<AxisLanes>, axis: &AxisLanes, lane: usize) {
-    if axis.used[lane] != 0.0 {
-        link.axis = axes.len() as u32;
-        let mut own = AxisLanes::NULL;
-        own.copy_lane(0, axis, lane);
-        axes.push(own);
+fn read_axis(link: &mut TreeLink, axes: &mut Vec<TreeAxis>, axis: &AxisLanes, lane: usize) {
+    if axis.used[lane] == 0.0 {
+        return;
     }
+    let of = |lanes: &[f32; BLOCK]| f64::from(lanes[lane]);
+    let limited = axis.lower[lane] > -UNLIMITED || axis.upper[lane] < UNLIMITED;
+    link.axis = axes.len() as u32;
+    axes.push(TreeAxis {
+        soft: [of(&axis.push), of(&axis.mass_scale), of(&axis.impulse_scale)],
+        rest: of(&axis.rest),
+        motor_speed: of(&axis.motor_speed),
+        motor_max: of(&axis.motor_max),
+        limits: limited.then(|| [of(&axis.lower), of(&axis.upper)]),
+        spring: of(&axis.spring),
+        motor: of(&axis.motor),
+        limit: [of(&axis.lower_impulse), of(&axis.upper_impulse)],
+        ..TreeAxis::default()
+    });
+}
+
+fn write_axis(target: &mut AxisLanes, lane: usize, axis: Option<&TreeAxis>) {
+    let Some(axis) = axis else { return };
+    target.spring[lane] = axis.spring as f32;
+    target.motor[lane] = axis.motor as f32;
+    target.lower_impulse[lane] = axis.limit[0] as f32;
+    target.upper_impulse[lane] = axis.limit[1] as f32;
 }
 
 /// Gives the impulses, and the directions in which they act, back to the lanes.
@@ -126,13 +146,7 @@ pub(super) fn finish(tree: &JointTree, lanes: &mut JointColour) {
         let (at, lane) = (link.slot as usize / BLOCK, link.slot as usize % BLOCK);
         let impulses = link.impulses.map(|impulse| impulse as f32);
         let axis = tree.axes.get(link.axis as usize);
-        let write_axis = |target: &mut AxisLanes| {
-            if let Some(axis) = axis {
-                target.copy_lane(lane, axis, 0);
-            }
-        };
-        let [x, y, _] = link.rows[0].on[1].map(|x| x as f32);
-        let dir = [x, y];
+        let dir = [0, 1].map(|k: usize| link.jacobians[1].rows[0][k] as f32);
         match link.class {
             JointClass::Distance => {
                 let block = &mut lanes.distance.blocks[at];
@@ -141,7 +155,7 @@ pub(super) fn finish(tree: &JointTree, lanes: &mut JointColour) {
             }
             JointClass::Prismatic => {
                 let block = &mut lanes.prismatic.blocks[at];
-                write_axis(&mut block.axis);
+                write_axis(&mut block.axis, lane, axis);
                 block.rigid.impulse_x[lane] = impulses[0];
                 block.rigid.impulse_y[lane] = impulses[1];
                 write_direction(&mut block.direction, lane, dir);
@@ -154,7 +168,7 @@ pub(super) fn finish(tree: &JointTree, lanes: &mut JointColour) {
             }
             JointClass::Wheel => {
                 let block = &mut lanes.wheel.blocks[at];
-                write_axis(&mut block.axis);
+                write_axis(&mut block.axis, lane, axis);
                 block.rod.impulse[lane] = impulses[0];
                 block.motor.impulse[lane] = link.motor[2];
                 write_direction(&mut block.direction, lane, dir);
@@ -162,11 +176,11 @@ pub(super) fn finish(tree: &JointTree, lanes: &mut JointColour) {
             JointClass::Gear => {
                 let gear = &mut lanes.gear.blocks[at].gear;
                 gear.impulse[lane] = impulses[0];
-                gear.error[lane] = link.rows[0].error as f32;
+                gear.error[lane] = link.error[0] as f32;
             }
             _ => {
                 let block = &mut lanes.revolute.blocks[at];
-                write_axis(&mut block.axis);
+                write_axis(&mut block.axis, lane, axis);
                 block.point.impulse_x[lane] = impulses[0];
                 block.point.impulse_y[lane] = impulses[1];
             }
@@ -180,14 +194,16 @@ fn write_direction(direction: &mut DirectionLanes, lane: usize, across: [f32; 2]
 }
 
 /// Gathers the velocities of a tree's bodies.
+#[inline(always)]
 pub(super) fn load(tree: &mut JointTree, rows: SharedRows<'_>) {
     for node in &mut tree.nodes {
         let row = rows.read(node.body);
-        node.v = [Slot::VX, Slot::VY, Slot::W].map(|slot| f64::from(row[slot]));
+        node.v = [row[Slot::VX], row[Slot::VY], row[Slot::W], 0.0].map(f64::from);
     }
 }
 
 /// Scatters the velocities of the bodies that something moves.
+#[inline(always)]
 pub(super) fn store(tree: &JointTree, rows: SharedRows<'_>) {
     for node in &tree.nodes[..tree.dynamic] {
         rows.update(node.body, |row| {
@@ -203,8 +219,9 @@ pub(super) fn store(tree: &JointTree, rows: SharedRows<'_>) {
 }
 
 /// Works the rows out for where the bodies are now. `h` is the substep length.
-pub(super) fn refresh(tree: &mut JointTree, rows: SharedRows<'_>, h: f64) {
-    let JointTree { nodes, links, pace, begun, fresh, factored, .. } = tree;
+#[inline(always)]
+pub(super) fn refresh<S: Simd>(simd: S, tree: &mut JointTree, rows: SharedRows<'_>, h: f64) {
+    let JointTree { nodes, links, axes, pace, begun, fresh, factored, .. } = tree;
     for node in nodes.iter_mut() {
         let row = rows.read(node.body);
         if !*begun {
@@ -213,9 +230,9 @@ pub(super) fn refresh(tree: &mut JointTree, rows: SharedRows<'_>, h: f64) {
         node.d = [Slot::DX, Slot::DY, Slot::DA].map(|slot| f64::from(row[slot]));
         let turn = Rot::IDENTITY.integrate(row[Slot::DA]);
         node.turn = [f64::from(turn.c), f64::from(turn.s)];
-        node.inv_mass = f64::from(row[Slot::INV_MASS]);
-        node.inv_inertia = node.own_inv_inertia;
-        node.g = [0.0; 3];
+        let inv_mass = f64::from(row[Slot::INV_MASS]);
+        node.inv = [inv_mass, inv_mass, node.own_inv_inertia, 0.0];
+        node.g = [0.0; 4];
     }
     for link in links.iter_mut() {
         write_rows(link, nodes);
@@ -223,13 +240,18 @@ pub(super) fn refresh(tree: &mut JointTree, rows: SharedRows<'_>, h: f64) {
     }
     for node in nodes.iter_mut() {
         let least = h * node.g[2];
-        if node.inv_inertia * least > 1.0 {
-            node.inv_inertia = 1.0 / least;
+        if node.inv[2] * least > 1.0 {
+            node.inv[2] = 1.0 / least;
+        }
+    }
+    for link in links.iter_mut() {
+        if let Some(axis) = axes.get_mut(link.axis as usize) {
+            tie(simd, link, axis, &nodes[link.a as usize], &nodes[link.b as usize]);
         }
     }
     (*begun, *fresh, *factored) = (true, true, false);
     if *pace == JOINTED {
-        nodes.iter().for_each(|node| give_inertia(rows, node.body, node.inv_inertia));
+        nodes.iter().for_each(|node| give_inertia(rows, node.body, node.inv[2]));
     }
 }
 
@@ -250,10 +272,11 @@ fn give_inertia(rows: SharedRows<'_>, body: u32, inverse: f64) {
 
 /// The other half of backward Euler: what is stiff against turning keeps its angular momentum with the greater
 /// inertia, and so turns more slowly.
+#[inline(always)]
 pub(super) fn damp(tree: &mut JointTree) {
     for node in &mut tree.nodes {
-        if node.inv_inertia < node.own_inv_inertia {
-            node.v[2] *= node.inv_inertia / node.own_inv_inertia;
+        if node.inv[2] < node.own_inv_inertia {
+            node.v[2] *= node.inv[2] / node.own_inv_inertia;
         }
     }
 }
@@ -263,9 +286,9 @@ pub(super) fn damp(tree: &mut JointTree) {
 /// Rods turn their force too, which makes beads on them stiff against moving. Counting it into their masses made
 /// things worse: masses that change with the tension pump energy into what moves.
 fn stiffen(link: &TreeLink, nodes: &mut [TreeNode]) {
-    for (row, impulse) in link.rows[..link.rigid].iter().zip(link.impulses) {
-        nodes[link.a as usize].g[2] -= row.reach_a * impulse;
-        nodes[link.b as usize].g[2] += row.reach_b * impulse;
+    for (i, impulse) in link.impulses[..link.rigid].iter().enumerate() {
+        nodes[link.a as usize].g[2] -= link.reach[0][i] * impulse;
+        nodes[link.b as usize].g[2] += link.reach[1][i] * impulse;
     }
 }
 
@@ -288,9 +311,11 @@ fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
 /// The row of a direction with lever arms from both centres of mass.
 fn linear(dir: [f64; 2], from_a: [f64; 2], from_b: [f64; 2], error: f64) -> TreeRow {
     TreeRow {
-        on: [[-dir[0], -dir[1], -cross(from_a, dir)], [dir[0], dir[1], cross(from_b, dir)]],
-        reach_a: dot(from_a, dir),
-        reach_b: dot(from_b, dir),
+        on: [
+            [-dir[0], -dir[1], -cross(from_a, dir), 0.0],
+            [dir[0], dir[1], cross(from_b, dir), 0.0],
+        ],
+        reach: [dot(from_a, dir), dot(from_b, dir)],
         error,
         compliance: 0.0,
     }
@@ -298,7 +323,7 @@ fn linear(dir: [f64; 2], from_a: [f64; 2], from_b: [f64; 2], error: f64) -> Tree
 
 /// The row of the angle.
 fn angular(error: f64) -> TreeRow {
-    TreeRow { on: [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]], error, ..TreeRow::default() }
+    TreeRow { on: [[0.0, 0.0, -1.0, 0.0], [0.0, 0.0, 1.0, 0.0]], error, ..TreeRow::default() }
 }
 
 fn write_rows(link: &mut TreeLink, nodes: &[TreeNode]) {
@@ -307,19 +332,20 @@ fn write_rows(link: &mut TreeLink, nodes: &[TreeNode]) {
     let moved = [b.d[0] - a.d[0] - ra[0], b.d[1] - a.d[1] - ra[1]];
     let gap = add(add(link.between, moved), rb);
     let angle = link.angle + (b.d[2] - a.d[2]);
+    let mut rows = [TreeRow::default(); 3];
     match link.class {
         JointClass::Distance => {
             let length = dot(gap, gap).sqrt();
             let dir = if length > 1.0e-9 { [gap[0] / length, gap[1] / length] } else { [1.0, 0.0] };
-            link.rows[0] = linear(dir, ra, rb, length - link.length);
+            rows[0] = linear(dir, ra, rb, length - link.length);
             link.value = length;
         }
         JointClass::Prismatic | JointClass::Wheel => {
             let along = rotate(a.turn, link.direction);
             let across = [-along[1], along[0]];
             let from_a = add(gap, ra);
-            link.rows[0] = linear(across, from_a, rb, dot(gap, across));
-            link.rows[1] = angular(angle);
+            rows[0] = linear(across, from_a, rb, dot(gap, across));
+            rows[1] = angular(angle);
             link.coordinate = linear(along, from_a, rb, 0.0);
             link.value = dot(gap, along);
         }
@@ -330,55 +356,80 @@ fn write_rows(link: &mut TreeLink, nodes: &[TreeNode]) {
                 let [x, y, spin] = link.mesh[side];
                 let moved = [node.d[0] + arm[0] - start[0], node.d[1] + arm[1] - start[1]];
                 error += dot([x, y], moved) + spin * node.d[2];
-                link.rows[0].on[side] = [x, y, cross(arm, [x, y]) + spin];
+                rows[0].on[side] = [x, y, cross(arm, [x, y]) + spin, 0.0];
             }
-            link.rows[0].error = error;
+            rows[0].error = error;
         }
         _ => {
-            link.rows[0] = linear([1.0, 0.0], ra, rb, gap[0]);
-            link.rows[1] = linear([0.0, 1.0], ra, rb, gap[1]);
-            link.rows[2] = angular(angle);
+            rows[0] = linear([1.0, 0.0], ra, rb, gap[0]);
+            rows[1] = linear([0.0, 1.0], ra, rb, gap[1]);
+            rows[2] = angular(angle);
             link.coordinate = angular(0.0);
             link.value = angle;
         }
     }
-    for i in 0..link.rigid {
-        link.rows[i].compliance = COMPLIANCE * inv_mass(&link.rows[i], a, b);
+    for (i, row) in rows[..link.rigid].iter_mut().enumerate() {
+        row.compliance = COMPLIANCE * response(&row.on, &row.on, a, b);
+        link.set_row(i, row);
     }
-    if link.axis != NULL {
-        link.coordinate.compliance = COMPLIANCE * inv_mass(&link.coordinate, a, b);
+}
+
+/// Works out how the two bodies of a link answer an impulse along its free coordinate, as its rigid rows tie them.
+#[inline(always)]
+fn tie<S: Simd>(simd: S, link: &mut TreeLink, axis: &mut TreeAxis, a: &TreeNode, b: &TreeNode) {
+    let own = link.coordinate.on;
+    axis.free = response(&own, &own, a, b);
+    link.coordinate.compliance = COMPLIANCE * axis.free;
+    let row = |i: usize| [link.jacobians[0].rows[i], link.jacobians[1].rows[i]];
+    let (mut coupling, mut mass) = ([0.0; 4], [[0.0; 4]; 3]);
+    for i in 0..link.rigid {
+        coupling[i] = response(&row(i), &own, a, b);
+        for j in i..link.rigid {
+            mass[i][j] = response(&row(i), &row(j), a, b);
+        }
+    }
+    let per = times(simd, &invert(&mass, link.rigid), &coupling);
+    let (tied, least) =
+        (axis.free - dot3(&coupling, &per), f64::from(LEAST_COMPLEMENT) * axis.free);
+    axis.tied = if tied > least { tied } else { least };
+    axis.given = per.map(|x| -x);
+    axis.on = own;
+    for i in 0..link.rigid {
+        axis.on
+            .iter_mut()
+            .zip(&row(i))
+            .for_each(|(sum, on)| add_times(simd, sum, on, axis.given[i]));
     }
 }
 
 /// Inverse mass of the two bodies against an impulse on one row, by the second.
-pub(super) fn response(first: &TreeRow, second: &TreeRow, a: &TreeNode, b: &TreeNode) -> f64 {
+fn response(first: &[Three; 2], second: &[Three; 2], a: &TreeNode, b: &TreeNode) -> f64 {
     let of = |side: usize, node: &TreeNode| {
-        let (first, second) = (&first.on[side], &second.on[side]);
-        node.inv_mass * (first[0] * second[0] + first[1] * second[1])
-            + node.inv_inertia * first[2] * second[2]
+        let (first, second) = (&first[side], &second[side]);
+        node.inv[0] * (first[0] * second[0] + first[1] * second[1])
+            + node.inv[2] * first[2] * second[2]
     };
     of(0, a) + of(1, b)
 }
 
-/// Inverse mass of the two bodies along a row.
-fn inv_mass(row: &TreeRow, a: &TreeNode, b: &TreeNode) -> f64 {
-    response(row, row, a, b)
-}
-
 /// Velocity along a row.
 #[inline(always)]
-pub(super) fn velocity(row: &TreeRow, a: &TreeNode, b: &TreeNode) -> f64 {
-    dot3(jacobian(row, true), b.v) + dot3(jacobian(row, false), a.v)
+pub(super) fn velocity(on: &[Three; 2], a: &TreeNode, b: &TreeNode) -> f64 {
+    dot3(&on[1], &b.v) + dot3(&on[0], &a.v)
 }
 
 /// Applies an impulse along a row to both bodies of a link.
 #[inline(always)]
-pub(super) fn push(nodes: &mut [TreeNode], ends: [u32; 2], row: &TreeRow, impulse: f64) {
-    for (end, on_b) in ends.into_iter().zip([false, true]) {
+pub(super) fn push<S: Simd>(
+    simd: S,
+    nodes: &mut [TreeNode],
+    ends: [u32; 2],
+    on: &[Three; 2],
+    impulse: f64,
+) {
+    for (end, row) in ends.into_iter().zip(on) {
         let node = &mut nodes[end as usize];
-        let jacobian = jacobian(row, on_b);
-        node.v[0] += node.inv_mass * jacobian[0] * impulse;
-        node.v[1] += node.inv_mass * jacobian[1] * impulse;
-        node.v[2] += node.inv_inertia * jacobian[2] * impulse;
+        let row = core::array::from_fn(|k| node.inv[k] * row[k]);
+        add_times(simd, &mut node.v, &row, impulse);
     }
 }

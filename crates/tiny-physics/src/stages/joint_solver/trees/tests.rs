@@ -1,7 +1,29 @@
 //! The elimination against a dense solver.
 
-use super::factor::{factor, jacobian, solve};
+use super::factor::{factor, solve};
 use crate::dynamics::{JointClass, JointTree, NULL, TreeLink, TreeNode, TreeRow};
+use crate::simd::{DoubleKernel, Simd, SimdLevel, dispatch_doubles};
+
+struct FactorAndSolve<'a>(&'a mut JointTree);
+
+impl DoubleKernel for FactorAndSolve<'_> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        factor(simd, self.0);
+        solve(simd, self.0);
+    }
+}
+
+/// Factors and solves, on every level with the same result.
+fn factor_and_solve(tree: &mut JointTree) {
+    let before = tree.clone();
+    dispatch_doubles(SimdLevel::detect(), FactorAndSolve(tree));
+    for level in SimdLevel::available() {
+        let mut other = before.clone();
+        dispatch_doubles(level, FactorAndSolve(&mut other));
+        assert!(other == *tree, "{level}");
+    }
+}
 
 /// Numbers from a seed.
 struct Random(u64);
@@ -25,7 +47,7 @@ impl Random {
     fn row(&mut self) -> TreeRow {
         let mut number = || self.between(-1.0, 1.0);
         let [x, y, arm_a, arm_b] = [(); 4].map(|()| number());
-        TreeRow { on: [[-x, -y, -arm_a], [x, y, arm_b]], ..TreeRow::default() }
+        TreeRow { on: [[-x, -y, -arm_a, 0.0], [x, y, arm_b, 0.0]], ..TreeRow::default() }
     }
 }
 
@@ -37,11 +59,11 @@ fn random_tree(random: &mut Random) -> JointTree {
     for _ in 0..=count {
         let inv_mass = 10.0_f64.powf(random.between(-3.0, 3.0));
         let inv_inertia = 10.0_f64.powf(random.between(-3.0, 3.0));
-        tree.nodes.push(TreeNode { inv_mass, inv_inertia, ..TreeNode::default() });
+        tree.nodes
+            .push(TreeNode { inv: [inv_mass, inv_mass, inv_inertia, 0.0], ..TreeNode::default() });
     }
     let fixed = count as u32;
-    tree.nodes[count].inv_mass = 0.0;
-    tree.nodes[count].inv_inertia = 0.0;
+    tree.nodes[count].inv = [0.0; 4];
     tree.dynamic = count;
     if random.below(2) == 0 {
         add(&mut tree, random, 0, fixed, [0, NULL]);
@@ -62,23 +84,23 @@ fn add(tree: &mut JointTree, random: &mut Random, one: u32, other: u32, [child, 
     let mut link = TreeLink::new(0, JointClass::Revolute, ends, child, parent);
     link.rigid = 1 + random.below(2);
     link.limit = [0.0, 1.0, -1.0][random.below(3)];
-    link.rows = [random.row(), random.row(), random.row()];
-    link.coordinate = random.row();
+    let mut rows = [(); 4].map(|()| random.row());
     let compliance = random.between(1.0e-3, 1.0);
-    link.rows.iter_mut().for_each(|row| row.compliance = compliance);
-    link.coordinate.compliance = compliance;
-    link.rhs = [random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0)];
+    rows.iter_mut().for_each(|row| row.compliance = compliance);
+    (0..link.rigid).for_each(|i| link.set_row(i, &rows[i]));
+    link.coordinate = rows[3];
+    link.rhs = [(); 4].map(|()| random.between(-1.0, 1.0));
     tree.links.push(link);
 }
 
 /// The rows of a link with the right signs, on A and on B.
 fn rows(link: &TreeLink) -> Vec<[[f64; 3]; 2]> {
-    let both = |row: &TreeRow| [jacobian(row, false), jacobian(row, true)];
-    let mut rows: Vec<_> = link.rows[..link.rigid].iter().map(both).collect();
+    let [a, b] = &link.jacobians;
+    let mut rows: Vec<_> = (0..link.rigid).map(|i| [a.rows[i], b.rows[i]]).collect();
     if link.limit != 0.0 {
-        rows.push(both(&link.coordinate).map(|side| side.map(|x| link.limit * x)));
+        rows.push(link.coordinate.on.map(|side| side.map(|x| link.limit * x)));
     }
-    rows
+    rows.into_iter().map(|row| row.map(|[x, y, angular, _]| [x, y, angular])).collect()
 }
 
 /// All unknowns by Gaussian elimination: velocities of the nodes, then impulses in the order of the links.
@@ -94,7 +116,7 @@ fn dense(tree: &JointTree) -> Vec<f64> {
     let size = moving + constraints.len();
     let mut matrix = vec![vec![0.0; size + 1]; size];
     for (i, node) in tree.nodes[..tree.dynamic].iter().enumerate() {
-        for (k, inv) in [node.inv_mass, node.inv_mass, node.inv_inertia].into_iter().enumerate() {
+        for (k, inv) in node.inv.into_iter().take(3).enumerate() {
             matrix[3 * i + k][3 * i + k] = 1.0 / inv;
         }
     }
@@ -108,7 +130,7 @@ fn dense(tree: &JointTree) -> Vec<f64> {
                 }
             }
         }
-        matrix[at][at] = link.rows[0].compliance;
+        matrix[at][at] = link.coordinate.compliance;
         matrix[at][size] = rhs;
     }
     eliminate(matrix)
@@ -144,9 +166,8 @@ fn elimination_agrees_with_a_dense_solver() {
         let mut tree = random_tree(&mut random);
         let expected = dense(&tree);
         let counts: Vec<usize> = tree.links.iter().map(|link| rows(link).len()).collect();
-        factor(&mut tree);
-        solve(&mut tree);
-        let moving = tree.nodes[..tree.dynamic].iter().flat_map(|node| node.dv);
+        factor_and_solve(&mut tree);
+        let moving = tree.nodes[..tree.dynamic].iter().flat_map(|node| node.dv.into_iter().take(3));
         let impulses =
             tree.links.iter().zip(counts).flat_map(|(link, n)| link.change.into_iter().take(n));
         let scale = expected.iter().fold(1.0_f64, |most, x| most.max(x.abs()));
@@ -164,10 +185,9 @@ fn what_nothing_moves_stays() {
     while tree.dynamic < 3 {
         tree = random_tree(&mut random);
     }
-    tree.nodes[1].inv_inertia = 0.0;
-    tree.nodes[2].inv_mass = 0.0;
-    factor(&mut tree);
-    solve(&mut tree);
+    tree.nodes[1].inv[2] = 0.0;
+    (tree.nodes[2].inv[0], tree.nodes[2].inv[1]) = (0.0, 0.0);
+    factor_and_solve(&mut tree);
     assert!(tree.nodes[1].dv[2].abs() < 1e-6 && tree.nodes[2].dv[0].abs() < 1e-6);
     assert!(tree.nodes.iter().flat_map(|node| node.dv).all(f64::is_finite));
 }
