@@ -183,7 +183,9 @@ pub(crate) fn breaking_bridge(options: Options) -> Scene {
         } else {
             (banks, Vec2::new(half, 0.0))
         };
-        let joint = JointDef::revolute().anchors(last.1, anchor).break_at(8000.0, f32::MAX);
+        // A taut chain pulls at all of its joints alike: of equal ones all would break at once.
+        let strength = if i % 4 == 2 { 6000.0 } else { 60_000.0 };
+        let joint = JointDef::revolute().anchors(last.1, anchor).break_at(strength, f32::MAX);
         scene.joint(last.0, next, joint);
         last = (next, Vec2::new(0.5, 0.0));
     }
