@@ -113,7 +113,7 @@ impl Easel<'_> {
             if surfaces.iter().any(|y| (path.bounds().top() - y).abs() < 1.0) {
                 continue;
             }
-            self.fill(path, self.theme.sensor.with_alpha(26));
+            self.fill(path, self.theme.sensor.with_alpha(20));
             let stroke = Stroke {
                 width: 1.2,
                 dash: StrokeDash::new(vec![5.0, 5.0], 0.0),
