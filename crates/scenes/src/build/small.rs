@@ -7,7 +7,7 @@ use crate::script::{Act, Deed, Script, Timeline, When};
 use crate::shapes;
 use core::f32::consts::TAU;
 use tiny_physics::math::{cos, sin};
-use tiny_physics::{JointDef, RigidBody, Shape, ShapeDef, TileGrid, Vec2};
+use tiny_physics::{Filter, JointDef, RigidBody, Shape, ShapeDef, TileGrid, Vec2};
 
 /// Crates side by side in a row.
 const ROW: u32 = 30;
@@ -238,11 +238,15 @@ fn add_sensors_and_planks(scene: &mut Scene) {
         sensors = sensors.shape(ShapeDef::new(shapes::rect(0.5, 0.5)).offset(place).sensor());
     }
     scene.body(sensors);
-    let plank = ShapeDef::new(shapes::rect(1.5, 0.1)).one_way(Vec2::Y);
+    let filter = Filter { category: PLANK, ..Filter::default() };
+    let plank = ShapeDef::new(shapes::rect(1.5, 0.1)).one_way(Vec2::Y).filter(filter);
     for x in [7.5, 18.5, 26.5, 43.5] {
         scene.body(RigidBody::fixed().position(Vec2::new(x, 4.0)).shape(plank.clone()));
     }
 }
+
+/// The planks, which the rope that hangs from one of them passes: its ends would be held above and below.
+const PLANK: u64 = 2;
 
 /// A door that stands on the floor and turns about its upper end, and a rope of twelve links under the third plank.
 fn add_door_and_rope(scene: &mut Scene) {
@@ -260,6 +264,7 @@ fn add_door_and_rope(scene: &mut Scene) {
             b: Vec2::new(0.0, 0.06),
             radius: 0.04,
         });
+        let link = link.filter(Filter { mask: !PLANK, ..Filter::default() });
         let link = scene.body(RigidBody::dynamic().shape(link).position(place));
         scene.joint(above.0, link, hinge(above.1, Vec2::new(0.0, 0.1)));
         above = (link, Vec2::new(0.0, -0.1));

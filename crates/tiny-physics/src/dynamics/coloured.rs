@@ -186,12 +186,6 @@ impl<B: Bucketful> Coloured<B> {
         self.buckets.get(self.position(key))
     }
 
-    /// The same, to work on; it may not become empty.
-    pub(crate) fn get_mut(&mut self, key: usize) -> Option<&mut B> {
-        let at = self.position(key);
-        self.buckets.get_mut(at)
-    }
-
     /// Where the bucket of a key is in the list; past its end if there is none.
     #[inline]
     pub(super) fn position(&self, key: usize) -> usize {

@@ -21,6 +21,7 @@ use crate::error::Error;
 use crate::footprint::{Footprint, MemoryUse, footprint};
 use crate::simd::BLOCK;
 use crate::threads::Team;
+use core::ops::Range;
 
 /// Joints of one colour and class.
 #[derive(Debug, PartialEq)]
@@ -182,6 +183,8 @@ macro_rules! with_bucket {
     };
 }
 
+pub(crate) use with_bucket;
+
 impl Bucketful for JointColour {
     fn is_empty(&self) -> bool {
         self.count() == 0
@@ -199,9 +202,13 @@ impl JointColour {
         self.lists().flatten().copied()
     }
 
-    /// Works on all blocks class by class, in runs that the team shares out. A team of one, such as the
-    /// overflow wants, goes through them in order.
-    pub(crate) fn for_each_run(&mut self, team: &Team, work: impl Fn(JointBlocks<'_>) + Sync) {
+    /// Works on all blocks class by class, in runs that the team shares out; of each, how many joints it has. A team
+    /// of one, such as the overflow wants, goes through them in order.
+    pub(crate) fn for_each_run(
+        &mut self,
+        team: &Team,
+        work: impl Fn(JointBlocks<'_>, usize) + Sync,
+    ) {
         /// Blocks that one member of the team works on at a time.
         const RUN: usize = 4;
         let alone = team.member_count() == 1 || self.count() <= RUN * BLOCK;
@@ -209,13 +216,31 @@ impl JointColour {
         macro_rules! share_out {
             (() $($bucket:ident $class:ident $block:ident),*) => {
                 $(if !self.$bucket.blocks.is_empty() {
-                    team.for_each_chunk_mut(&mut self.$bucket.blocks, length, |_, blocks| {
-                        work(JointBlocks::$class(blocks));
+                    let JointBucket { joints, blocks, .. } = &mut self.$bucket;
+                    team.for_each_chunk_mut(blocks, length, |chunk, blocks| {
+                        let left = joints.len() - chunk * length * BLOCK;
+                        let count = left.min(blocks.len() * BLOCK);
+                        work(JointBlocks::$class(blocks), count);
                     });
                 })*
             };
         }
         joint_classes!(share_out!());
+    }
+}
+
+/// Where in the graph's list the joints of a pace are.
+#[derive(Clone, Debug)]
+pub(crate) struct JointPlaces {
+    colours: Range<usize>,
+    overflow: Range<usize>,
+    trees: Range<usize>,
+}
+
+impl JointPlaces {
+    /// There is no joint.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.colours.start == self.trees.end
     }
 }
 
@@ -237,16 +262,24 @@ store! {
 }
 
 impl JointGraph {
-    /// The joints of a pace that are solved in lanes, in that order, and whether they are its overflow, in which they
-    /// may not be worked on at once.
+    /// Where the joints of a pace are, until one comes or goes.
+    pub(crate) fn places_of(&self, pace: usize) -> JointPlaces {
+        let start_of = |place| self.colours.range(0..place).end;
+        let [start, overflow, trees] =
+            [0, COLOURS, TREES].map(|colour| start_of(place_of(pace, colour)));
+        let end = start_of(place_of(pace + 1, 0));
+        JointPlaces { colours: start..overflow, overflow: overflow..trees, trees: trees..end }
+    }
+
+    /// The joints that are solved in lanes, in that order, and whether they are the overflow, in which they may not be
+    /// worked on at once.
     pub(crate) fn in_lanes(
         &mut self,
-        pace: usize,
+        places: &JointPlaces,
     ) -> impl Iterator<Item = (bool, &mut JointColour)> {
-        let [start, overflow, end] =
-            [0, COLOURS, TREES].map(|colour| self.colours.range(0..place_of(pace, colour)).end);
-        let list = &mut self.colours.list_mut()[start..end];
-        let (colours, last) = list.split_at_mut(overflow - start);
+        let JointPlaces { colours, overflow, .. } = places;
+        let list = &mut self.colours.list_mut()[colours.start..overflow.end];
+        let (colours, last) = list.split_at_mut(colours.len());
         last.iter_mut().map(|c| (true, c)).chain(colours.iter_mut().map(|c| (false, c)))
     }
 
@@ -256,12 +289,12 @@ impl JointGraph {
         &self.colours.list()[self.colours.range(places)]
     }
 
-    /// The lanes of a pace's trees, if it has any, and the trees of all paces.
-    pub(crate) fn trees_of_pace(
+    /// The lanes of the trees, if there are any, and the trees of all paces.
+    pub(crate) fn in_trees(
         &mut self,
-        pace: usize,
+        places: &JointPlaces,
     ) -> Option<(&mut JointColour, &mut [JointTree])> {
-        let lanes = self.colours.get_mut(place_of(pace, TREES))?;
+        let lanes = self.colours.list_mut()[places.trees.clone()].first_mut()?;
         Some((lanes, &mut self.forest.trees))
     }
 

@@ -36,7 +36,9 @@ pub(crate) use edges::next_edge;
 pub(crate) use graph::{Blocks, Bucket, Graph};
 pub(crate) use joint_blocks::*;
 pub(crate) use joint_forest::{JointTree, TreeAxis, TreeLink, TreeNode, TreeRow};
-pub(crate) use joint_graph::{JointBlocks, JointBucket, JointColour, JointGraph, joint_classes};
+pub(crate) use joint_graph::{
+    JointBlocks, JointBucket, JointColour, JointGraph, JointPlaces, joint_classes, with_bucket,
+};
 pub(crate) use joints::{JointLoad, JointPlace, JointRecord, Joints};
 pub(crate) use pace::{JOINTED, PACES, PLAIN, REFINEMENT, ROUNDS, WATCHED};
 #[cfg(test)]

@@ -58,13 +58,13 @@ impl Shape {
             }
             Self::Capsule { a, b, radius } => (turned_box(&[*a, *b], q), *radius),
             Self::Segment { a, b } => (turned_box(&[*a, *b], q), 0.0),
-            Self::Polygon(polygon) => (turned_box(polygon.vertices(), q), polygon.radius()),
+            Self::Polygon(polygon) => (turned_box(polygon.padded().0, q), polygon.radius()),
         }
     }
 }
 
 #[inline]
-fn turned_box(points: &[Vec2], q: Rot) -> Aabb {
+fn turned_box<const N: usize>(points: &[Vec2; N], q: Rot) -> Aabb {
     let mut bounds = Aabb::EMPTY;
     for point in points {
         let turned = q.rotate(*point);

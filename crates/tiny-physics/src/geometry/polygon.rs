@@ -18,6 +18,7 @@ pub const MAX_VERTICES: usize = 8;
     serde(try_from = "super::data::PolygonData", into = "super::data::PolygonData")
 )]
 pub struct Polygon {
+    /// Places beyond the last repeat the first, so that all may be worked on at once. So with the normals.
     vertices: [Vec2; MAX_VERTICES],
     normals: [Vec2; MAX_VERTICES],
     count: u8,
@@ -132,6 +133,12 @@ impl Polygon {
         Self::convex(&vertices[..usize::from(self.count)])?.rounded(self.radius)
     }
 
+    /// Vertices and normals with places for all; those beyond the last repeat the first.
+    #[inline]
+    pub(crate) fn padded(&self) -> (&[Vec2; MAX_VERTICES], &[Vec2; MAX_VERTICES]) {
+        (&self.vertices, &self.normals)
+    }
+
     /// The vertices, anticlockwise, metres in the shape's frame.
     #[inline]
     pub fn vertices(&self) -> &[Vec2] {
@@ -177,16 +184,14 @@ impl Polygon {
     fn from_loop(points: &[Vec2]) -> Result<Self, Error> {
         check_loop(points)?;
         let count = points.len();
-        let mut polygon = Self {
-            vertices: [Vec2::ZERO; MAX_VERTICES],
-            normals: [Vec2::ZERO; MAX_VERTICES],
+        let at = |i: usize| if i < count { i } else { 0 };
+        let normal = |i: usize| edge_normal(points[i], points[at(i + 1)]);
+        let polygon = Self {
+            vertices: core::array::from_fn(|i| points[at(i)]),
+            normals: core::array::from_fn(|i| normal(at(i))),
             count: count as u8,
             radius: 0.0,
         };
-        for i in 0..count {
-            polygon.vertices[i] = points[i];
-            polygon.normals[i] = edge_normal(points[i], points[(i + 1) % count]);
-        }
         Ok(polygon)
     }
 }

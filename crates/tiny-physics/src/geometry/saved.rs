@@ -36,10 +36,8 @@ impl Data for Polygon {
 data_enum!(ShapeClass { 0 => Circle, 1 => Capsule, 2 => Box, 3 => General });
 data_enum!(PairClass {
     0 => BoxBox,
-    1 => BoxCapsule,
-    2 => BoxCircle,
-    3 => CapsuleCapsule,
-    4 => CapsuleCircle,
-    5 => CircleCircle,
-    6 => General,
+    1 => BoxCircle,
+    2 => CapsuleCircle,
+    3 => CircleCircle,
+    4 => General,
 });

@@ -13,7 +13,6 @@ use super::one_way;
 use super::pairs::PairRule;
 use super::surfaces::{self, Ground, Seams};
 use crate::broad_phase::{BroadPhase, ProxyId, ProxyKind};
-use crate::describe::BodyKind;
 use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes, Slot};
 use crate::geometry::manifold::ShapeClass;
 use crate::geometry::{LINEAR_SLOP, Shape, Sweep, ToiState, distance, time_of_impact_within};
@@ -266,10 +265,6 @@ impl Search<'_> {
     /// The motion of another body over the step, relative to where this one started.
     fn body_motion(&self, body: u32) -> Sweep {
         let Scene { bodies, carriers, .. } = self.scene;
-        let info = &bodies.infos[body as usize];
-        if info.kind == BodyKind::Static || !info.awake {
-            return Sweep::fixed(self.place(bodies.poses[body as usize]));
-        }
         let other = match carriers.binary_search_by_key(&body, |carrier| carrier.body) {
             Ok(index) => carriers[index],
             Err(_) => FastBody::of_step(bodies, body),

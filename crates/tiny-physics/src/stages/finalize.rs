@@ -25,9 +25,11 @@ pub(crate) struct FastBody {
 }
 
 impl FastBody {
-    /// The last step of any body that did not turn by half a turn in it.
+    /// The last step of any body that did not turn by half a turn in it; what is not awake rests.
     pub(crate) fn of_step(bodies: &Bodies, body: u32) -> Self {
-        let (start, end) = (bodies.previous[body as usize], bodies.poses[body as usize]);
+        let end = bodies.poses[body as usize];
+        let awake = bodies.infos[body as usize].awake;
+        let start = if awake { bodies.previous[body as usize] } else { end };
         let (motion, turn) = (end.p.relative_to(start.p), end.q.angle_from(start.q));
         Self { body, start, end, motion, turn, lost: Vec2::ZERO }
     }

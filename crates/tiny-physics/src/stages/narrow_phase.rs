@@ -43,9 +43,7 @@ struct Pass<'a> {
 fn update(pass: Pass<'_>, class: PairClass) {
     match class {
         PairClass::BoxBox => run_kernel::<BoxBox>(pass),
-        PairClass::BoxCapsule => run_kernel::<BoxCapsule>(pass),
         PairClass::BoxCircle => run_kernel::<BoxCircle>(pass),
-        PairClass::CapsuleCapsule => run_kernel::<CapsuleCapsule>(pass),
         PairClass::CapsuleCircle => run_kernel::<CapsuleCircle>(pass),
         PairClass::CircleCircle => run_kernel::<CircleCircle>(pass),
         // One after the other, whatever the lanes.
@@ -104,10 +102,6 @@ lane_pair_kernel!(
     CircleCircle = circle_circle
 );
 
-/// A capsule's core is a box without height: one kernel for all of these.
-type BoxCapsule = BoxBox;
-type CapsuleCapsule = BoxBox;
-
 /// Pairs with a general polygon: one after the other.
 struct General;
 
@@ -134,8 +128,9 @@ impl PairKernel for General {
                 Vec2::new(frames[0][i], frames[1][i]),
                 Rot { c: frames[2][i], s: frames[3][i] },
             );
-            let values =
-                general_lane(context, block.shape_a[at + i], block.shape_b[at + i], b_in_a);
+            let shapes = [block.shape_a[at + i], block.shape_b[at + i]];
+            let empty = block.body_a[at + i] == block.body_b[at + i];
+            let values = if empty { NO_POINTS } else { general_lane(context, shapes, b_in_a) };
             for (lane, value) in out.iter_mut().zip(values) {
                 lane[i] = value;
             }
@@ -151,14 +146,14 @@ impl PairKernel for General {
 }
 
 /// One manifold as ten floats: normal, two points, separations, ids.
-fn general_lane(context: &Context<'_>, a: u32, b: u32, b_in_a: Transform) -> [f32; 10] {
+fn general_lane(context: &Context<'_>, [a, b]: [u32; 2], b_in_a: Transform) -> [f32; 10] {
     let (Some(a), Some(b)) = (context.shapes.get(a as usize), context.shapes.get(b as usize))
     else {
         return NO_POINTS;
     };
     // The kernels' frame of B is that of its rounded box; A, a general polygon, has no other frame.
     let b_in_a = b_in_a.compose(b.box_frame.inverse());
-    let m = manifold::collide(&a.shape, &b.shape, b_in_a, context.speculative_distance);
+    let m = manifold::collide_general(&a.shape, &b.shape, b_in_a, context.speculative_distance);
     let mut out = NO_POINTS;
     out[0] = m.normal.x;
     out[1] = m.normal.y;

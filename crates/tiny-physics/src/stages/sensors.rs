@@ -202,8 +202,6 @@ impl Scene<'_> {
     fn motion(&self, fast: &FastBody, other: &ShapeRecord) -> Sweep {
         let step = FastBody::of_step(self.bodies, other.body);
         let frame = Transform::new(step.start.p.relative_to(fast.start.p), step.start.q);
-        let awake = self.bodies.infos[other.body as usize].awake;
-        let (motion, turn) = if awake { (step.motion, step.turn) } else { (Vec2::ZERO, 0.0) };
-        Sweep::new(frame, Vec2::ZERO, motion, turn).child(other.central)
+        Sweep::new(frame, Vec2::ZERO, step.motion, step.turn).child(other.central)
     }
 }

@@ -8,7 +8,9 @@ use super::islands::Stores;
 use super::joint_solver::Substep;
 use super::{integrate, joint_solver, paces, passivity};
 use crate::describe::Settings;
-use crate::dynamics::{JOINTED, JointLoad, PACES, PLAIN, REFINEMENT, ROUNDS, Schedule};
+use crate::dynamics::{
+    JOINTED, JointBlocks, JointLoad, JointPlaces, PACES, PLAIN, REFINEMENT, ROUNDS, Schedule,
+};
 use crate::footprint::footprint;
 use crate::math::Vec2;
 use crate::simd::SimdLevel;
@@ -132,8 +134,8 @@ impl Solver {
         if stores.bodies.any_refined() {
             let mut listed = core::mem::take(&mut self.listed);
             for pace in (0..PACES).rev() {
-                paces::list_bodies(stores.bodies, pace, &mut listed);
-                if listed.is_empty() {
+                let movers = paces::list_bodies(stores.bodies, pace, &mut listed);
+                if movers == 0 && pace != PLAIN {
                     continue;
                 }
                 let lengths = rules.lengths.refined(pace);
@@ -165,7 +167,8 @@ impl Solver {
         let parameters = rules.contact_parameters();
         schedule.fill_pace(stores.graph, pace, contact_solver::CHUNK);
         integrate::prepare(team, listed, stores.bodies, gravity, h);
-        prepare_joints(team, stores, level, pace, joint_substep);
+        let places = stores.joint_graph.places_of(pace);
+        prepare_joints(team, stores, level, pace, &places, joint_substep);
         let watched = pace >= JOINTED;
         if watched {
             passivity.find(pace, listed, stores);
@@ -176,7 +179,7 @@ impl Solver {
         let inv_h_plain = (1.0 / h) / REFINEMENT[pace] as f32;
 
         let joints = |stores: &mut Stores<'_>, pass| {
-            run_joints(team, stores, level, pace, pass, joint_substep)
+            run_joints(team, stores, level, pace, &places, pass, joint_substep)
         };
         let contacts = |stores: &mut Stores<'_>, pass| {
             let rows = SharedRows::new(&mut stores.bodies.rows);
@@ -217,15 +220,19 @@ fn prepare_joints(
     stores: &mut Stores<'_>,
     level: SimdLevel,
     pace: usize,
+    places: &JointPlaces,
     substep: Substep,
 ) {
     let Stores { joint_graph, joints, bodies, .. } = stores;
     let poses = &bodies.poses;
-    for (_, lanes) in joint_graph.in_lanes(pace) {
-        lanes.for_each_run(team, |blocks| joint_solver::prepare(level, poses, substep, blocks));
+    let prepare = |blocks: JointBlocks<'_>, count| {
+        joint_solver::prepare(level, poses, substep, blocks, count);
+    };
+    for (_, lanes) in joint_graph.in_lanes(places) {
+        lanes.for_each_run(team, prepare);
     }
-    if let Some((lanes, trees)) = joint_graph.trees_of_pace(pace) {
-        lanes.for_each_run(team, |blocks| joint_solver::prepare(level, poses, substep, blocks));
+    if let Some((lanes, trees)) = joint_graph.in_trees(places) {
+        lanes.for_each_run(team, prepare);
         joint_solver::trees::prepare(team, pace, lanes, trees, joints, &bodies.motions);
     }
 }
@@ -236,25 +243,27 @@ fn run_joints(
     stores: &mut Stores<'_>,
     level: SimdLevel,
     pace: usize,
+    places: &JointPlaces,
     pass: joint_solver::Pass,
     substep: Substep,
 ) {
     let Stores { joint_graph, joints, bodies, .. } = stores;
-    if joint_graph.count() == 0 {
+    if places.is_empty() {
         return;
     }
     let rows = SharedRows::new(&mut bodies.rows);
-    for (in_order, lanes) in joint_graph.in_lanes(pace) {
+    for (in_order, lanes) in joint_graph.in_lanes(places) {
         if in_order {
-            lanes.for_each_run(&Team::alone(), |blocks| {
+            lanes.for_each_run(&Team::alone(), |blocks, _| {
                 joint_solver::run_one_by_one(level, pass, substep, rows, blocks);
             });
         } else {
-            lanes
-                .for_each_run(team, |blocks| joint_solver::run(level, pass, substep, rows, blocks));
+            lanes.for_each_run(team, |blocks, count| {
+                joint_solver::run(level, pass, substep, rows, blocks, count);
+            });
         }
     }
-    let Some((lanes, trees)) = joint_graph.trees_of_pace(pace) else { return };
+    let Some((lanes, trees)) = joint_graph.in_trees(places) else { return };
     joint_solver::trees::run(team, level, pace, pass, substep, rows, trees);
     // Loads are read from the lanes: after the step, and in each substep where joints can break.
     let breakable = !joints.breakable.is_empty();

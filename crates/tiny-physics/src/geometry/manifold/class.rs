@@ -37,14 +37,10 @@ impl ShapeClass {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Hash)]
 #[repr(u8)]
 pub(crate) enum PairClass {
-    /// Box and box.
+    /// Boxes and capsules: the core of a capsule is a box without height.
     BoxBox,
-    /// Box as A, capsule as B.
-    BoxCapsule,
     /// Box as A, circle as B.
     BoxCircle,
-    /// Capsule and capsule.
-    CapsuleCapsule,
     /// Capsule as A, circle as B.
     CapsuleCircle,
     /// Circle and circle.
@@ -57,21 +53,14 @@ impl PairClass {
     /// Number of classes.
     pub const COUNT: usize = Self::ALL.len();
     /// Every class, in the order of their numbers.
-    pub const ALL: [Self; 7] = [
-        Self::BoxBox,
-        Self::BoxCapsule,
-        Self::BoxCircle,
-        Self::CapsuleCapsule,
-        Self::CapsuleCircle,
-        Self::CircleCircle,
-        Self::General,
-    ];
+    pub const ALL: [Self; 5] =
+        [Self::BoxBox, Self::BoxCircle, Self::CapsuleCircle, Self::CircleCircle, Self::General];
 
     /// Greatest number of contact points of a pair: 1 where a circle takes part.
     pub const fn max_points(self) -> usize {
         match self {
             Self::BoxCircle | Self::CapsuleCircle | Self::CircleCircle => 1,
-            Self::BoxBox | Self::BoxCapsule | Self::CapsuleCapsule | Self::General => 2,
+            Self::BoxBox | Self::General => 2,
         }
     }
 
@@ -80,11 +69,9 @@ impl PairClass {
         let (high, low) = if a < b { (b, a) } else { (a, b) };
         match (high, low) {
             (ShapeClass::General, _) => Self::General,
-            (ShapeClass::Box, ShapeClass::Capsule) => Self::BoxCapsule,
             (ShapeClass::Box, ShapeClass::Circle) => Self::BoxCircle,
-            (ShapeClass::Box, _) => Self::BoxBox,
             (ShapeClass::Capsule, ShapeClass::Circle) => Self::CapsuleCircle,
-            (ShapeClass::Capsule, _) => Self::CapsuleCapsule,
+            (ShapeClass::Box | ShapeClass::Capsule, _) => Self::BoxBox,
             (ShapeClass::Circle, _) => Self::CircleCircle,
         }
     }
@@ -99,10 +86,7 @@ impl PairClass {
         max_separation: L,
     ) -> LaneManifold<L> {
         match self {
-            // A capsule's core is a box without height.
-            Self::BoxBox | Self::BoxCapsule | Self::CapsuleCapsule | Self::General => {
-                box_box(token, pair, max_separation)
-            }
+            Self::BoxBox | Self::General => box_box(token, pair, max_separation),
             Self::BoxCircle => box_circle(token, pair, max_separation),
             Self::CapsuleCircle => capsule_circle(token, pair, max_separation),
             Self::CircleCircle => circle_circle(token, pair, max_separation),

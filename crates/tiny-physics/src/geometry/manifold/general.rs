@@ -5,7 +5,7 @@
 //! the best axis is always within 45 degrees of the direction between two nearest corners.
 
 use super::{Manifold, ManifoldPoint, RoundedBox};
-use crate::geometry::Shape;
+use crate::geometry::{MAX_VERTICES, Shape};
 use crate::math::{Transform, Vec2};
 
 /// An axis of B replaces one of A, and a later one an earlier, only if it separates by this fraction of
@@ -21,18 +21,39 @@ const MIN_WIDTH: f32 = 4.0e-6;
 /// An edge this steep against the normal (sine of the angle between them) counts as its lowest end alone.
 const MIN_SINE: f32 = 0.1;
 
-const MAX_POINTS: usize = 8;
+const MAX_POINTS: usize = MAX_VERTICES;
 
 /// The convex hull of up to eight points, widened by a radius.
 #[derive(Clone, Copy)]
 struct Outline {
-    points: [Vec2; MAX_POINTS],
+    points: Row,
     /// Normal `i` belongs to the edge from point `i` to the next, which may have no length.
-    normals: [Vec2; MAX_POINTS],
+    normals: Row,
     count: usize,
     radius: f32,
     /// About half its width plus half its height.
     size: f32,
+}
+
+/// Vectors side by side, so that one instruction works on several.
+#[derive(Clone, Copy)]
+struct Row {
+    x: [f32; MAX_POINTS],
+    y: [f32; MAX_POINTS],
+}
+
+impl Row {
+    fn new(vectors: &[Vec2; MAX_POINTS], map: impl Fn(Vec2) -> Vec2) -> Self {
+        let mut row = Self { x: [0.0; MAX_POINTS], y: [0.0; MAX_POINTS] };
+        for (i, &vector) in vectors.iter().enumerate() {
+            Vec2 { x: row.x[i], y: row.y[i] } = map(vector);
+        }
+        row
+    }
+
+    fn at(&self, i: usize) -> Vec2 {
+        Vec2::new(self.x[i], self.y[i])
+    }
 }
 
 /// Collides any two shapes by the general method; meant for those with a general polygon.
@@ -49,12 +70,20 @@ fn collide_outlines(a: &Outline, b: &Outline, max_separation: f32) -> Manifold {
     let bias = AXIS_BIAS * if a.size < b.size { a.size } else { b.size };
     let noise = NOISE * (a.size + b.size);
 
+    // No point is nearer than the shapes are along any axis.
+    let too_far = max_separation + (a.radius + b.radius);
     let (face_a, separation_a) = a.best_face(b, bias);
+    if separation_a > too_far {
+        return Manifold::EMPTY;
+    }
     let (face_b, separation_b) = b.best_face(a, bias);
+    if separation_b > too_far {
+        return Manifold::EMPTY;
+    }
     let flipped = separation_b > separation_a + bias;
     let (reference, other, face) = if flipped { (b, a, face_b) } else { (a, b, face_a) };
 
-    let other_face = other.facing(reference.normals[face]);
+    let other_face = other.facing(reference.normals.at(face));
     let normal = reference.nearest_direction(face, other, other_face, noise);
     let (normal, face_a, face_b) =
         if flipped { (-normal, other_face, face) } else { (normal, face, other_face) };
@@ -72,7 +101,8 @@ impl Outline {
     fn of(shape: &Shape, frame: Transform) -> Self {
         match shape {
             Shape::Polygon(polygon) => {
-                Self::new(polygon.vertices(), polygon.normals(), polygon.radius(), frame)
+                let (points, normals) = polygon.padded();
+                Self::new(points, normals, polygon.vertices().len(), polygon.radius(), frame)
             }
             Shape::Circle { .. }
             | Shape::Aabb { .. }
@@ -87,33 +117,37 @@ impl Outline {
         let Vec2 { x, y } = rounded.half_extents;
         let corners = [Vec2::new(x, -y), Vec2::new(x, y), Vec2::new(-x, y), Vec2::new(-x, -y)];
         let normals = [Vec2::X, Vec2::Y, -Vec2::X, -Vec2::Y];
-        Self::new(&corners, &normals, rounded.radius, frame.compose(rounded.frame))
+        let frame = frame.compose(rounded.frame);
+        Self::new(&pad(&corners), &pad(&normals), corners.len(), rounded.radius, frame)
     }
 
-    fn new(points: &[Vec2], normals: &[Vec2], radius: f32, frame: Transform) -> Self {
-        let mut outline = Self {
-            points: [Vec2::ZERO; MAX_POINTS],
-            normals: [Vec2::X; MAX_POINTS],
-            count: points.len(),
-            radius,
-            size: radius,
-        };
-        let (mut low, mut high) = (Vec2::splat(f32::INFINITY), Vec2::splat(f32::NEG_INFINITY));
-        for i in 0..outline.count {
-            outline.points[i] = frame.apply(points[i]);
-            outline.normals[i] = frame.q.rotate(normals[i]);
-            (low, high) = (low.min(points[i]), high.max(points[i]));
+    /// Points and normals beyond the first `count` repeat the first.
+    #[inline]
+    fn new(
+        points: &[Vec2; MAX_POINTS],
+        normals: &[Vec2; MAX_POINTS],
+        count: usize,
+        radius: f32,
+        frame: Transform,
+    ) -> Self {
+        let (mut low, mut high) = (points[0], points[0]);
+        for &point in points {
+            (low, high) = (low.min(point), high.max(point));
         }
-        outline.size += 0.5 * ((high.x - low.x) + (high.y - low.y));
-        outline
+        Self {
+            points: Row::new(points, |point| frame.apply(point)),
+            normals: Row::new(normals, |normal| frame.q.rotate(normal)),
+            count,
+            radius,
+            size: radius + 0.5 * ((high.x - low.x) + (high.y - low.y)),
+        }
     }
 
     /// The face that separates this outline from `other` most, and by how much.
     fn best_face(&self, other: &Self, bias: f32) -> (usize, f32) {
+        let separations = self.separations(other);
         let mut best = (0, f32::NEG_INFINITY);
-        for face in 0..self.count {
-            let normal = self.normals[face];
-            let separation = other.lowest(normal) - normal.dot(self.points[face]);
+        for (face, &separation) in separations[..self.count].iter().enumerate() {
             if separation > best.1 + bias {
                 best = (face, separation);
             }
@@ -121,12 +155,19 @@ impl Outline {
         best
     }
 
-    /// The least height of the points along a direction.
-    fn lowest(&self, direction: Vec2) -> f32 {
-        let mut lowest = f32::INFINITY;
-        for &point in &self.points[..self.count] {
-            let height = direction.dot(point);
-            lowest = if height < lowest { height } else { lowest };
+    /// How far each face separates this outline from `other`: a loop over all faces at once.
+    #[inline]
+    fn separations(&self, other: &Self) -> [f32; MAX_POINTS] {
+        let Row { x, y } = &self.normals;
+        let mut lowest = [f32::INFINITY; MAX_POINTS];
+        for point in (0..other.count).map(|i| other.points.at(i)) {
+            for (face, lowest) in lowest.iter_mut().enumerate() {
+                let height = x[face] * point.x + y[face] * point.y;
+                *lowest = if height < *lowest { height } else { *lowest };
+            }
+        }
+        for (face, lowest) in lowest.iter_mut().enumerate() {
+            *lowest -= x[face] * self.points.x[face] + y[face] * self.points.y[face];
         }
         lowest
     }
@@ -135,7 +176,7 @@ impl Outline {
     fn facing(&self, direction: Vec2) -> usize {
         let mut best = (0, f32::INFINITY);
         for face in 0..self.count {
-            let along = direction.dot(self.normals[face]);
+            let along = direction.dot(self.normals.at(face));
             if along < best.1 {
                 best = (face, along);
             }
@@ -146,13 +187,13 @@ impl Outline {
     /// Both ends of a face, anticlockwise.
     fn edge(&self, face: usize) -> [Vec2; 2] {
         let next = if face + 1 < self.count { face + 1 } else { 0 };
-        [self.points[face], self.points[next]]
+        [self.points.at(face), self.points.at(next)]
     }
 
     /// The normal of `face`, unless the cores are apart and the lowest end of the other's edge lies
     /// beside it; then the direction from the face's end to the nearest point of that edge.
     fn nearest_direction(&self, face: usize, other: &Self, other_face: usize, noise: f32) -> Vec2 {
-        let normal = self.normals[face];
+        let normal = self.normals.at(face);
         let tangent = normal.perp();
         let [start, end] = self.edge(face);
         let edge = other.edge(other_face);
@@ -169,6 +210,11 @@ impl Outline {
         let usable = normal.dot(line) > 0.0 && length > noise && length < f32::INFINITY;
         if usable { direction } else { normal }
     }
+}
+
+/// Fills up with the first.
+fn pad(vectors: &[Vec2]) -> [Vec2; MAX_POINTS] {
+    core::array::from_fn(|i| if i < vectors.len() { vectors[i] } else { vectors[0] })
 }
 
 fn nearest_on_segment([a, b]: [Vec2; 2], point: Vec2) -> Vec2 {
@@ -284,15 +330,13 @@ mod tests {
             .map(|i| -(points[(i + 1) % count] - points[i]).perp().normalized())
             .collect();
         let radius = if random.next() < 0.5 { 0.0 } else { random.range(0.01, 0.5) };
-        Outline::new(&points, &normals, radius, frame)
+        Outline::new(&pad(&points), &pad(&normals), points.len(), radius, frame)
     }
 
     fn oracle(a: &Outline, b: &Outline) -> f64 {
         let points = |outline: &Outline| {
-            outline.points[..outline.count]
-                .iter()
-                .map(|p| [p.x.into(), p.y.into()])
-                .collect::<Vec<_>>()
+            let points = (0..outline.count).map(|i| outline.points.at(i));
+            points.map(|p| [p.x.into(), p.y.into()]).collect::<Vec<_>>()
         };
         oracle_of_points(&points(a), &points(b)) - f64::from(a.radius) - f64::from(b.radius)
     }
@@ -327,7 +371,7 @@ mod tests {
         let side = Vec2::new(2.0, 1.0).normalized();
         let normals = [-Vec2::Y, side, Vec2::new(-side.x, side.y)];
         let frame = Transform::new(Vec2::new(0.25, 1.0), Rot::IDENTITY);
-        let triangle = Outline::new(&corners, &normals, 0.0, frame);
+        let triangle = Outline::new(&pad(&corners), &pad(&normals), 3, 0.0, frame);
         let half_extents = Vec2::new(10.0, 1.0);
         let floor = RoundedBox { half_extents, ..RoundedBox::default() };
         let floor = Outline::of_box(&floor, Transform::IDENTITY);

@@ -45,5 +45,6 @@ pub(crate) use class::{PairClass, RoundedBox, ShapeClass};
 pub use collide::collide;
 pub use contact::{Contact, contact};
 pub(crate) use face::{collide_face, face_of, nearest_vertex, point_gap, support_height};
+pub(crate) use general::collide_general;
 pub(crate) use lane::{LaneManifold, LanePair};
 pub use points::{Manifold, ManifoldPoint};

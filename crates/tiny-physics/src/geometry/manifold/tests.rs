@@ -337,14 +337,8 @@ fn a_corner_direction_is_continuous_with_the_face_direction() {
     }
 }
 
-const CLASSES: [PairClass; 6] = [
-    PairClass::BoxBox,
-    PairClass::BoxCapsule,
-    PairClass::BoxCircle,
-    PairClass::CapsuleCapsule,
-    PairClass::CapsuleCircle,
-    PairClass::CircleCircle,
-];
+/// Pairs by how many half extents their shapes have: two of a box, one of a capsule, none of a circle.
+const PAIRS: [[usize; 2]; 6] = [[2, 2], [2, 1], [2, 0], [1, 1], [1, 0], [0, 0]];
 
 /// Sixteen pairs in structure-of-arrays form: ten rows of numbers.
 type Rows = [[f32; BLOCK]; 10];
@@ -400,16 +394,8 @@ impl LaneKernel for CollideBlock<'_> {
     }
 }
 
-/// A pair of the class: capsules without height, circles without extents.
-fn fill(rows: &mut Rows, lane: usize, class: PairClass, value: &mut impl FnMut() -> f32) {
-    let (a, b) = match class {
-        PairClass::BoxBox | PairClass::General => (2, 2),
-        PairClass::BoxCapsule => (2, 1),
-        PairClass::BoxCircle => (2, 0),
-        PairClass::CapsuleCapsule => (1, 1),
-        PairClass::CapsuleCircle => (1, 0),
-        PairClass::CircleCircle => (0, 0),
-    };
+/// A pair whose shapes have so many half extents.
+fn fill(rows: &mut Rows, lane: usize, [a, b]: [usize; 2], value: &mut impl FnMut() -> f32) {
     for (row, target) in rows.iter_mut().enumerate() {
         let sized = match row {
             0..=3 => true,
@@ -440,11 +426,14 @@ fn for_random_blocks(rounds: u32, mut check: impl FnMut(PairClass, &Rows)) {
     ];
     let mut random = Random(77);
     for round in 0..rounds {
-        for class in CLASSES {
+        for extents in PAIRS {
+            let [a, b] =
+                extents.map(|n| [ShapeClass::Circle, ShapeClass::Capsule, ShapeClass::Box][n]);
+            let class = PairClass::of(a, b);
             let mut rows = [[0.0; BLOCK]; 10];
             for lane in 0..BLOCK {
                 let hostile = round % 2 == 1;
-                fill(&mut rows, lane, class, &mut || {
+                fill(&mut rows, lane, extents, &mut || {
                     let pick = (random.next() * HOSTILE.len() as f32) as usize;
                     if hostile && random.next() < 0.5 {
                         HOSTILE[pick]

@@ -35,7 +35,8 @@ mod pair;
 pub(crate) use bounce::{Memory as BounceMemory, run as run_bounces};
 
 use crate::dynamics::{
-    Blocks, ConstraintBlock, Graph, LaneBlock, Schedule, SurfaceBlock, flags, is_overflow,
+    BlockHead, Blocks, ConstraintBlock, Graph, LaneBlock, Schedule, SurfaceBlock, flags,
+    is_overflow,
 };
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
 use crate::threads::{SharedRows, Team};
@@ -138,6 +139,10 @@ struct RunPass<'a> {
 
 impl RunPass<'_> {
     fn run(self, level: SimdLevel, points: usize) {
+        let jointed = |head: &BlockHead| head.jointed_a | head.jointed_b != 0;
+        if self.pass == Pass::WarmStartJointed && !self.blocks.heads.iter().any(jointed) {
+            return;
+        }
         let level = level.for_count(self.blocks.contacts.len());
         if points == 1 {
             dispatch(level, Points::<1, _>(self));

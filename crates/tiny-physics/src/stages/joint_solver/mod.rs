@@ -43,7 +43,7 @@ mod tests;
 use crate::describe::{BodyKind, JointDef};
 use crate::dynamics::{
     BodyInfo, FrameLanes, JointBlocks, JointBucket, JointClass, JointGraph, JointLanes, JointLoad,
-    JointPlace, Joints, REFINEMENT, pace_at,
+    JointPlace, Joints, REFINEMENT, joint_classes, pace_at, with_bucket,
 };
 use crate::math::{Pose, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_baseline, dispatch_narrow};
@@ -89,17 +89,13 @@ trait JointKernel: JointLanes {
 
 /// Does something with typed blocks.
 macro_rules! with_blocks {
-    ($blocks:expr, $typed:ident => $body:expr) => {
+    (($blocks:expr, $typed:ident => $body:expr) $($bucket:ident $class:ident $block:ident),*) => {
         match $blocks {
-            JointBlocks::Distance($typed) => $body,
-            JointBlocks::Revolute($typed) => $body,
-            JointBlocks::Prismatic($typed) => $body,
-            JointBlocks::Weld($typed) => $body,
-            JointBlocks::Wheel($typed) => $body,
-            JointBlocks::Drive($typed) => $body,
-            JointBlocks::Pulley($typed) => $body,
-            JointBlocks::Gear($typed) => $body,
+            $(JointBlocks::$class($typed) => $body),*
         }
+    };
+    ($blocks:expr, $typed:ident => $body:expr) => {
+        joint_classes!(with_blocks!($blocks, $typed => $body))
     };
 }
 
@@ -116,14 +112,12 @@ pub(crate) fn describe(graph: &mut JointGraph, joints: &Joints, infos: &[BodyInf
     });
     for (place, colour) in graph.colours.entries_mut() {
         let rates = &rates[pace_at(place)];
-        describe_bucket(&mut colour.distance, joints, infos, rates, all);
-        describe_bucket(&mut colour.revolute, joints, infos, rates, all);
-        describe_bucket(&mut colour.prismatic, joints, infos, rates, all);
-        describe_bucket(&mut colour.weld, joints, infos, rates, all);
-        describe_bucket(&mut colour.wheel, joints, infos, rates, all);
-        describe_bucket(&mut colour.drive, joints, infos, rates, all);
-        describe_bucket(&mut colour.pulley, joints, infos, rates, all);
-        describe_bucket(&mut colour.gear, joints, infos, rates, all);
+        macro_rules! describe_all {
+            (() $($bucket:ident $class:ident $block:ident),*) => {
+                $(describe_bucket(&mut colour.$bucket, joints, infos, rates, all);)*
+            };
+        }
+        joint_classes!(describe_all!());
     }
     graph.described_h = h;
     graph.any_stale = false;
@@ -156,15 +150,22 @@ fn describe_bucket<B: JointKernel>(
     }
 }
 
-/// Writes what follows from the poses (of the centres of mass) at the start of the step.
-pub(crate) fn prepare(level: SimdLevel, poses: &[Pose], substep: Substep, blocks: JointBlocks<'_>) {
-    with_blocks!(blocks, blocks => dispatch_baseline(level, Prepare { poses, substep, blocks }));
+/// Writes what follows from the poses (of the centres of mass) at the start of the step. The blocks have so many joints.
+pub(crate) fn prepare(
+    level: SimdLevel,
+    poses: &[Pose],
+    substep: Substep,
+    blocks: JointBlocks<'_>,
+    count: usize,
+) {
+    with_blocks!(blocks, blocks => dispatch_baseline(level, Prepare { poses, substep, blocks, count }));
 }
 
 struct Prepare<'a, B> {
     poses: &'a [Pose],
     substep: Substep,
     blocks: &'a mut [B],
+    count: usize,
 }
 
 impl<B: JointKernel> LaneKernel for Prepare<'_, B> {
@@ -172,9 +173,9 @@ impl<B: JointKernel> LaneKernel for Prepare<'_, B> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, token: L::Token) {
-        let Self { poses, substep, blocks } = self;
-        for block in blocks {
-            for at in (0..BLOCK).step_by(L::WIDTH) {
+        let Self { poses, substep, blocks, count } = self;
+        for (index, block) in blocks.iter_mut().enumerate() {
+            for at in (0..BLOCK.min(count - index * BLOCK)).step_by(L::WIDTH) {
                 let stride = Stride::<L>::new(token, at, substep);
                 let start = Start::prepare(&stride, block.frame(), poses);
                 block.prepare(&stride, &start, poses);
@@ -183,16 +184,17 @@ impl<B: JointKernel> LaneKernel for Prepare<'_, B> {
     }
 }
 
-/// Runs a pass over blocks of one colour, in lanes.
+/// Runs a pass over blocks of one colour, in lanes. The blocks have so many joints.
 pub(crate) fn run(
     level: SimdLevel,
     pass: Pass,
     substep: Substep,
     rows: SharedRows<'_>,
     blocks: JointBlocks<'_>,
+    count: usize,
 ) {
     with_blocks!(blocks, blocks => {
-        run_pass(level, RunPass { pass, substep, rows, blocks, lanes: BLOCK });
+        run_pass(level, RunPass { pass, substep, rows, blocks, count });
     });
 }
 
@@ -223,7 +225,7 @@ fn one_by_one<B: JointKernel>(
                 continue; // An empty lane.
             }
             let blocks = core::slice::from_mut(&mut one);
-            run_pass(level, RunPass { pass, substep, rows, blocks, lanes: 1 });
+            run_pass(level, RunPass { pass, substep, rows, blocks, count: 1 });
             block.copy_lane(lane, &one, 0);
         }
     }
@@ -232,7 +234,7 @@ fn one_by_one<B: JointKernel>(
 /// Not inlined, so that both of its users share the kernels' machine code: there is much of it.
 #[inline(never)]
 fn run_pass<B: JointKernel>(level: SimdLevel, pass: RunPass<'_, B>) {
-    dispatch_narrow(level, pass);
+    dispatch_narrow(level.for_count(pass.count), pass);
 }
 
 struct RunPass<'a, B> {
@@ -240,8 +242,8 @@ struct RunPass<'a, B> {
     substep: Substep,
     rows: SharedRows<'a>,
     blocks: &'a mut [B],
-    /// Lanes of a block that are worked on.
-    lanes: usize,
+    /// Joints in the blocks.
+    count: usize,
 }
 
 impl<B: JointKernel> LaneKernel for RunPass<'_, B> {
@@ -249,10 +251,10 @@ impl<B: JointKernel> LaneKernel for RunPass<'_, B> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, token: L::Token) {
-        let Self { pass, substep, rows, blocks, lanes } = self;
-        for block in blocks {
+        let Self { pass, substep, rows, blocks, count } = self;
+        for (index, block) in blocks.iter_mut().enumerate() {
             let extras = block.has_extras();
-            for at in (0..lanes).step_by(L::WIDTH) {
+            for at in (0..BLOCK.min(count - index * BLOCK)).step_by(L::WIDTH) {
                 let stride = Stride::<L>::new(token, at, substep);
                 match pass {
                     Pass::WarmStart => block.warm_start(&stride, rows),
@@ -275,16 +277,8 @@ pub(crate) fn load(graph: &JointGraph, joints: &Joints, index: u32, inv_h: f32) 
     };
     let colour = &graph.colours[usize::from(colour)];
     let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
-    let (force, torque) = match class {
-        JointClass::Distance => colour.distance.blocks[block].impulse(lane),
-        JointClass::Revolute => colour.revolute.blocks[block].impulse(lane),
-        JointClass::Prismatic => colour.prismatic.blocks[block].impulse(lane),
-        JointClass::Weld => colour.weld.blocks[block].impulse(lane),
-        JointClass::Wheel => colour.wheel.blocks[block].impulse(lane),
-        JointClass::Drive => colour.drive.blocks[block].impulse(lane),
-        JointClass::Pulley => colour.pulley.blocks[block].impulse(lane),
-        JointClass::Gear => colour.gear.blocks[block].impulse(lane),
-    };
+    let (force, torque) =
+        with_bucket!(ref colour, class, bucket => bucket.blocks[block].impulse(lane));
     JointLoad { force: force * inv_h, torque: torque * inv_h }
 }
 

@@ -26,7 +26,8 @@ const ROUNDS: usize = 8;
 const ITERATIONS: usize = 8;
 /// Fewer hits than this are no reason to wake threads for copying them.
 const MANY: usize = 128;
-/// What would leave more slowly than this part of the threshold is not handed on.
+/// What would leave more slowly than this part of the threshold is not handed on; of what is hardly bouncy more, in
+/// inverse proportion to its restitution: there little is left to hand on, and it would cost as much.
 const HANDED_ON: f32 = 0.1;
 
 /// What a copied block has besides its constraints.
@@ -211,43 +212,44 @@ impl Batch {
     ) {
         let alone = is_overflow(self.place);
         let chunk = if alone { usize::MAX } else { CHUNK };
-        let aims = &self.aims;
-        let blocks = SharedSlice::new(&mut self.blocks);
+        let Self { blocks, aims, sources, .. } = self;
+        let blocks = SharedSlice::new(blocks);
         team.for_each_chunk(aims.len(), chunk, |range| {
+            let count = sources.len().min(range.end * BLOCK) - range.start * BLOCK;
             let (blocks, aims) = (blocks.range(range.clone()), &aims[range]);
-            if alone {
-                leave_one_by_one(level, parameters, rows, blocks, aims);
-            } else {
-                dispatch_narrow(level, Leave { parameters, rows, blocks, aims });
-            }
+            let leave = Leave { parameters, rows, blocks, aims, count };
+            if alone { leave.one_by_one(level) } else { leave.at_once(level) }
         });
     }
 }
 
-/// Lets each contact leave by itself, in the first lane of an empty block.
-fn leave_one_by_one(
-    level: SimdLevel,
-    parameters: &Parameters,
-    rows: SharedRows<'_>,
-    blocks: &mut [ConstraintBlock],
-    aims: &[Aims],
-) {
-    for (block, aims) in blocks.iter_mut().zip(aims) {
-        for lane in 0..BLOCK {
-            let mut one = ConstraintBlock::NULL;
-            one.copy_lane(0, block, lane);
-            let blocks = core::slice::from_mut(&mut one);
-            dispatch_narrow(level, Leave { parameters, rows, blocks, aims: &[aims.lane(lane)] });
-            block.copy_lane(lane, &one, 0);
-        }
-    }
-}
-
+/// Contacts that leave.
 struct Leave<'a> {
     parameters: &'a Parameters,
     rows: SharedRows<'a>,
     blocks: &'a mut [ConstraintBlock],
     aims: &'a [Aims],
+    /// Lanes in use.
+    count: usize,
+}
+
+impl Leave<'_> {
+    fn at_once(self, level: SimdLevel) {
+        dispatch_narrow(level.for_count(self.count), self);
+    }
+
+    /// Each by itself, in the first lane of an empty block.
+    fn one_by_one(self, level: SimdLevel) {
+        let Self { parameters, rows, blocks, aims, count } = self;
+        let mut one = ConstraintBlock::NULL;
+        for (block, lane) in (0..count).map(|index| (index / BLOCK, index % BLOCK)) {
+            one.copy_lane(0, &blocks[block], lane);
+            let alone = core::slice::from_mut(&mut one);
+            let aims = &[aims[block].lane(lane)];
+            Leave { parameters, rows, blocks: alone, aims, count: 1 }.at_once(level);
+            blocks[block].copy_lane(lane, &one, 0);
+        }
+    }
 }
 
 impl LaneKernel for Leave<'_> {
@@ -255,10 +257,10 @@ impl LaneKernel for Leave<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, token: L::Token) {
-        let Self { parameters, rows, blocks, aims } = self;
+        let Self { parameters, rows, blocks, aims, count } = self;
         let constants = Constants::<L>::new(token, parameters);
-        for (block, aims) in blocks.iter_mut().zip(aims) {
-            for at in (0..BLOCK).step_by(L::WIDTH) {
+        for (index, (block, aims)) in blocks.iter_mut().zip(aims).enumerate() {
+            for at in (0..BLOCK.min(count - index * BLOCK)).step_by(L::WIDTH) {
                 leave(&Stride { token, rows, at, constants: &constants }, block, aims);
             }
         }

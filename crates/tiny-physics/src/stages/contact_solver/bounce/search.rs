@@ -31,7 +31,7 @@ pub(super) struct Search<'a> {
     pub(super) near: Option<&'a [bool]>,
     /// What approaches no faster than this does not bounce, metres a second.
     pub(super) approach: f32,
-    /// Nor does what would leave no faster than this.
+    /// Nor does what would leave no faster than this over its restitution.
     pub(super) leave: f32,
 }
 
@@ -123,6 +123,9 @@ impl LaneKernel for Look<'_> {
                 }
                 let mut targets = [[0.0; BLOCK]; 2];
                 for at in (0..BLOCK).step_by(L::WIDTH) {
+                    if u32::from(lanes) >> at & ((1 << L::WIDTH) - 1) == 0 {
+                        continue;
+                    }
                     let stride = Stride { token, rows, at, constants: &constants };
                     let targets = &mut targets[..run.class.max_points()];
                     aim(&search, &stride, bucket, block, targets);
@@ -170,7 +173,7 @@ fn aim<L: Lanes>(
         let s = stride.load(&point.separation);
         let fast = L::and(
             velocity.lt(splat(-search.approach)),
-            (restitution * velocity).lt(splat(-search.leave)),
+            (restitution * restitution * velocity).lt(splat(-search.leave)),
         );
         // What the forces add to the approach in a substep.
         let closing = along + (arms[0] * gain_a[2] - arms[1] * gain_b[2]);

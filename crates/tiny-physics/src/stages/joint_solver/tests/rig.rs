@@ -62,11 +62,11 @@ impl Rig {
         let rows = SharedRows::new(&mut self.bodies.rows);
         let places: Vec<usize> = self.graph.colours.keys().collect();
         for (place, colour) in places.into_iter().zip(self.graph.colours.list_mut()) {
-            colour.for_each_run(&Team::alone(), |blocks| {
+            colour.for_each_run(&Team::alone(), |blocks, count| {
                 if crate::dynamics::is_overflow(place) {
                     run_one_by_one(self.level, pass, substep, rows, blocks);
                 } else {
-                    run(self.level, pass, substep, rows, blocks);
+                    run(self.level, pass, substep, rows, blocks, count);
                 }
             });
         }
@@ -79,8 +79,8 @@ impl Rig {
         integrate::prepare(&team, &listed, &mut self.bodies, self.gravity, h);
         describe(&mut self.graph, &self.joints, &self.bodies.infos, h);
         for colour in self.graph.colours.list_mut() {
-            colour.for_each_run(&team, |blocks| {
-                prepare(self.level, &self.bodies.poses, Substep::new(h, 1.0), blocks);
+            colour.for_each_run(&team, |blocks, count| {
+                prepare(self.level, &self.bodies.poses, Substep::new(h, 1.0), blocks, count);
             });
         }
         for _ in 0..self.substeps {
