@@ -495,6 +495,7 @@ class b2World:
         self._iterations = 1
         self._forces: list[tuple[Any, tuple[Any, ...]]] = []
         self._fresh: list[b2RevoluteJoint] = []
+        self._touching: set[tuple[_native.Shape, _native.Shape]] = set()
         self.contactListener = contactListener
         self.bodies: list[b2Body] = []
         self.joints: list[b2RevoluteJoint] = []
@@ -596,7 +597,19 @@ class b2World:
     def _changes(self) -> tuple[list[Any], list[Any]]:
         """Pairs of shapes that no longer touch, and that began to, in the last step."""
         events = self._inner.events()
-        ended, begun = ([*events[f"contact_{x}"], *events[f"sensor_{x}"]] for x in ("end", "begin"))
+        gone = [pair for pair in events["contact_end"] if pair in self._touching]
+        self._touching.difference_update(gone)
+        ended, begun = gone + events["sensor_end"], list(events["sensor_begin"])
+        # Events of contacts tell of what is about to touch, too, up to 2 cm away.
+        for contact in self._inner.contacts():
+            pair = contact["shapes"]
+            touches = any(gap <= 0 or push > 0 for _, gap, push, _ in contact["points"])
+            if touches and pair not in self._touching:
+                self._touching.add(pair)
+                begun.append(pair)
+            elif not touches and pair in self._touching:
+                self._touching.remove(pair)
+                ended.append(pair)
         return ended, begun
 
     def _tell(self, ended: list[Any], begun: list[Any]) -> None:

@@ -1,35 +1,31 @@
 //! What several tasks need.
 
-use tiny_physics::{BodyId, DVec2, Error, RigidBody, Rot, Shape, ShapeDef, ShapeId, Vec2, World};
+use tiny_physics::{BodyId, DVec2, Error, RigidBody, Rot, Shape, ShapeDef, Vec2, World};
 
 use crate::task::View;
 
-/// A body of one shape that a task asks after every step.
+/// A body that a task asks after every step what it touches.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part {
     pub(super) body: BodyId,
-    pub(super) shape: ShapeId,
 }
 
 impl Part {
-    /// Adds a body whose shape tells of its contacts.
+    /// Adds a body.
     pub(super) fn add(world: &mut World, body: RigidBody) -> Result<Self, Error> {
-        let body = world.add_body(body)?;
-        let found = world.body(body).and_then(|body| body.shapes().next());
-        let shape = found.ok_or(Error::Unsupported { reason: "a part needs a shape" })?;
-        if let Some(mut shape) = world.shape_mut(shape) {
-            shape.set_events(true, false);
-        }
-        Ok(Self { body, shape })
+        world.add_body(body).map(|body| Self { body })
     }
 
-    /// Brings the number of contacts of this part up to date with the events of the last step.
+    /// Brings the number of contacts of this part up to date. Events would tell of what is about to touch, too, up to 2 cm away.
     pub(super) fn count_touches(&self, world: &World, touches: &mut u32) {
-        let events = world.events();
-        let mine = |a: ShapeId, b: ShapeId| a == self.shape || b == self.shape;
-        let began = events.contact_begin().iter().filter(|e| mine(e.shape_a, e.shape_b)).count();
-        let ended = events.contact_end().iter().filter(|e| mine(e.shape_a, e.shape_b)).count();
-        *touches = (*touches + began as u32).saturating_sub(ended as u32);
+        let Some(body) = world.body(self.body).filter(|body| body.is_awake()) else { return };
+        let touching = body.contacts().filter(|contact| {
+            contact
+                .points()
+                .iter()
+                .any(|point| point.separation <= 0.0 || point.normal_impulse > 0.0)
+        });
+        *touches = touching.count() as u32;
     }
 }
 
@@ -81,6 +77,29 @@ fn exp(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_close_does_not_touch() {
+        let mut world = World::new(Vec2::ZERO);
+        let square = || Shape::rect(0.5, 0.5).unwrap();
+        world.add_body(RigidBody::fixed().shape(square())).unwrap();
+        let above = RigidBody::dynamic().position((0.0, 1.01)).shape(square());
+        let part = Part::add(&mut world, above).unwrap();
+        let mut touches = 0;
+        for _ in 0..5 {
+            world.step(0.02);
+            part.count_touches(&world, &mut touches);
+            assert_eq!((touches, world.contact_count()), (0, 1));
+        }
+        world.gravity = Vec2::new(0.0, -10.0);
+        (0..10).for_each(|_| world.step(0.02));
+        part.count_touches(&world, &mut touches);
+        assert_eq!(touches, 1);
+        world.gravity = Vec2::new(0.0, 20.0);
+        (0..10).for_each(|_| world.step(0.02));
+        part.count_touches(&world, &mut touches);
+        assert_eq!(touches, 0);
+    }
 
     #[test]
     fn tanh_is_the_hyperbolic_tangent() {
