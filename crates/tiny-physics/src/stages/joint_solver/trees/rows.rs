@@ -384,8 +384,8 @@ fn tie<S: Simd>(simd: S, link: &mut TreeLink, axis: &mut TreeAxis, a: &TreeNode,
     let (mut coupling, mut mass) = ([0.0; 4], [[0.0; 4]; 3]);
     for i in 0..link.rigid {
         coupling[i] = response(&row(i), &own, a, b);
-        for j in i..link.rigid {
-            mass[i][j] = response(&row(i), &row(j), a, b);
+        for (j, mass) in mass[i].iter_mut().enumerate().take(link.rigid).skip(i) {
+            *mass = response(&row(i), &row(j), a, b);
         }
     }
     let per = times(simd, &invert(&mass, link.rigid), &coupling);
