@@ -434,10 +434,9 @@ fn demand<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rate
         let mut rhs = [0.0; 4];
         if BIAS {
             rhs = curve(simd, link, a, b, rates.h);
-            let push = share * rates.rigid_bias(1.0);
             let rows = link.error.iter().zip(&link.compliance).zip(&link.impulses);
             for (rhs, ((error, compliance), impulse)) in rhs.iter_mut().zip(rows) {
-                *rhs -= push * error + compliance * impulse;
+                *rhs -= share * rates.rigid_bias(1.0) * error + compliance * impulse;
             }
         }
         take_product(simd, &mut rhs, &link.jacobians[1].columns, &b.v);
