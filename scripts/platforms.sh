@@ -34,7 +34,7 @@ hashes_aarch64() {
 }
 
 hashes_wasm32() {
-  local target=wasm32-unknown-unknown dir; dir=$(sysroot $target "-Ctarget-feature=+simd128")
+  local target=wasm32-unknown-unknown dir; dir=$(sysroot $target "-Ctarget-feature=+simd128" optimize_for_size)
   local lld; lld=$(rustc --print sysroot)/lib/rustlib/x86_64-unknown-linux-gnu/bin/rust-lld
   RUSTC=/usr/bin/rustc CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$lld \
     CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS="--sysroot $dir -Ctarget-feature=+simd128" \

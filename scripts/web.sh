@@ -21,7 +21,7 @@ packages() {
 # module FEATURES OUTPUT: one wasm file.
 module() {
   local features=$1 output=$2 target=wasm32-unknown-unknown dir
-  dir=$(sysroot $target "-Ctarget-feature=+simd128")
+  dir=$(sysroot $target "-Ctarget-feature=+simd128" optimize_for_size)
   local lld; lld=$(rustc --print sysroot)/lib/rustlib/x86_64-unknown-linux-gnu/bin/rust-lld
   local target_dir=${CARGO_TARGET_DIR:-$PWD/target/web}
   RUSTC=/usr/bin/rustc CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$lld \

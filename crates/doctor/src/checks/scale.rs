@@ -91,9 +91,9 @@ pub(crate) fn check_all<'a>(
     check_density(look, stuff.len(), thick, findings);
 }
 
-/// The least, the middle one, and the greatest. Of two, the lesser counts as the middle one.
+/// The least, the middle one, and the greatest; of equals, by their ids. Of two, the lesser counts as the middle one.
 fn spread(items: &mut [(f32, BodyId)]) -> [(f32, BodyId); 3] {
-    let by_size = |a: &(f32, BodyId), b: &(f32, BodyId)| a.0.total_cmp(&b.0);
+    let by_size = |a: &(f32, BodyId), b: &(f32, BodyId)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
     let middle = (items.len() - 1) / 2;
     let (below, &mut middle, above) = items.select_nth_unstable_by(middle, by_size);
     let least = below.iter().copied().min_by(by_size).unwrap_or(middle);
@@ -151,4 +151,27 @@ pub(crate) fn report_ratio(
         joints: joint.into_iter().collect(),
         ..Words::default()
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tiny_physics::{RigidBody, Shape, Vec2, World};
+
+    /// The library's way to halve lists differs from platform to platform: what is told must not hang on it.
+    #[test]
+    fn of_equals_the_ids_decide() {
+        let mut world = World::new(Vec2::ZERO);
+        let mut items: Vec<_> = (0..5)
+            .map(|_| {
+                let body = RigidBody::new(Shape::circle(0.5).unwrap(), Vec2::ZERO, 1.0);
+                (1.0, world.add_body(body).unwrap())
+            })
+            .collect();
+        let sorted = [items[0], items[2], items[4]];
+        for _ in 0..items.len() {
+            items.rotate_left(1);
+            assert_eq!(spread(&mut items.clone()), sorted);
+        }
+    }
 }
