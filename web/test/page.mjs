@@ -349,10 +349,14 @@ await check(
     await picture(page, "phone");
     const wide = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
     assert.equal(wide, false);
-    for (const id of ["play", "time", "scene", "tool-grab"]) {
+    for (const id of ["play", "time", "scene", "tool-grab", "open-inspect", "overlays", "share", "save", "ask"]) {
       const box = await page.locator(`#${id}`).boundingBox();
-      assert(box && box.x >= 0 && box.y >= 0 && box.x < 390 && box.y + box.height <= 844, `${id} is on the screen`);
+      const inside = box && box.x >= 0 && box.y >= 0 && box.x + box.width <= 390 && box.y + box.height <= 844;
+      assert(inside, `${id} is on the screen`);
     }
+    const name = page.locator("#scene .name");
+    assert.equal(await name.textContent(), "newton cradle");
+    assert(await name.evaluate((name) => name.scrollWidth <= name.clientWidth), "the scene's name is not cut");
     const from = await placeOf(page, 1);
     const client = await page.context().newCDPSession(page);
     const touch = (type, x, y) =>

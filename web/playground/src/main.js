@@ -90,7 +90,7 @@ async function main() {
     app.room = {
       left: narrow ? 0 : 64,
       right: panel.hidden || narrow ? 0 : panel.offsetWidth + 12,
-      top: 64,
+      top: $("#top").offsetHeight + 16,
       bottom: 76 + (narrow ? 52 : 0) + (narrow && !panel.hidden ? panel.offsetHeight : 0),
     };
     if (!before) return;
@@ -143,7 +143,7 @@ async function main() {
     }
   }
   app.addEventListener("open", () => {
-    $("#scene").replaceChildren(app.name.replaceAll("_", " "), icon("chevron-down"));
+    $("#scene").replaceChildren(h("span.name", {}, app.name.replaceAll("_", " ")), icon("chevron-down"));
     document.title = `${app.name.replaceAll("_", " ")} · tiny-physics`;
     if (shownLeaf === "scene") code.show();
     if (shownLeaf === "plot") curves.build();
