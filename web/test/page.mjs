@@ -325,6 +325,21 @@ await check("what the doctor finds comes up, with a jump to its step", async (pa
   assert.equal(await page.evaluate(() => playground.health.read().length), 1);
 });
 
+await check(
+  "a scene is shown as its file says",
+  async (page) => {
+    const corners = await page.evaluate(() => playground.scene.view.map(([x, y]) => playground.toPage(x, y)));
+    const [{ x: left, y: bottom }, { x: right, y: top }] = corners;
+    // The room is what the bars and the tools leave.
+    assert(left >= 64 && right <= 1280 && top >= 64 && bottom <= 800 - 76, JSON.stringify(corners));
+    assert(right - left > 0.9 * (1280 - 64) || bottom - top > 0.9 * (800 - 64 - 76), "and it fills the room");
+    await page.waitForFunction(() => playground.at > 60);
+    await picture(page, "fair");
+  },
+  {},
+  "#fair",
+);
+
 for (const scheme of ["light", "dark"]) {
   await check(
     `the gallery, ${scheme}`,

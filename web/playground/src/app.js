@@ -50,9 +50,9 @@ export class App extends EventTarget {
     try {
       scene = JSON.parse(source);
     } catch {}
-    this.#take(world, name ?? (scene.name || "untitled"), scene.steps ?? 600, keepCamera);
-    this.source = source;
     this.scene = scene;
+    this.source = source;
+    this.#take(world, name ?? (scene.name || "untitled"), scene.steps ?? 600, keepCamera);
     if (!keepPlaying) this.setPlaying(true);
     this.say("open");
   }
@@ -60,9 +60,9 @@ export class App extends EventTarget {
   /** Opens a recording of the program, at its beginning. */
   openRecording(bytes, name) {
     const world = World.openRecording(bytes, MEMORY);
-    this.#take(world, name, world.history.length, false);
-    this.source = "";
     this.scene = undefined;
+    this.source = "";
+    this.#take(world, name, world.history.length, false);
     this.setPlaying(true);
     this.say("open");
   }
@@ -152,7 +152,7 @@ export class App extends EventTarget {
   // Space.
 
   fit() {
-    const [left, bottom, right, top] = framing(this.world);
+    const [left, bottom, right, top] = framing(this.world, this.scene?.view);
     const { clientWidth, clientHeight } = this.renderer.canvas;
     const room = this.room ?? { left: 0, right: 0, top: 0, bottom: 0 };
     const [width, height] = [clientWidth - room.left - room.right, clientHeight - room.top - room.bottom];

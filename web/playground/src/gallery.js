@@ -78,7 +78,7 @@ export function gallery(app, scenes) {
     if (!card.text) return;
     card.world = World.loadScene(card.text);
     card.small = card.world.counts().bodies < 400;
-    const [left, bottom, right, top] = framing(card.world);
+    const [left, bottom, right, top] = framing(card.world, JSON.parse(card.text).view);
     card.camera = {
       x: (left + right) / 2,
       y: (bottom + top) / 2,

@@ -27,8 +27,9 @@ export function rows(world, camera, alpha, shown) {
   return { boxes: view(boxes, boxCount), polygons: view(polygons, polygonCount), lines: view(lines, lineCount) };
 }
 
-/** The part of the world that is worth seeing: left, bottom, right, top. */
-export function framing(world) {
+/** The part of the world that is worth seeing: left, bottom, right, top. It is what the scene's `view` says, or what moves. */
+export function framing(world, view) {
+  if (view) return view.flat();
   const wasm = exports();
   wasm.tp_bounds(world.session);
   const [l0, b0, r0, t0, l1, b1, r1, t1] = numbers(wasm);
