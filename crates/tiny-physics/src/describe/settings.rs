@@ -74,7 +74,9 @@ pub struct Settings {
     /// Greatest speed at which overlap is pushed out, metres a second. What a contact needs to carry its load
     /// is not bounded.
     pub push_speed: f32,
-    /// Approach speed below which nothing bounces, metres a second.
+    /// Approach speed below which nothing bounces that lay on the other already, or that forces would soon bring back,
+    /// metres a second. What just touches and has nothing to press it on, as a ball on a table without gravity or one
+    /// that touches a wall aslant, bounces from a tenth of it on.
     pub restitution_threshold: f32,
     /// Approach speed above which a hit event is sent, metres a second.
     pub hit_event_threshold: f32,

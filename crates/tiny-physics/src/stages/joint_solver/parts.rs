@@ -9,6 +9,8 @@ use crate::threads::SharedRows;
 /// anywhere one got faster than 17 m/s at 0.02 and 12,000 without such a bound; a hundred ragdolls in a pit
 /// come to rest at 0.005, and never at 0.05.
 pub(super) const SNAP: f32 = 0.005;
+/// And this part of it: what is far out of place is there within a second.
+pub(super) const SNAP_SHARE: f32 = 0.015;
 
 /// Length of a substep, seconds, its inverse, and the length unit, metres.
 #[derive(Clone, Copy, Debug)]
@@ -293,10 +295,11 @@ impl<L: Lanes> Soft<L> {
         self.mass_scale * velocity + self.push * error
     }
 
-    /// The same where errors of what is held go no faster than `snap`.
+    /// The same where errors of what is held go no faster than `snap` and a share of themselves.
     #[inline(always)]
     pub(super) fn hold(&self, stride: &Stride<L>, velocity: L, error: L, snap: L) -> L {
         let push = self.push * error;
+        let snap = snap + error.abs() * (stride.inv_h * stride.splat(SNAP_SHARE));
         let push = L::select(self.held.gt(stride.zero), push.clamp(-snap, snap), push);
         self.mass_scale * velocity + push
     }

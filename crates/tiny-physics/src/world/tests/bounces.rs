@@ -43,14 +43,28 @@ fn a_disk_that_bounces_obliquely_is_rubbed() {
 #[test]
 fn bounces_are_local() {
     let mut world = floored(0.0, 1.0);
+    world.gravity = Vec2::new(0.0, -10.0);
     let fast = drop(&mut world, -20.0, 0.1, Vec2::new(0.0, -5.0), 0.0, 1.0);
-    let slow = drop(&mut world, 20.0, 0.025, Vec2::new(0.0, -0.9), 0.0, 1.0);
+    world.body_mut(fast).unwrap().set_gravity_scale(0.0);
+    let slow = drop(&mut world, 20.0, 0.02, Vec2::new(0.0, -0.5), 0.0, 1.0);
     // Both hit in the second step.
     run(&mut world, 2);
     let up = |world: &World, body| world.body(body).unwrap().velocity().y;
     assert!((up(&world, fast) - 5.0).abs() < 1.0e-3, "{}", up(&world, fast));
     run(&mut world, 8);
     assert!(up(&world, slow).abs() < 1.0e-3, "{}", up(&world, slow));
+}
+
+/// Nor is a ball on a table stopped by the threshold: nothing presses it on, and nothing would bring it back.
+#[test]
+fn what_nothing_presses_on_bounces_slowly_too() {
+    for (speed, restitution, expected) in [(0.9, 1.0, 0.9), (0.3, 1.0, 0.3), (0.9, 0.5, 0.45)] {
+        let mut world = floored(0.0, restitution);
+        let ball = drop(&mut world, 0.0, 0.02, Vec2::new(2.0, -speed), 0.0, restitution);
+        run(&mut world, 10);
+        let velocity = world.body(ball).unwrap().velocity();
+        assert!((velocity - Vec2::new(2.0, expected)).length() < 1.0e-3, "{speed}: {velocity}");
+    }
 }
 
 /// A crate that is pushed out of the floor while it slides is slowed by friction times its weight alone.

@@ -1,6 +1,7 @@
 //! Bouncing, before the substeps: what hits something bouncy leaves at the speed that its restitution says.
 //!
-//! A step has rounds. In the first, what approaches faster than the threshold bounces. What it pushes may hit
+//! A step has rounds. In the first, what approaches faster than the threshold bounces, and what nothing presses together
+//! from lower speeds on. What it pushes may hit
 //! the next body in turn, so each later round looks at the contacts of the bodies that bounced in the round
 //! before, and at those alone. Points that bounce in the same round are solved together, in a few iterations.
 //!
@@ -88,16 +89,12 @@ pub(crate) fn run(
     memory: &mut Memory,
 ) {
     let Memory { batches, hits, marks, marked } = memory;
-    let threshold = parameters.restitution_threshold;
     marks.resize(bodies.infos.len(), false);
     for round in 0..ROUNDS {
         let rows = SharedRows::new(&mut bodies.rows);
-        let (near, approach, leave) = match round {
-            0 => (None, threshold, 0.0),
-            _ => (Some(&marks[..]), 0.0, HANDED_ON * threshold),
-        };
-        let motions = &bodies.motions;
-        let search = Search { graph, rows, parameters, motions, near, approach, leave };
+        let near = (round > 0).then_some(&marks[..]);
+        let (motions, leave) = (&bodies.motions, HANDED_ON * parameters.restitution_threshold);
+        let search = Search { graph, rows, parameters, motions, near, leave };
         let hits = search.run(team, level, schedule, hits);
         let count = copy_out(team, graph, hits, batches);
         marked.drain(..).for_each(|body| marks[body as usize] = false);

@@ -29,11 +29,15 @@ pub(super) struct Search<'a> {
     pub(super) motions: &'a [Motion],
     /// The bodies whose contacts are looked at; those of all where not said.
     pub(super) near: Option<&'a [bool]>,
-    /// What approaches no faster than this does not bounce, metres a second.
-    pub(super) approach: f32,
-    /// Nor does what would leave no faster than this over its restitution.
+    /// What would leave no faster than this over its restitution does not bounce, metres a second, unless it comes
+    /// faster than the threshold.
     pub(super) leave: f32,
 }
+
+/// What falls back within this time is as good as at rest, seconds: what forces press together bounces from the speed
+/// on that they would give it in this time, or from the threshold on if that is less. So balls on a table without
+/// gravity, and those that touch a wall aslant, keep what speed they have, and what lies on the ground lies.
+const SHORT: f32 = 0.13;
 
 impl Search<'_> {
     /// Lists what bounces, in the order of the runs.
@@ -71,6 +75,20 @@ impl Search<'_> {
         gains.map(|gains| L::select(moves, L::load(stride.token, &gains), zero))
     }
 
+    /// Lanes whose points approach faster than the threshold, or, where nothing was pressed before, at all.
+    fn approaching_lanes(&self, bucket: &Bucket, block: usize) -> u16 {
+        let (surface, constraint) = (&bucket.surfaces[block], &bucket.constraints[block]);
+        let approaches = [&surface.approach_1, &surface.approach_2];
+        (0..BLOCK).fold(0, |lanes, lane| {
+            let comes = |k: usize| {
+                let fresh = constraint.points[k].normal_impulse[lane] == 0.0;
+                let least = if fresh { self.leave } else { self.parameters.restitution_threshold };
+                approaches[k][lane] < -least
+            };
+            lanes | u16::from(comes(0) | comes(1)) << lane
+        })
+    }
+
     /// The lanes of a block that may bounce, as bits.
     fn candidates(&self, bucket: &Bucket, block: usize) -> u16 {
         if bucket.heads[block].flags & flags::RESTITUTION == 0 {
@@ -78,18 +96,9 @@ impl Search<'_> {
         }
         match self.near {
             Some(marks) => near_lanes(&bucket.constraints[block], marks),
-            None => approaching_lanes(bucket, block, self.approach),
+            None => self.approaching_lanes(bucket, block),
         }
     }
-}
-
-/// Lanes whose points approach faster than the threshold.
-fn approaching_lanes(bucket: &Bucket, block: usize, threshold: f32) -> u16 {
-    let surface = &bucket.surfaces[block];
-    (0..BLOCK).fold(0, |lanes, lane| {
-        let [first, second] = [surface.approach_1[lane], surface.approach_2[lane]];
-        lanes | u16::from((first < -threshold) | (second < -threshold)) << lane
-    })
 }
 
 /// Lanes with a marked body.
@@ -166,17 +175,23 @@ fn aim<L: Lanes>(
     let restitution = stride.load(&bucket.surfaces[block].restitution);
     let gain_a = search.gain(stride, &constraint.body_a, &pair.a);
     let gain_b = search.gain(stride, &constraint.body_b, &pair.b);
+    let threshold = splat(search.parameters.restitution_threshold);
+    let first = search.near.is_none();
     let along = pair.normal[0] * (gain_a[0] - gain_b[0]) + pair.normal[1] * (gain_a[1] - gain_b[1]);
     for (point, targets) in constraint.points.iter().zip(targets) {
         let arms = [stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b)];
         let velocity = pair.normal_velocity(arms[0], arms[1]);
         let s = stride.load(&point.separation);
-        let fast = L::and(
-            velocity.lt(splat(-search.approach)),
-            (restitution * restitution * velocity).lt(splat(-search.leave)),
-        );
         // What the forces add to the approach in a substep.
         let closing = along + (arms[0] * gain_a[2] - arms[1] * gain_b[2]);
+        let fresh = stride.load(&point.normal_impulse).eq(zero);
+        let pressed = (closing.max(zero) * splat(SHORT * inv_h)).min(threshold);
+        let least = if first { L::select(fresh, pressed, threshold) } else { zero };
+        let leaves = (restitution * restitution * velocity).lt(splat(-search.leave));
+        let mut fast = L::and(velocity.lt(zero - least), leaves);
+        if first {
+            fast = L::or(fast, velocity.lt(zero - threshold));
+        }
         let fallen = closing.max(zero) * splat(0.5 * inv_h * dt * dt);
         let arrives = (s + velocity * splat(dt)).lt(fallen);
         let hits = L::and(L::and(fast, arrives), zero.lt(stride.load(&point.normal_mass)));

@@ -18,7 +18,7 @@ mod rows;
 mod tests;
 
 use super::Pass;
-use super::parts::{SNAP, Substep};
+use super::parts::{SNAP, SNAP_SHARE, Substep};
 use crate::dynamics::{
     JOINTED, JointClass, JointColour, JointTree, Joints, Motion, TreeAxis, TreeLink, TreeNode,
 };
@@ -313,7 +313,9 @@ fn snap_share<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) -> f64 {
         link.rhs = link.error.map(|error| -rates.rigid_bias(error));
         sum += link.rhs[0].abs() + link.rhs[1].abs() + link.rhs[2].abs();
     }
-    let [most, most_turn] = rates.snap;
+    // No error is greater than all together.
+    let share = sum / rates.push * f64::from(SNAP_SHARE);
+    let [most, most_turn] = [rates.snap[0] + share, rates.snap[1] + share];
     if sum < most {
         return 1.0;
     }
