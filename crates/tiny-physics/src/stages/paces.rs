@@ -93,19 +93,14 @@ crate::footprint::footprint!(Memory {
     moved_joints
 });
 
-/// Lists the awake bodies that are integrated at a pace: what is not dynamic is at every one. Says how many are dynamic.
-pub(crate) fn list_bodies(bodies: &Bodies, pace: usize, listed: &mut Vec<u32>) -> usize {
+/// Lists the awake bodies that are integrated at a pace: what is not dynamic is at every one.
+pub(crate) fn list_bodies(bodies: &Bodies, pace: usize, listed: &mut Vec<u32>) {
+    let concerns = |&&i: &&u32| {
+        let info = &bodies.infos[i as usize];
+        info.kind != BodyKind::Dynamic || usize::from(info.pace) == pace
+    };
     listed.clear();
-    let mut movers = 0;
-    for &body in &bodies.awake {
-        let info = &bodies.infos[body as usize];
-        let dynamic = info.kind == BodyKind::Dynamic;
-        if !dynamic || usize::from(info.pace) == pace {
-            movers += usize::from(dynamic);
-            listed.push(body);
-        }
-    }
-    movers
+    listed.extend(bodies.awake.iter().filter(concerns));
 }
 
 /// Gives every island its pace, where that is due.

@@ -134,8 +134,8 @@ impl Solver {
         if stores.bodies.any_refined() {
             let mut listed = core::mem::take(&mut self.listed);
             for pace in (0..PACES).rev() {
-                let movers = paces::list_bodies(stores.bodies, pace, &mut listed);
-                if movers == 0 && pace != PLAIN {
+                paces::list_bodies(stores.bodies, pace, &mut listed);
+                if pace != PLAIN && !listed.iter().any(|&body| stores.bodies.is_dynamic(body)) {
                     continue;
                 }
                 let lengths = rules.lengths.refined(pace);

@@ -16,10 +16,12 @@ enum Part {
     Stones,
     Shot,
     Chain,
+    /// A chain that hangs from the floor body and was made far out of place.
+    Apart,
 }
 
-const ALL: [Part; 6] =
-    [Part::Crates, Part::Balls, Part::Planks, Part::Stones, Part::Shot, Part::Chain];
+const ALL: [Part; 7] =
+    [Part::Crates, Part::Balls, Part::Planks, Part::Stones, Part::Shot, Part::Chain, Part::Apart];
 
 /// Some of that falls on a floor with a step; all lengths are times `unit`.
 fn course(parts: &[Part], unit: f32, steps: usize) -> Course {
@@ -28,7 +30,7 @@ fn course(parts: &[Part], unit: f32, steps: usize) -> Course {
     let at = |x: f32, y: f32| Vec2::new(x * unit, y * unit);
     let sized = |half_width: f32, half_height: f32| rect(half_width * unit, half_height * unit);
     let fixed = |x, y, shape| RigidBody::fixed().position(at(x, y)).shape(shape);
-    world.add_body(fixed(0.0, -1.0, sized(20.0, 1.0))).unwrap();
+    let floor = world.add_body(fixed(0.0, -1.0, sized(20.0, 1.0))).unwrap();
     world.add_body(fixed(-9.0, 0.0, sized(4.0, 0.5))).unwrap();
     let stone: Vec<Vec2> =
         [(-0.5, -0.25), (0.25, -0.5), (0.5, 0.125), (0.0, 0.5)].map(|(x, y)| at(x, y)).to_vec();
@@ -61,6 +63,17 @@ fn course(parts: &[Part], unit: f32, steps: usize) -> Course {
             let [.., a, b] = bodies[..] else { unreachable!() };
             world.add_joint(a, b, hinge.limits(-0.5, 0.5)).unwrap();
         }
+    }
+    let mut above = (floor, at(-15.0, 12.0));
+    for i in 0..if parts.contains(&Part::Apart) { 10 } else { 0 } {
+        let place = at(-15.0 + i as f32 * 1.5, 11.0 - (i % 3) as f32 * 2.0);
+        let link = RigidBody::dynamic().position(place).angle(i as f32).damping(2.0, 2.0);
+        let link = link.shape(sized(0.125, 0.5));
+        let link = world.add_body(link).unwrap();
+        let hinge = JointDef::revolute().anchors(above.1, at(0.0, 0.5));
+        world.add_joint(above.0, link, hinge).unwrap();
+        bodies.push(link);
+        above = (link, at(0.0, -0.5));
     }
     let mut course = Course::new();
     for step in 0..steps {

@@ -308,14 +308,19 @@ impl Rates {
 /// hurl it about. What they alone would do tells.
 #[inline(always)]
 fn snap_share<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) -> f64 {
-    let mut sum = 0.0;
+    let [most, most_turn] = rates.snap;
+    let (mut sum, mut largest) = (0.0, 0.0);
     for link in &mut tree.links {
         link.rhs = link.error.map(|error| -rates.rigid_bias(error));
         sum += link.rhs[0].abs() + link.rhs[1].abs() + link.rhs[2].abs();
+        for (error, [x, y, ..]) in link.error.iter().zip(&link.jacobians[1].rows) {
+            // Angles have no unit of length.
+            let unit = if *x == 0.0 && *y == 0.0 { 1.0 } else { most / most_turn };
+            largest = if error.abs() > largest * unit { error.abs() / unit } else { largest };
+        }
     }
-    // No error is greater than all together.
-    let share = sum / rates.push * f64::from(SNAP_SHARE);
-    let [most, most_turn] = [rates.snap[0] + share, rates.snap[1] + share];
+    let grown = 1.0 + f64::from(SNAP_SHARE / SNAP) * largest;
+    let (most, most_turn) = (most * grown, most_turn * grown);
     if sum < most {
         return 1.0;
     }
