@@ -3,13 +3,23 @@
 use crate::picture::Picture;
 use crate::session::Session;
 use crate::with;
+use tiny_physics::record::Command;
 use tiny_physics::{
-    BodyKind, Color, DVec2, DebugDraw, DebugDrawOptions, Palette, Polygon, Pose, Rot, Shape,
-    ShapeRef, Transform, Vec2, World,
+    Aabb, Body, BodyKind, Color, DVec2, DebugDraw, DebugDrawOptions, Palette, Polygon, Pose, Rot,
+    Shape, ShapeRef, Transform, Vec2, Water, World,
 };
 
 /// Numbers of a row.
 const CORNERS: usize = 8;
+/// Of a style: what bodies go through.
+const SENSOR: u8 = 8;
+/// The index of no body.
+const NOBODY: usize = 1 << 24;
+/// Radians of a wave a metre, and a second.
+const WAVES: f64 = 1.9;
+const WAVE_RATE: f64 = 1.4;
+/// Width of a hook, pixels.
+const HOOK: f32 = 9.0;
 
 /// What is drawn besides shapes.
 mod show {
@@ -27,16 +37,17 @@ mod show {
 }
 
 /// Draws the world as seen from a camera at a point: bodies between the start (`alpha` 0) and the end (1) of the last step,
-/// and what `shown` says. The numbers are address and length of the rows of boxes, polygons and lines.
+/// and what `shown` says. The numbers are address and length of the rows of boxes, polygons, lines and waters, and how many
+/// numbers of the boxes and of the polygons are of what stands still.
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_draw(session: u32, x: f64, y: f64, alpha: f32, shown: u32) -> bool {
     with(session, |session, shelf| {
         let mut picture = core::mem::take(&mut session.picture);
-        picture.draw(session.world(), DVec2::new(x, y), alpha, shown);
-        let lists = [&picture.boxes, &picture.polygons, &picture.lines];
-        shelf.count(
-            lists.iter().flat_map(|list| [list.as_ptr() as usize as f64, list.len() as f64]),
-        );
+        let places = crate::places::now(session);
+        picture.draw(session.world(), &places, DVec2::new(x, y), alpha, shown);
+        let lists = [&picture.boxes, &picture.polygons, &picture.lines, &picture.waters];
+        let lists = lists.iter().flat_map(|list| [list.as_ptr() as usize, list.len()]);
+        shelf.count(lists.chain(picture.still).map(|number| number as f64));
         session.picture = picture;
         Ok(())
     })
@@ -83,11 +94,13 @@ fn grow(own: &mut [f64; 4], [left, bottom, right, top]: [f64; 4]) {
 }
 
 impl Picture {
-    fn draw(&mut self, world: &World, camera: DVec2, alpha: f32, shown: u32) {
+    fn draw(&mut self, world: &World, places: &[Command], camera: DVec2, alpha: f32, shown: u32) {
         self.boxes.clear();
         self.polygons.clear();
         self.lines.clear();
+        self.waters.clear();
         self.tints.clear();
+        self.places(world, places, camera);
         if shown & show::DEPTH != 0 {
             self.tint_by_depth(world);
         } else if shown & show::ISLANDS != 0 {
@@ -99,9 +112,16 @@ impl Picture {
                 if (body.kind() == BodyKind::Static) == fixed {
                     let frame = frame(body.interpolated_pose(alpha), camera);
                     let style = style(&shape, body.kind(), body.is_awake());
-                    self.shape(&shape, frame, style, body.id().index());
+                    let frame = frame.compose(shape.local());
+                    self.shape(shape.shape(), frame, style, body.id().index());
                 }
             }
+            if fixed {
+                self.still = [self.boxes.len(), self.polygons.len()];
+            }
+        }
+        if shown & show::JOINTS != 0 {
+            self.hooks(world, camera, shown & show::LIGHT != 0);
         }
         let mut palette = Palette::default();
         if shown & show::LIGHT != 0 {
@@ -132,8 +152,68 @@ impl Picture {
         }
     }
 
-    fn shape(&mut self, shape: &ShapeRef<'_>, frame: Transform, style: f32, body: usize) {
-        let frame = frame.compose(shape.local());
+    /// Waters, and areas in which forces act, which look like sensors.
+    fn places(&mut self, world: &World, places: &[Command], camera: DVec2) {
+        for place in places {
+            match place {
+                Command::ApplyWater(water, ..) => self.water(world, water, camera),
+                Command::ApplyZone(zone, ..) => {
+                    let frame = frame(zone.pose, camera);
+                    self.shape(&zone.shape, frame, f32::from(SENSOR), NOBODY);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn water(&mut self, world: &World, water: &Water, camera: DVec2) {
+        const ALL: f32 = 1.0e9;
+        let normal = water.normal.normalized();
+        let [x, y] = [normal.x, normal.y].map(f64::from);
+        let deep = (water.surface.x - camera.x) * x + (water.surface.y - camera.y) * y;
+        // Waves run along the surface; a length fits in a number of few digits however far away one is.
+        let along = camera.x * y - camera.y * x;
+        let phase =
+            (WAVES * along + WAVE_RATE * world.step_count() as f64 / 60.0) % core::f64::consts::TAU;
+        self.waters.extend([deep as f32, normal.x, normal.y, phase as f32]);
+        let mut area = water.area.map_or([-ALL, -ALL, ALL, ALL], |area| {
+            let [min, max] = [area.min, area.max].map(|p| DVec2::from(p).relative_to(camera));
+            [min.x, min.y, max.x, max.y]
+        });
+        // It is not seen below the ground that holds it.
+        let grounds = world.shapes().filter(|shape| is_static(world, shape)).map(|shape| {
+            let pose = shape.pose();
+            shape.shape().aabb(frame(pose, camera))
+        });
+        let below = |ground: &Aabb| {
+            ground.min.x < area[2] && ground.max.x > area[0] && ground.min.y < deep as f32
+        };
+        let floor = grounds.filter(below).fold(f32::MAX, |floor, ground| floor.min(ground.min.y));
+        if normal == Vec2::Y && floor < f32::MAX {
+            area[1] = area[1].max(floor);
+        }
+        self.waters.extend(area);
+    }
+
+    /// A dot where a joint holds on to a body that never moves and has no shape there to be seen.
+    fn hooks(&mut self, world: &World, camera: DVec2, light: bool) {
+        let color = if light { Color::rgb(169, 180, 196) } else { Color::rgb(74, 85, 104) };
+        for joint in world.joints().filter(|joint| joint.is_enabled()) {
+            let (a, b) = joint.bodies();
+            let (at_a, at_b) = joint.anchors();
+            for (body, anchor) in [(a, at_a), (b, at_b)] {
+                let bare = |body: &Body<'_>| {
+                    body.kind() == BodyKind::Static && body.shapes().next().is_none()
+                };
+                if world.body(body).is_some_and(|body| bare(&body)) {
+                    let anchor = anchor.relative_to(camera);
+                    self.line(anchor, anchor, HOOK, color);
+                }
+            }
+        }
+    }
+
+    fn shape(&mut self, shape: &Shape, frame: Transform, style: f32, body: usize) {
         let tint = self.tints.get(body).copied().unwrap_or(-1.0);
         let body = body as f32;
         let mut rounded = |place: Vec2, q: Rot, half: Vec2, radius: f32| {
@@ -151,7 +231,7 @@ impl Picture {
             };
             rounded(middle, q, Vec2::new(0.5 * length, 0.0), radius);
         };
-        match shape.shape() {
+        match shape {
             Shape::Circle { radius } => rounded(frame.p, frame.q, Vec2::ZERO, *radius),
             Shape::Aabb { half_extents } => rounded(frame.p, Rot::IDENTITY, *half_extents, 0.0),
             Shape::Capsule { a, b, radius } => along(*a, *b, *radius),
@@ -268,6 +348,10 @@ impl DebugDraw for Picture {
     fn text(&mut self, _: Vec2, _: &str, _: Color) {}
 }
 
+fn is_static(world: &World, shape: &ShapeRef<'_>) -> bool {
+    world.body(shape.body()).is_some_and(|body| body.kind() == BodyKind::Static)
+}
+
 fn frame(pose: Pose, camera: DVec2) -> Transform {
     Transform::new(pose.p.relative_to(camera), pose.q)
 }
@@ -280,8 +364,8 @@ fn style(shape: &ShapeRef<'_>, kind: BodyKind, awake: bool) -> f32 {
         BodyKind::Dynamic => 2,
     };
     let round = matches!(shape.shape(), Shape::Circle { .. });
-    let flags = u8::from(awake) << 2 | u8::from(shape.is_sensor()) << 3 | u8::from(round) << 4;
-    f32::from(kind | flags)
+    let sensor = if shape.is_sensor() { SENSOR } else { 0 };
+    f32::from(kind | u8::from(awake) << 2 | sensor | u8::from(round) << 4)
 }
 
 /// The place of an index in a list that grows as it needs to.

@@ -21,6 +21,8 @@ mod order;
 mod outcome;
 #[cfg(feature = "playground")]
 mod picture;
+#[cfg(feature = "playground")]
+mod places;
 mod read;
 mod session;
 mod shelf;

@@ -28,6 +28,9 @@ pub struct Session {
     dt: f32,
     pub(crate) grip: Option<Grip>,
     pub(crate) views: crate::views::Views,
+    /// What the scene does to places.
+    #[cfg(feature = "playground")]
+    pub(crate) places: Vec<tiny_physics_scenes::Act>,
     #[cfg(feature = "playground")]
     pub(crate) picture: crate::picture::Picture,
     #[cfg(feature = "playground")]
@@ -58,6 +61,8 @@ impl Session {
             grip: None,
             views: Default::default(),
             #[cfg(feature = "playground")]
+            places: Vec::new(),
+            #[cfg(feature = "playground")]
             picture: Default::default(),
             #[cfg(feature = "playground")]
             doctor: Default::default(),
@@ -74,7 +79,12 @@ impl Session {
         let ids = (0..scene.bodies.len()).map(|body| script.body_id(body));
         let scene_bodies = ids.map(|id| id.map_or(-1.0, Handle::number)).collect();
         let script = scene.script.is_some().then_some(script);
-        Ok(Self { scene_bodies, ..Self::new(Target::Plain(world), script, scene.dt) })
+        Ok(Self {
+            scene_bodies,
+            #[cfg(feature = "playground")]
+            places: crate::places::of_scene(scene),
+            ..Self::new(Target::Plain(world), script, scene.dt)
+        })
     }
 
     /// The world, to read.
@@ -144,6 +154,14 @@ impl Session {
             Target::Recorded(recorder) => Ok(recorder.recording()),
             Target::Kept(tape) => Ok(tape.history().recording()),
         }
+    }
+
+    /// What is done before the step that comes next in the history; at its end, what was done before the last.
+    #[cfg(feature = "playground")]
+    pub(crate) fn commands(&self) -> &[Command] {
+        let Target::Kept(tape) = &self.target else { return &[] };
+        let history = tape.history();
+        history.recording().commands(history.len().min(history.at() + 1))
     }
 }
 

@@ -8,7 +8,7 @@ use tiny_physics::record::Command;
 use tiny_physics::{Aabb, BodyKind, DVec2, Pose, Rot, Transform, Vec2, World};
 use tiny_physics_doctor::Doctor;
 use tiny_physics_draw::Water;
-use tiny_physics_scenes::{Deed, Grip, PausedScript, Run, Scene, Script, Tape, When};
+use tiny_physics_scenes::{Deed, Grip, PausedScript, Run, Scene, Script, Tape};
 
 /// A scene, its world, and a body that the mouse may hold.
 pub struct Simulation {
@@ -309,14 +309,9 @@ impl Simulation {
 
     /// The water of the scene at the moment, which its world does not know.
     pub fn waters(&self) -> Vec<Water> {
-        let step = self.world().step_count();
+        let step = u32::try_from(self.world().step_count()).unwrap_or(u32::MAX);
         let Some(Script::Timeline(timeline)) = &self.scene.script else { return Vec::new() };
-        let now = timeline.acts.iter().filter(|act| match act.when {
-            When::Always => true,
-            When::At(at) => u64::from(at) == step,
-            When::During(from, to) => (u64::from(from)..u64::from(to)).contains(&step),
-            When::Entered(_) => false,
-        });
+        let now = timeline.acts.iter().filter(|act| act.when.is_before(step) == Some(true));
         let waters = now.filter_map(|act| match act.deed {
             Deed::Water { surface, between, .. } => Some(Water {
                 surface: surface.into(),

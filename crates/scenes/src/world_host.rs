@@ -3,18 +3,12 @@
 use crate::host::Host;
 use crate::player::Player;
 use crate::scene::Scene;
-use crate::script::{Deed, Pull, lead_progress};
-use tiny_physics::record::{
-    BodyCommand, Command, FilterData, History, Made, Recorder, ShapeCommand,
-};
+use crate::script::{Deed, lead_progress};
+use tiny_physics::record::{BodyCommand, Command, History, Made, Recorder, ShapeCommand};
 use tiny_physics::{
-    Aabb, Body, BodyId, CharacterMover, DVec2, Error, Explosion, ForceZone, JointDef, JointId,
-    MoverInput, Pose, QueryFilter, RigidBody, Rot, Settings, Shape, ShapeId, Transform, Vec2,
-    Water, Wind, World, ZoneForce,
+    Aabb, Body, BodyId, CharacterMover, DVec2, Error, JointDef, JointId, MoverInput, QueryFilter,
+    RigidBody, Rot, Settings, Shape, ShapeId, Transform, Vec2, Wind, World,
 };
-
-/// Water between two ends is so deep, metres.
-const DEPTH: f32 = 1000.0;
 
 /// A scene that runs in a [`World`].
 ///
@@ -260,42 +254,6 @@ impl<T: Commanded> CommandHost<T> {
         }
     }
 
-    /// Does what is done to a place; `None` for what is done to a body.
-    fn act_on_place(&mut self, deed: &Deed, dt: f32) -> Option<()> {
-        let all = FilterData::default();
-        let command = match *deed {
-            Deed::Explode { center, radius, falloff, impulse_per_metre } => {
-                let center = center.into();
-                let blast = Explosion { center, radius, falloff, impulse_per_metre };
-                Command::Explode(blast, all)
-            }
-            Deed::Water { surface, between, density, flow } => {
-                // Boxes as large as numbers go have no half of their size.
-                let area = between.map(|(left, right)| Aabb {
-                    min: Vec2::new(left, surface - DEPTH),
-                    max: Vec2::new(right, surface),
-                });
-                let surface = DVec2::new(0.0, surface.into());
-                let water = Water { surface, density, flow, area, ..Water::default() };
-                Command::ApplyWater(water, all, dt)
-            }
-            Deed::Zone { shape, position, force } => {
-                let pose = Pose::new(position.into(), Rot::IDENTITY);
-                let force = match force {
-                    Pull::Along(acceleration) => ZoneForce::Acceleration(acceleration),
-                    Pull::Inwards(acceleration) => {
-                        ZoneForce::Attraction { center: position.into(), acceleration }
-                    }
-                    Pull::Slow(linear, angular) => ZoneForce::Damping { linear, angular },
-                };
-                Command::ApplyZone(ForceZone { shape, pose, force, wakes: true }, all, dt)
-            }
-            _ => return None,
-        };
-        self.apply(command);
-        Some(())
-    }
-
     /// Does what is done to a body; nothing where it has been removed.
     fn act_on_body(&mut self, deed: &Deed, time: f32, dt: f32) {
         match *deed {
@@ -431,8 +389,9 @@ impl<T: Commanded> Host for CommandHost<T> {
     }
 
     fn act(&mut self, deed: &Deed, time: f32, dt: f32) {
-        if self.act_on_place(deed, dt).is_none() {
-            self.act_on_body(deed, time, dt);
+        match deed.on_place(dt) {
+            Some(command) => drop(self.apply(command)),
+            None => self.act_on_body(deed, time, dt),
         }
     }
 

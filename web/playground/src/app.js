@@ -160,6 +160,18 @@ export class App extends EventTarget {
     this.camera.scale = Math.max(2, Math.min(scale, 420));
     this.camera.x = (left + right) / 2 + (room.right - room.left) / 2 / this.camera.scale;
     this.camera.y = (bottom + top) / 2 + (room.top - room.bottom) / 2 / this.camera.scale;
+    this.fitted = { ...this.camera };
+  }
+
+  /** The part of the page in which the world is seen. What was seen whole is seen whole, or the middle stays the middle. */
+  setRoom(now) {
+    const before = this.room;
+    this.room = now;
+    if (!before || !this.world) return;
+    const { camera, fitted } = this;
+    if (["x", "y", "scale"].every((name) => camera[name] === fitted?.[name])) return this.fit();
+    camera.x += (now.right - now.left - before.right + before.left) / 2 / camera.scale;
+    camera.y += (now.top - now.bottom - before.top + before.bottom) / 2 / camera.scale;
   }
 
   zoom(factor, px, py) {

@@ -86,18 +86,13 @@ async function main() {
 
   function room() {
     const narrow = innerWidth < 760;
-    const before = app.room;
-    app.room = {
-      left: narrow ? 0 : 64,
+    app.setRoom({
+      left: narrow ? 0 : $("#tools").offsetWidth + 14,
       right: panel.hidden || narrow ? 0 : panel.offsetWidth + 12,
-      top: $("#top").offsetHeight + 16,
+      // On narrow pages the line of counts is at the top.
+      top: $("#top").offsetHeight + (narrow ? 38 : 16),
       bottom: 76 + (narrow ? 52 : 0) + (narrow && !panel.hidden ? panel.offsetHeight : 0),
-    };
-    if (!before) return;
-    // What was in the middle of what is seen stays there.
-    const { camera, room: now } = app;
-    camera.x += (now.right - now.left - before.right + before.left) / 2 / camera.scale;
-    camera.y += (now.top - now.bottom - before.top + before.bottom) / 2 / camera.scale;
+    });
   }
   addEventListener("resize", room);
 

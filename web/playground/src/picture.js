@@ -22,9 +22,9 @@ function numbers(wasm) {
 export function rows(world, camera, alpha, shown) {
   const wasm = exports();
   wasm.tp_draw(world.session, camera.x, camera.y, alpha, shown);
-  const [boxes, boxCount, polygons, polygonCount, lines, lineCount] = numbers(wasm);
-  const view = (at, count) => new Float32Array(wasm.memory.buffer, at, count);
-  return { boxes: view(boxes, boxCount), polygons: view(polygons, polygonCount), lines: view(lines, lineCount) };
+  const found = numbers(wasm);
+  const view = (i) => new Float32Array(wasm.memory.buffer, found[2 * i], found[2 * i + 1]);
+  return { boxes: view(0), polygons: view(1), lines: view(2), waters: view(3), still: { boxes: found[8], polygons: found[9] } };
 }
 
 /** The part of the world that is worth seeing: left, bottom, right, top. It is what the scene's `view` says, or what moves. */

@@ -188,20 +188,56 @@ void main() {
   outColour = vec4(mix(uBack, uGrid, strength) * shadow, 1.0);
 }`;
 
+const WATER_VERTEX = `${COMMON}
+layout(location = 0) in vec2 corner;
+layout(location = 1) in vec4 surface;   // how far the camera is below it, the way out of it, phase
+layout(location = 2) in vec4 area;      // left, bottom, right, top
+out vec2 vPlace; flat out vec4 vSurface;
+void main() {
+  vec2 seen = 1.01 / uScale;
+  vPlace = clamp(mix(area.xy, area.zw + vec2(0.0, 0.2), corner * 0.5 + 0.5), -seen, seen);
+  vSurface = surface;
+  gl_Position = vec4(vPlace * uScale, 0.0, 1.0);
+}`;
+
+const WATER_FRAGMENT = `#version 300 es
+precision highp float;
+uniform vec2 uScale;
+uniform float uPixels, uFront;
+uniform vec3 uWater, uDeep;
+in vec2 vPlace; flat in vec4 vSurface;
+out vec4 outColour;
+void main() {
+  vec2 up = vSurface.yz;
+  float along = dot(vPlace, vec2(up.y, -up.x));
+  float swell = clamp(0.05 * uPixels, 0.8, 3.0);
+  float below = (vSurface.x - dot(vPlace, up)) * uPixels + swell * sin(1.9 * along + vSurface.w);
+  float cover = clamp(below + 0.5, 0.0, 1.0);
+  float depth = clamp(below * uScale.y / uPixels, 0.0, 1.0);
+  float alpha = cover * mix(uFront > 0.0 ? 0.25 : 0.4, uFront > 0.0 ? 0.4 : 0.6, depth);
+  vec3 colour = mix(uWater, uDeep, depth);
+  float rim = uFront * clamp(1.5 - abs(below - 0.5), 0.0, 1.0);
+  alpha = mix(alpha, 0.8, rim);
+  outColour = vec4(mix(colour, mix(uWater, vec3(1.0), 0.55), rim) * alpha, alpha);
+}`;
+
 const LAYOUTS = {
   boxes: { floats: 10, parts: [4, 4, 2] },
   polygons: { floats: 25, parts: [4, 4, 1, 4, 4, 4, 4] },
   lines: { floats: 9, parts: [4, 1, 4] },
+  waters: { floats: 8, parts: [4, 4] },
 };
+const NAMED = ["Fixed", "Kinematic", "Sensor", "Back", "Accent", "Grid", "Water", "Deep"];
 
 export class Renderer {
   constructor(canvas) {
     this.canvas = canvas;
-    const gl = canvas.getContext("webgl2", { antialias: false, alpha: false, preserveDrawingBuffer: true });
+    const gl = canvas.getContext("webgl2", { antialias: false, alpha: false, stencil: true, preserveDrawingBuffer: true });
     if (!gl) throw new Error("This browser has no WebGL2, which drawing needs.");
     this.gl = gl;
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    gl.stencilOp(gl.KEEP, gl.KEEP, gl.REPLACE);
     this.quad = gl.createBuffer();
     gl.bindBuffer(gl.ARRAY_BUFFER, this.quad);
     gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), gl.STATIC_DRAW);
@@ -210,6 +246,7 @@ export class Renderer {
       boxes: this.#pass(BOX_VERTEX, BOX_FRAGMENT, LAYOUTS.boxes),
       polygons: this.#pass(POLYGON_VERTEX, POLYGON_FRAGMENT, LAYOUTS.polygons),
       lines: this.#pass(LINE_VERTEX, LINE_FRAGMENT, LAYOUTS.lines),
+      waters: this.#pass(WATER_VERTEX, WATER_FRAGMENT, LAYOUTS.waters),
     };
   }
 
@@ -265,39 +302,69 @@ export class Renderer {
 
   /** Rows are views of the module's memory; camera: x, y, scale in pixels of the page a metre. */
   draw(rows, camera, look) {
-    const { gl, canvas } = this;
+    const { gl, canvas, passes } = this;
     const pixels = camera.scale * (look.ratio ?? this.ratio ?? 1);
     gl.viewport(0, 0, canvas.width, canvas.height);
-    const uniforms = (pass) => {
-      gl.useProgram(pass.program);
-      gl.uniform2f(pass.place("uScale"), (2 * pixels) / canvas.width, (2 * pixels) / canvas.height);
-      gl.uniform1f(pass.place("uPixels"), pixels);
-      gl.uniform1f(pass.place("uSelected"), look.selected ?? -1);
-      gl.uniform1i(pass.place("uTint"), look.tint ?? 0);
-      gl.uniform1f(pass.place("uDim"), look.dim);
-      gl.uniform3fv(pass.place("uPalette"), look.palette);
-      for (const name of ["Fixed", "Kinematic", "Sensor", "Back", "Accent", "Grid"]) {
-        gl.uniform3fv(pass.place(`u${name}`), look[name.toLowerCase()]);
-      }
-    };
+    for (const pass of Object.values(passes)) this.#begin(pass, pixels, look);
+    this.#grid(camera);
+    const wet = rows.waters.length > 0;
+    if (wet) this.#rows("waters", rows.waters, { uFront: 0 });
+    const { boxes, polygons } = rows.still;
+    // Water stands before what moves, but not before what stands still.
+    if (wet) {
+      gl.enable(gl.STENCIL_TEST);
+      gl.clear(gl.STENCIL_BUFFER_BIT);
+      gl.stencilFunc(gl.ALWAYS, 1, 1);
+    }
+    this.#rows("boxes", rows.boxes.subarray(0, boxes));
+    this.#rows("polygons", rows.polygons.subarray(0, polygons));
+    if (wet) gl.disable(gl.STENCIL_TEST);
+    this.#rows("boxes", rows.boxes.subarray(boxes));
+    this.#rows("polygons", rows.polygons.subarray(polygons));
+    if (wet) {
+      gl.enable(gl.STENCIL_TEST);
+      gl.stencilFunc(gl.EQUAL, 0, 1);
+      this.#rows("waters", rows.waters, { uFront: 1 });
+      gl.disable(gl.STENCIL_TEST);
+    }
+    this.#rows("lines", rows.lines);
+  }
+
+  /** What all rows of a picture share. */
+  #begin(pass, pixels, look) {
+    const { gl, canvas } = this;
+    gl.useProgram(pass.program);
+    gl.uniform2f(pass.place("uScale"), (2 * pixels) / canvas.width, (2 * pixels) / canvas.height);
+    gl.uniform1f(pass.place("uPixels"), pixels);
+    gl.uniform1f(pass.place("uSelected"), look.selected ?? -1);
+    gl.uniform1i(pass.place("uTint"), look.tint ?? 0);
+    gl.uniform1f(pass.place("uDim"), look.dim);
+    gl.uniform3fv(pass.place("uPalette"), look.palette);
+    for (const name of NAMED) gl.uniform3fv(pass.place(`u${name}`), look[name.toLowerCase()]);
+  }
+
+  #grid(camera) {
+    const { gl } = this;
     const { grid } = this.passes;
-    uniforms(grid);
     const cell = gridCell(camera.scale);
+    gl.useProgram(grid.program);
     // Only what is left of the camera's place beyond whole cells matters, so that it is exact far away.
     gl.uniform2f(grid.place("uCamera"), camera.x % (5 * cell), camera.y % (5 * cell));
     gl.uniform1f(grid.place("uCell"), cell);
     gl.bindVertexArray(grid.array);
     gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
-    for (const name of ["boxes", "polygons", "lines"]) {
-      const list = rows[name];
-      if (!list?.length) continue;
-      const pass = this.passes[name];
-      uniforms(pass);
-      gl.bindVertexArray(pass.array);
-      gl.bindBuffer(gl.ARRAY_BUFFER, pass.buffer);
-      gl.bufferData(gl.ARRAY_BUFFER, list, gl.STREAM_DRAW);
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, list.length / pass.layout.floats);
-    }
+  }
+
+  #rows(name, list, uniforms = {}) {
+    if (!list.length) return;
+    const { gl } = this;
+    const pass = this.passes[name];
+    gl.useProgram(pass.program);
+    for (const [key, value] of Object.entries(uniforms)) gl.uniform1f(pass.place(key), value);
+    gl.bindVertexArray(pass.array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, pass.buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, list, gl.STREAM_DRAW);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, list.length / pass.layout.floats);
   }
 }
 

@@ -5,7 +5,14 @@ use crate::check::{
     positive,
 };
 use serde::{Deserialize, Serialize};
-use tiny_physics::{BodyKind, Material, RigidBody, Shape, Vec2};
+use tiny_physics::record::{Command, FilterData};
+use tiny_physics::{
+    Aabb, BodyKind, DVec2, Explosion, ForceZone, Material, Pose, RigidBody, Rot, Shape, Vec2,
+    Water, ZoneForce,
+};
+
+/// Water between two ends is so deep, metres.
+const DEPTH: f32 = 1000.0;
 
 /// Something done to a world from outside. Bodies go by index in a scene's file, and by the host's number in
 /// [`Host::act`](crate::Host::act).
@@ -130,6 +137,40 @@ pub fn lead_progress(time: f32, period: f32) -> f32 {
 }
 
 impl Deed {
+    /// What is done to a place in a step of `dt` seconds; `None` for what is done to a body.
+    pub fn on_place(&self, dt: f32) -> Option<Command> {
+        let all = FilterData::default();
+        Some(match *self {
+            Self::Explode { center, radius, falloff, impulse_per_metre } => {
+                let center = center.into();
+                let blast = Explosion { center, radius, falloff, impulse_per_metre };
+                Command::Explode(blast, all)
+            }
+            Self::Water { surface, between, density, flow } => {
+                // Boxes as large as numbers go have no half of their size.
+                let area = between.map(|(left, right)| Aabb {
+                    min: Vec2::new(left, surface - DEPTH),
+                    max: Vec2::new(right, surface),
+                });
+                let surface = DVec2::new(0.0, surface.into());
+                let water = Water { surface, density, flow, area, ..Water::default() };
+                Command::ApplyWater(water, all, dt)
+            }
+            Self::Zone { shape, position, force } => {
+                let pose = Pose::new(position.into(), Rot::IDENTITY);
+                let force = match force {
+                    Pull::Along(acceleration) => ZoneForce::Acceleration(acceleration),
+                    Pull::Inwards(acceleration) => {
+                        ZoneForce::Attraction { center: position.into(), acceleration }
+                    }
+                    Pull::Slow(linear, angular) => ZoneForce::Damping { linear, angular },
+                };
+                Command::ApplyZone(ForceZone { shape, pose, force, wakes: true }, all, dt)
+            }
+            _ => return None,
+        })
+    }
+
     pub(super) fn check(&self, bodies: usize) -> Check {
         if let Some(body) = self.body() {
             index("body", body, bodies, "bodies").map_err(|e| e.under(self.name()))?;

@@ -37,6 +37,18 @@ pub enum When {
     Entered(usize),
 }
 
+impl When {
+    /// Is it before a step, counted from 0? `None` where that hangs on more than the step.
+    pub fn is_before(self, step: u32) -> Option<bool> {
+        match self {
+            Self::Always => Some(true),
+            Self::At(at) => Some(at == step),
+            Self::During(from, to) => Some((from..to).contains(&step)),
+            Self::Entered(_) => None,
+        }
+    }
+}
+
 impl Timeline {
     pub(super) fn check(&self, bodies: usize) -> Check {
         for (i, act) in self.acts.iter().enumerate() {
@@ -73,10 +85,8 @@ impl Happening {
     pub(super) fn before_step(&mut self, host: &mut dyn Host, step: u32) {
         for (act, done) in &mut self.acts {
             let now = match act.when {
-                When::Always => true,
-                When::At(at) => at == step,
-                When::During(from, to) => (from..to).contains(&step),
                 When::Entered(body) => !*done && host.is_entered(body),
+                when => when.is_before(step) == Some(true),
             };
             if now {
                 *done = true;
