@@ -8,6 +8,7 @@
 //! frames and hashes were a fifth of the engine's machine code.
 
 mod bytes;
+mod described;
 mod hash;
 mod math;
 #[cfg(feature = "serde")]
@@ -15,6 +16,7 @@ pub(crate) mod packed;
 mod store;
 
 pub(crate) use bytes::{Reader, Sink};
+pub(crate) use described::{described, described_enum};
 pub(crate) use hash::hash_bytes;
 pub(crate) use store::{Generations, clone_by_field, data, data_enum, field, holds, record, store};
 

@@ -148,16 +148,16 @@ macro_rules! data {
 macro_rules! data_enum {
     (
         $type:ident {
-            $($tag:literal => $variant:ident $(($part:ident))? $({ $($field:ident),* $(,)? })?),* $(,)?
+            $($tag:literal => $variant:ident $(($($part:ident),*))? $({ $($field:ident),* $(,)? })?),* $(,)?
         }
         $(load with $check:path)?
     ) => {
         impl $crate::codec::Data for $type {
             fn save(&self, sink: &mut $crate::codec::Sink) {
                 match self {
-                    $(Self::$variant $(($part))? $({ $($field),* })? => {
+                    $(Self::$variant $(($($part),*))? $({ $($field),* })? => {
                         sink.put([$tag]);
-                        $($crate::codec::Data::save($part, sink);)?
+                        $($($crate::codec::Data::save($part, sink);)*)?
                         $($($crate::codec::Data::save($field, sink);)*)?
                     })*
                 }
@@ -167,9 +167,9 @@ macro_rules! data_enum {
             ) -> Result<Self, $crate::error::Error> {
                 let loaded = match <u8 as $crate::codec::Data>::load(reader)? {
                     $($tag => {
-                        $(let $part = $crate::codec::Data::load(reader)?;)?
+                        $($(let $part = $crate::codec::Data::load(reader)?;)*)?
                         $($(let $field = $crate::codec::Data::load(reader)?;)*)?
-                        Self::$variant $(($part))? $({ $($field),* })?
+                        Self::$variant $(($($part),*))? $({ $($field),* })?
                     })*
                     _ => return Err($crate::codec::bad("a kind is unknown")),
                 };

@@ -1,117 +1,92 @@
 //! A body as described by the user.
 
 use super::{ChainDef, ShapeDef};
+use crate::codec::{described, described_enum};
 use crate::error::Error;
 use crate::geometry::Shape;
 use crate::math::{DVec2, Vec2};
 
-/// What moves a body.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-pub enum BodyKind {
-    /// Nothing: ground and walls.
-    Static,
-    /// Its velocity, which only the user changes: lifts, moving platforms.
-    Kinematic,
-    /// Forces, contacts and joints.
-    #[default]
-    Dynamic,
+described_enum! {
+    /// What moves a body.
+    #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Hash)]
+    pub enum BodyKind {
+        /// Nothing: ground and walls.
+        Static = 0,
+        /// Its velocity, which only the user changes: lifts, moving platforms.
+        Kinematic = 1,
+        /// Forces, contacts and joints.
+        #[default]
+        Dynamic = 2,
+    }
 }
 
-/// Directions in which a dynamic body cannot move.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
-pub struct Locks {
-    /// No motion along the world's x axis.
-    pub x: bool,
-    /// No motion along the world's y axis.
-    pub y: bool,
-    /// No turning.
-    pub rotation: bool,
+described! {
+    /// Directions in which a dynamic body cannot move.
+    #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+    pub struct Locks {
+        /// No motion along the world's x axis.
+        pub x: bool = false,
+        /// No motion along the world's y axis.
+        pub y: bool = false,
+        /// No turning.
+        pub rotation: bool = false,
+    }
 }
 
-/// A body to be added to a world.
-///
-/// ```
-/// use tiny_physics::{RigidBody, Shape, Vec2};
-/// let crate_ = RigidBody::new(Shape::Aabb { half_extents: Vec2::new(0.5, 0.5) }, Vec2::new(0.0, 4.0), 1.0);
-/// let wheel = RigidBody::dynamic()
-///     .position(Vec2::new(2.0, 4.0))
-///     .velocity(Vec2::new(-1.0, 0.0))
-///     .shape(Shape::Circle { radius: 0.3 });
-/// assert_eq!(crate_.shapes.len() + wheel.shapes.len(), 2);
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
-pub struct RigidBody {
-    /// What moves it.
-    pub kind: BodyKind,
-    /// Origin of the body's frame, metres in the world.
-    pub position: DVec2,
-    /// Angle of the body's frame, radians.
-    pub angle: f32,
-    /// Velocity of the centre of mass, metres a second.
-    pub velocity: Vec2,
-    /// Radians a second, anticlockwise.
-    pub angular_velocity: f32,
-    /// Slowing of motion, 1/s: speed falls by the factor 1/(1 + dt * damping).
-    pub linear_damping: f32,
-    /// Slowing of turning, 1/s.
-    pub angular_damping: f32,
-    /// Factor on the world's gravity.
-    pub gravity_scale: f32,
-    /// Directions in which it cannot move.
-    pub locks: Locks,
-    /// Its shapes.
-    pub shapes: Vec<ShapeDef>,
-    /// Total mass, kilograms. `None` takes it from the densities of the shapes; `Some` scales that mass
-    /// and its moment of inertia to the value.
-    pub mass: Option<f32>,
-    /// Centre of mass in the body's frame, metres. `None` takes it from the shapes.
-    pub center: Option<Vec2>,
-    /// Moment of inertia about the centre of mass, kilogram square metres. `None` takes it from the shapes and the mass.
-    pub inertia: Option<f32>,
-    /// May its island fall asleep?
-    pub can_sleep: bool,
-    /// Does it start awake?
-    pub awake: bool,
-    /// Speed below which it counts as at rest, metres a second; multiplied by
-    /// [`Settings::length_unit`](crate::Settings::length_unit).
-    pub sleep_speed: f32,
-    /// Kept and given back, but it changes nothing: whatever is fast is looked out for, moving or not.
-    pub bullet: bool,
-    /// A body that is not enabled is kept but takes no part.
-    pub enabled: bool,
-    /// Free for the user.
-    pub user_data: u64,
-}
-
-impl Default for RigidBody {
-    fn default() -> Self {
-        Self {
-            kind: BodyKind::Dynamic,
-            position: DVec2::ZERO,
-            angle: 0.0,
-            velocity: Vec2::ZERO,
-            angular_velocity: 0.0,
-            linear_damping: 0.0,
-            angular_damping: 0.0,
-            gravity_scale: 1.0,
-            locks: Locks::default(),
-            shapes: Vec::new(),
-            mass: None,
-            center: None,
-            inertia: None,
-            can_sleep: true,
-            awake: true,
-            sleep_speed: 0.05,
-            bullet: false,
-            enabled: true,
-            user_data: 0,
-        }
+described! {
+    /// A body to be added to a world.
+    ///
+    /// ```
+    /// use tiny_physics::{RigidBody, Shape, Vec2};
+    /// let crate_ = RigidBody::new(Shape::Aabb { half_extents: Vec2::new(0.5, 0.5) }, Vec2::new(0.0, 4.0), 1.0);
+    /// let wheel = RigidBody::dynamic()
+    ///     .position(Vec2::new(2.0, 4.0))
+    ///     .velocity(Vec2::new(-1.0, 0.0))
+    ///     .shape(Shape::Circle { radius: 0.3 });
+    /// assert_eq!(crate_.shapes.len() + wheel.shapes.len(), 2);
+    /// ```
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct RigidBody {
+        /// What moves it.
+        pub kind: BodyKind = BodyKind::Dynamic,
+        /// Origin of the body's frame, metres in the world.
+        pub position: DVec2 = DVec2::ZERO,
+        /// Angle of the body's frame, radians.
+        pub angle: f32 = 0.0,
+        /// Velocity of the centre of mass, metres a second.
+        pub velocity: Vec2 = Vec2::ZERO,
+        /// Radians a second, anticlockwise.
+        pub angular_velocity: f32 = 0.0,
+        /// Slowing of motion, 1/s: speed falls by the factor 1/(1 + dt * damping).
+        pub linear_damping: f32 = 0.0,
+        /// Slowing of turning, 1/s.
+        pub angular_damping: f32 = 0.0,
+        /// Factor on the world's gravity.
+        pub gravity_scale: f32 = 1.0,
+        /// Directions in which it cannot move.
+        pub locks: Locks = Locks::default(),
+        /// Its shapes.
+        pub shapes: Vec<ShapeDef> = Vec::new(),
+        /// Total mass, kilograms. `None` takes it from the densities of the shapes; `Some` scales that mass
+        /// and its moment of inertia to the value.
+        pub mass: Option<f32> = None,
+        /// Centre of mass in the body's frame, metres. `None` takes it from the shapes.
+        pub center: Option<Vec2> = None,
+        /// Moment of inertia about the centre of mass, kilogram square metres. `None` takes it from the shapes and the mass.
+        pub inertia: Option<f32> = None,
+        /// May its island fall asleep?
+        pub can_sleep: bool = true,
+        /// Does it start awake?
+        pub awake: bool = true,
+        /// Speed below which it counts as at rest, metres a second; multiplied by
+        /// [`Settings::length_unit`](crate::Settings::length_unit).
+        pub sleep_speed: f32 = 0.05,
+        /// Kept and given back, but it changes nothing: whatever is fast is looked out for, moving or not.
+        pub bullet: bool = false,
+        /// A body that is not enabled is kept but takes no part.
+        pub enabled: bool = true,
+        /// Free for the user.
+        pub user_data: u64 = 0,
     }
 }
 

@@ -1,56 +1,48 @@
 //! Chains of segments: ground drawn as a line.
 
 use super::{ChainLink, Filter, Material, ShapeDef};
+use crate::codec::described;
 use crate::error::Error;
 use crate::geometry::Shape;
 use crate::math::Vec2;
 
-/// A line of segments, open or closed, free of bumps at its joints.
-///
-/// The right of the way along the points is outside: a hill is drawn from right to left, a closed chain
-/// anticlockwise is a solid island, clockwise a room. Things behind the line pass through.
-///
-/// ```
-/// use tiny_physics::{ChainDef, RigidBody, Vec2, World};
-/// # fn main() -> Result<(), tiny_physics::Error> {
-/// let points = [(8.0, 0.0), (3.0, 0.5), (-3.0, 0.0), (-8.0, 1.0)].map(|(x, y)| Vec2::new(x, y));
-/// let mut world = World::new(Vec2::new(0.0, -9.8));
-/// let ground = world.add_body(RigidBody::fixed())?;
-/// let chain = world.add_chain(ground, &ChainDef::open(&points).friction(0.8))?;
-/// assert_eq!(chain.len(), 3);
-/// # Ok(())
-/// # }
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct ChainDef {
-    /// Corners, metres in the body's frame: two or more, three or more for a closed chain.
-    pub points: Vec<Vec2>,
-    /// Does a segment lead from the last point to the first?
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub closed: bool,
-    /// Surfaces of the segments in order. Fewer than segments: the last goes on; none: the default.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub materials: Vec<Material>,
-    /// What it collides with.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub filter: Filter,
-    /// Free for the user; all segments get it.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub user_data: u64,
+described! {
+    /// A line of segments, open or closed, free of bumps at its joints.
+    ///
+    /// The right of the way along the points is outside: a hill is drawn from right to left, a closed chain
+    /// anticlockwise is a solid island, clockwise a room. Things behind the line pass through.
+    ///
+    /// ```
+    /// use tiny_physics::{ChainDef, RigidBody, Vec2, World};
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let points = [(8.0, 0.0), (3.0, 0.5), (-3.0, 0.0), (-8.0, 1.0)].map(|(x, y)| Vec2::new(x, y));
+    /// let mut world = World::new(Vec2::new(0.0, -9.8));
+    /// let ground = world.add_body(RigidBody::fixed())?;
+    /// let chain = world.add_chain(ground, &ChainDef::open(&points).friction(0.8))?;
+    /// assert_eq!(chain.len(), 3);
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct ChainDef {
+        /// Corners, metres in the body's frame: two or more, three or more for a closed chain.
+        pub points: Vec<Vec2>,
+        /// Does a segment lead from the last point to the first?
+        pub closed: bool = default,
+        /// Surfaces of the segments in order. Fewer than segments: the last goes on; none: the default.
+        pub materials: Vec<Material> = default,
+        /// What it collides with.
+        pub filter: Filter = default,
+        /// Free for the user; all segments get it.
+        pub user_data: u64 = default,
+    }
+    with fn of_points(points: Vec<Vec2>);
 }
 
 impl ChainDef {
     /// A chain that ends at its first and last point.
     pub fn open(points: &[Vec2]) -> Self {
-        Self {
-            points: points.to_vec(),
-            closed: false,
-            materials: Vec::new(),
-            filter: Filter::default(),
-            user_data: 0,
-        }
+        Self::of_points(points.to_vec())
     }
 
     /// A chain whose last point is joined to its first.

@@ -1,24 +1,20 @@
 //! Which shapes collide with which.
 
-/// Decides which pairs of shapes collide.
-///
-/// Two shapes with the same `group` other than 0 always collide if it is positive and never if it is
-/// negative. Otherwise they collide when each one's `mask` has a bit of the other's `category`.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
-pub struct Filter {
-    /// What this shape is, as bits.
-    pub category: u64,
-    /// What it collides with, as bits.
-    pub mask: u64,
-    /// Overrides category and mask between members of one group; 0 is no group.
-    pub group: i32,
-}
+use crate::codec::described;
 
-impl Default for Filter {
-    fn default() -> Self {
-        Self { category: 1, mask: u64::MAX, group: 0 }
+described! {
+    /// Decides which pairs of shapes collide.
+    ///
+    /// Two shapes with the same `group` other than 0 always collide if it is positive and never if it is
+    /// negative. Otherwise they collide when each one's `mask` has a bit of the other's `category`.
+    #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+    pub struct Filter {
+        /// What this shape is, as bits.
+        pub category: u64 = 1,
+        /// What it collides with, as bits.
+        pub mask: u64 = u64::MAX,
+        /// Overrides category and mask between members of one group; 0 is no group.
+        pub group: i32 = 0,
     }
 }
 

@@ -1,268 +1,223 @@
 //! A joint as described by the user.
 
+use crate::codec::{described, described_enum};
 use crate::error::Error;
 use crate::math::{DVec2, Vec2};
 
-/// A spring and damper by its behaviour: independent of the masses that hang on it. Frequency and
-/// decay are met exactly up to a quarter of the substep rate; a faster spring acts as one of that
-/// rate.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Spring {
-    /// Oscillations a second, hertz, above 0.
-    pub hertz: f32,
-    /// 0 rings for ever, 1 comes to rest without overshoot.
-    pub damping_ratio: f32,
+described! {
+    /// A spring and damper by its behaviour: independent of the masses that hang on it. Frequency and
+    /// decay are met exactly up to a quarter of the substep rate; a faster spring acts as one of that
+    /// rate.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub struct Spring {
+        /// Oscillations a second, hertz, above 0.
+        pub hertz: f32,
+        /// 0 rings for ever, 1 comes to rest without overshoot.
+        pub damping_ratio: f32,
+    }
 }
 
-/// Drives a joint at a speed with a bounded force.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Motor {
-    /// Metres or radians a second.
-    pub speed: f32,
-    /// Greatest force (newtons) or torque (newton metres), 0 or above.
-    pub max: f32,
+described! {
+    /// Drives a joint at a speed with a bounded force.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub struct Motor {
+        /// Metres or radians a second.
+        pub speed: f32,
+        /// Greatest force (newtons) or torque (newton metres), 0 or above.
+        pub max: f32,
+    }
 }
 
-/// A range that a joint's coordinate stays in, metres or radians.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Limits {
-    /// Lower end.
-    pub lower: f32,
-    /// Upper end, not below the lower.
-    pub upper: f32,
+described! {
+    /// A range that a joint's coordinate stays in, metres or radians.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub struct Limits {
+        /// Lower end.
+        pub lower: f32,
+        /// Upper end, not below the lower.
+        pub upper: f32,
+    }
 }
 
-/// Load at which a joint breaks: one that bears more in any substep is removed after the step, and an
-/// event says so.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Break {
-    /// Newtons; `f32::MAX` never.
-    pub force: f32,
-    /// Newton metres; `f32::MAX` never.
-    pub torque: f32,
+described! {
+    /// Load at which a joint breaks: one that bears more in any substep is removed after the step, and an
+    /// event says so.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub struct Break {
+        /// Newtons; `f32::MAX` never.
+        pub force: f32,
+        /// Newton metres; `f32::MAX` never.
+        pub torque: f32,
+    }
 }
 
-/// What a joint does. A and B are the joint's two bodies, anchors are points of their frames, angles
-/// are B's against A's, directions are given by [`JointDef::angle_a`]. What acts on B acts on A the
-/// other way round.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
-#[non_exhaustive]
-pub enum JointKind {
-    /// Keeps the anchors at a distance. Without spring, limits and motor it is a rigid rod of
-    /// `length`; with any of them the distance is free but for what they do.
-    Distance {
-        /// Length of the rod, and rest length of the spring, metres, above 0.
-        length: f32,
-        /// Pulls the distance to `length`.
-        #[cfg_attr(feature = "serde", serde(default))]
-        spring: Option<Spring>,
-        /// Shortest and longest distance; a rope has limits from 0.
-        #[cfg_attr(feature = "serde", serde(default))]
-        limits: Option<Limits>,
-        /// Drives the distance.
-        #[cfg_attr(feature = "serde", serde(default))]
-        motor: Option<Motor>,
-    },
-    /// A hinge: the anchors coincide, the bodies turn about them.
-    Revolute {
-        /// Pulls the angle to `target_angle`.
-        #[cfg_attr(feature = "serde", serde(default))]
-        spring: Option<Spring>,
-        /// Where the spring rests, radians.
-        #[cfg_attr(feature = "serde", serde(default))]
-        target_angle: f32,
-        /// Range of the angle, radians, less than a whole turn wide.
-        #[cfg_attr(feature = "serde", serde(default))]
-        limits: Option<Limits>,
-        /// Drives the angle.
-        #[cfg_attr(feature = "serde", serde(default))]
-        motor: Option<Motor>,
-    },
-    /// A slider: anchor B stays on the line through anchor A along the joint's direction, and the
-    /// bodies do not turn against each other. Its coordinate is the distance along the line.
-    Prismatic {
-        /// Pulls the coordinate to `target`.
-        #[cfg_attr(feature = "serde", serde(default))]
-        spring: Option<Spring>,
-        /// Where the spring rests, metres.
-        #[cfg_attr(feature = "serde", serde(default))]
-        target: f32,
-        /// Range of the coordinate, metres.
-        #[cfg_attr(feature = "serde", serde(default))]
-        limits: Option<Limits>,
-        /// Drives the coordinate.
-        #[cfg_attr(feature = "serde", serde(default))]
-        motor: Option<Motor>,
-    },
-    /// Glues the bodies: anchors and angles coincide.
-    Weld {
-        /// Makes the place springy; `None` is rigid.
-        #[cfg_attr(feature = "serde", serde(default))]
-        linear: Option<Spring>,
-        /// Makes the angle springy; `None` is rigid.
-        #[cfg_attr(feature = "serde", serde(default))]
-        angular: Option<Spring>,
-    },
-    /// A wheel B on a suspension of A: anchor B stays on the line through anchor A along the joint's
-    /// direction and B turns freely.
-    Wheel {
-        /// Suspension: pulls the distance along the line to 0.
-        #[cfg_attr(feature = "serde", serde(default))]
-        spring: Option<Spring>,
-        /// Range of the distance along the line, metres.
-        #[cfg_attr(feature = "serde", serde(default))]
-        limits: Option<Limits>,
-        /// Turns the wheel, radians a second against A.
-        #[cfg_attr(feature = "serde", serde(default))]
-        motor: Option<Motor>,
-    },
-    /// Drives B against A by bounded forces: at a velocity, to anchor A, or both. Zero velocity with
-    /// a maximum is friction (a body seen from above).
-    Motor {
-        /// Velocity of anchor B against anchor A, metres a second, world axes.
-        #[cfg_attr(feature = "serde", serde(default))]
-        velocity: Vec2,
-        /// Greatest force that keeps the velocity, newtons.
-        #[cfg_attr(feature = "serde", serde(default))]
-        max_force: f32,
-        /// Angular velocity of B against A, radians a second.
-        #[cfg_attr(feature = "serde", serde(default))]
-        angular_velocity: f32,
-        /// Greatest torque that keeps the angular velocity, newton metres.
-        #[cfg_attr(feature = "serde", serde(default))]
-        max_torque: f32,
-        /// Pulls anchor B to anchor A.
-        #[cfg_attr(feature = "serde", serde(default))]
-        linear_spring: Option<Spring>,
-        /// Greatest force of that spring, newtons.
-        #[cfg_attr(feature = "serde", serde(default))]
-        max_spring_force: f32,
-        /// Pulls the angle to 0.
-        #[cfg_attr(feature = "serde", serde(default))]
-        angular_spring: Option<Spring>,
-        /// Greatest torque of that spring, newton metres.
-        #[cfg_attr(feature = "serde", serde(default))]
-        max_spring_torque: f32,
-    },
-    /// Pulls anchor B to a point of the world, as when dragged by a mouse, and slows its turning a little
-    /// (by 2 1/s). A feels nothing: it may be any static body.
-    Mouse {
-        /// Where to, metres in the world.
-        target: DVec2,
-        /// How.
-        spring: Spring,
-        /// Greatest force, newtons.
-        max_force: f32,
-    },
-    /// Does nothing but keep the bodies from colliding with each other.
-    Filter,
-    /// A rope from anchor A over two fixed points of the world to anchor B:
-    /// `distance(A, ground_a) + ratio * distance(B, ground_b) <= length`. It pulls, it never pushes.
-    Pulley {
-        /// Where A's end hangs from, metres in the world.
-        ground_a: DVec2,
-        /// Where B's end hangs from, metres in the world.
-        ground_b: DVec2,
-        /// Length of the rope, metres.
-        length: f32,
-        /// How much faster A's end runs than B's, above 0: 2 is a block and tackle on B.
-        ratio: f32,
-    },
-    /// Couples motions of two bodies against the world (not against a carrier that turns):
-    /// `change of A + ratio * change of B = 0`, from the moment on in which the joint is added. A change is that of the angle (radians) or, where a
-    /// direction is given, of the anchor's place along it (metres). The bodies keep their own hinges
-    /// and sliders.
-    Gear {
-        /// Turns (or metres) of A per turn (or metre) of B, the other way round; not 0.
-        ratio: f32,
-        /// A slides in this direction of the world, as a rack; `None`: A turns.
-        #[cfg_attr(feature = "serde", serde(default))]
-        slide_a: Option<Vec2>,
-        /// B slides in this direction of the world; `None`: B turns.
-        #[cfg_attr(feature = "serde", serde(default))]
-        slide_b: Option<Vec2>,
-    },
+described_enum! {
+    /// What a joint does. A and B are the joint's two bodies, anchors are points of their frames, angles
+    /// are B's against A's, directions are given by [`JointDef::angle_a`]. What acts on B acts on A the
+    /// other way round.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    #[non_exhaustive]
+    pub enum JointKind {
+        /// Keeps the anchors at a distance. Without spring, limits and motor it is a rigid rod of
+        /// `length`; with any of them the distance is free but for what they do.
+        Distance {
+            /// Length of the rod, and rest length of the spring, metres, above 0.
+            length: f32,
+            /// Pulls the distance to `length`.
+            spring: Option<Spring> = default,
+            /// Shortest and longest distance; a rope has limits from 0.
+            limits: Option<Limits> = default,
+            /// Drives the distance.
+            motor: Option<Motor> = default,
+        } = 0,
+        /// A hinge: the anchors coincide, the bodies turn about them.
+        Revolute {
+            /// Pulls the angle to `target_angle`.
+            spring: Option<Spring> = default,
+            /// Where the spring rests, radians.
+            target_angle: f32 = default,
+            /// Range of the angle, radians, less than a whole turn wide.
+            limits: Option<Limits> = default,
+            /// Drives the angle.
+            motor: Option<Motor> = default,
+        } = 1,
+        /// A slider: anchor B stays on the line through anchor A along the joint's direction, and the
+        /// bodies do not turn against each other. Its coordinate is the distance along the line.
+        Prismatic {
+            /// Pulls the coordinate to `target`.
+            spring: Option<Spring> = default,
+            /// Where the spring rests, metres.
+            target: f32 = default,
+            /// Range of the coordinate, metres.
+            limits: Option<Limits> = default,
+            /// Drives the coordinate.
+            motor: Option<Motor> = default,
+        } = 2,
+        /// Glues the bodies: anchors and angles coincide.
+        Weld {
+            /// Makes the place springy; `None` is rigid.
+            linear: Option<Spring> = default,
+            /// Makes the angle springy; `None` is rigid.
+            angular: Option<Spring> = default,
+        } = 3,
+        /// A wheel B on a suspension of A: anchor B stays on the line through anchor A along the joint's
+        /// direction and B turns freely.
+        Wheel {
+            /// Suspension: pulls the distance along the line to 0.
+            spring: Option<Spring> = default,
+            /// Range of the distance along the line, metres.
+            limits: Option<Limits> = default,
+            /// Turns the wheel, radians a second against A.
+            motor: Option<Motor> = default,
+        } = 4,
+        /// Drives B against A by bounded forces: at a velocity, to anchor A, or both. Zero velocity with
+        /// a maximum is friction (a body seen from above).
+        Motor {
+            /// Velocity of anchor B against anchor A, metres a second, world axes.
+            velocity: Vec2 = default,
+            /// Greatest force that keeps the velocity, newtons.
+            max_force: f32 = default,
+            /// Angular velocity of B against A, radians a second.
+            angular_velocity: f32 = default,
+            /// Greatest torque that keeps the angular velocity, newton metres.
+            max_torque: f32 = default,
+            /// Pulls anchor B to anchor A.
+            linear_spring: Option<Spring> = default,
+            /// Greatest force of that spring, newtons.
+            max_spring_force: f32 = default,
+            /// Pulls the angle to 0.
+            angular_spring: Option<Spring> = default,
+            /// Greatest torque of that spring, newton metres.
+            max_spring_torque: f32 = default,
+        } = 5,
+        /// Pulls anchor B to a point of the world, as when dragged by a mouse, and slows its turning a little
+        /// (by 2 1/s). A feels nothing: it may be any static body.
+        Mouse {
+            /// Where to, metres in the world.
+            target: DVec2,
+            /// How.
+            spring: Spring,
+            /// Greatest force, newtons.
+            max_force: f32,
+        } = 6,
+        /// Does nothing but keep the bodies from colliding with each other.
+        Filter = 7,
+        /// A rope from anchor A over two fixed points of the world to anchor B:
+        /// `distance(A, ground_a) + ratio * distance(B, ground_b) <= length`. It pulls, it never pushes.
+        Pulley {
+            /// Where A's end hangs from, metres in the world.
+            ground_a: DVec2,
+            /// Where B's end hangs from, metres in the world.
+            ground_b: DVec2,
+            /// Length of the rope, metres.
+            length: f32,
+            /// How much faster A's end runs than B's, above 0: 2 is a block and tackle on B.
+            ratio: f32,
+        } = 8,
+        /// Couples motions of two bodies against the world (not against a carrier that turns):
+        /// `change of A + ratio * change of B = 0`, from the moment on in which the joint is added. A change is that of the angle (radians) or, where a
+        /// direction is given, of the anchor's place along it (metres). The bodies keep their own hinges
+        /// and sliders.
+        Gear {
+            /// Turns (or metres) of A per turn (or metre) of B, the other way round; not 0.
+            ratio: f32,
+            /// A slides in this direction of the world, as a rack; `None`: A turns.
+            slide_a: Option<Vec2> = default,
+            /// B slides in this direction of the world; `None`: B turns.
+            slide_b: Option<Vec2> = default,
+        } = 9,
+    }
 }
 
-/// A joint to be added between two bodies of a world.
-///
-/// ```
-/// use tiny_physics::{JointDef, Vec2};
-/// let hinge = JointDef::revolute().anchors(Vec2::new(0.5, 0.0), Vec2::new(-0.5, 0.0)).motor(2.0, 100.0);
-/// let rod = JointDef::distance(3.0);
-/// assert!(hinge != rod);
-/// assert!(hinge.validate().is_ok());
-/// assert!(JointDef::distance(-3.0).validate().is_err());
-/// ```
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct JointDef {
-    /// What it does.
-    pub kind: JointKind,
-    /// Anchor in A's frame, metres.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub anchor_a: Vec2,
-    /// Anchor in B's frame, metres.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub anchor_b: Vec2,
-    /// Direction of the joint's frame in A's frame, radians: the line of sliders, and a part of the
-    /// zero of angles. The joint's angle is B's angle + `angle_b` - A's angle - `angle_a`.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub angle_a: f32,
-    /// Direction of the joint's frame in B's frame, radians.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub angle_b: f32,
-    /// Do the joined bodies still collide with each other?
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub collide_connected: bool,
-    /// Stiffness of what the joint holds rigid, and of its limits; `None` takes 60 hertz (at most a
-    /// quarter of the substep rate), damping ratio 2.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub softness: Option<Spring>,
-    /// Load at which it breaks.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub break_at: Option<Break>,
-    /// Anchors on A and B in the world, metres, instead of those in the bodies' frames. Angles then are those of the
-    /// world, too: the bodies count as not turned yet. Adding or setting the joint turns all that into anchors and
-    /// angles of the bodies as they are at that moment, and leaves `None` here.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub anchors_at: Option<[DVec2; 2]>,
-    /// A joint that is not enabled is kept but does nothing: it does not even keep its bodies from colliding.
-    #[cfg_attr(feature = "serde", serde(default = "enabled"))]
-    pub enabled: bool,
-    /// Free for the user.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub user_data: u64,
+described! {
+    /// A joint to be added between two bodies of a world.
+    ///
+    /// ```
+    /// use tiny_physics::{JointDef, Vec2};
+    /// let hinge = JointDef::revolute().anchors(Vec2::new(0.5, 0.0), Vec2::new(-0.5, 0.0)).motor(2.0, 100.0);
+    /// let rod = JointDef::distance(3.0);
+    /// assert!(hinge != rod);
+    /// assert!(hinge.validate().is_ok());
+    /// assert!(JointDef::distance(-3.0).validate().is_err());
+    /// ```
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub struct JointDef {
+        /// What it does.
+        pub kind: JointKind,
+        /// Anchor in A's frame, metres.
+        pub anchor_a: Vec2 = default,
+        /// Anchor in B's frame, metres.
+        pub anchor_b: Vec2 = default,
+        /// Direction of the joint's frame in A's frame, radians: the line of sliders, and a part of the
+        /// zero of angles. The joint's angle is B's angle + `angle_b` - A's angle - `angle_a`.
+        pub angle_a: f32 = default,
+        /// Direction of the joint's frame in B's frame, radians.
+        pub angle_b: f32 = default,
+        /// Do the joined bodies still collide with each other?
+        pub collide_connected: bool = default,
+        /// Stiffness of what the joint holds rigid, and of its limits; `None` takes 60 hertz (at most a
+        /// quarter of the substep rate), damping ratio 2.
+        pub softness: Option<Spring> = default,
+        /// Load at which it breaks.
+        pub break_at: Option<Break> = default,
+        /// Anchors on A and B in the world, metres, instead of those in the bodies' frames. Angles then are those of the
+        /// world, too: the bodies count as not turned yet. Adding or setting the joint turns all that into anchors and
+        /// angles of the bodies as they are at that moment, and leaves `None` here.
+        pub anchors_at: Option<[DVec2; 2]> = default,
+        /// A joint that is not enabled is kept but does nothing: it does not even keep its bodies from colliding.
+        #[cfg_attr(feature = "serde", serde(default = "enabled"))]
+        pub enabled: bool,
+        /// Free for the user.
+        pub user_data: u64 = default,
+    }
+    with fn of_kind(kind: JointKind, enabled: bool);
 }
 
 /// Constructors.
 impl JointDef {
     /// A joint of a kind with both anchors at the bodies' origins.
     pub fn new(kind: JointKind) -> Self {
-        Self {
-            kind,
-            anchor_a: Vec2::ZERO,
-            anchor_b: Vec2::ZERO,
-            angle_a: 0.0,
-            angle_b: 0.0,
-            collide_connected: false,
-            softness: None,
-            break_at: None,
-            anchors_at: None,
-            enabled: true,
-            user_data: 0,
-        }
+        Self::of_kind(kind, true)
     }
 
     /// A rigid rod of a length in metres.

@@ -5,7 +5,6 @@
 
 mod body;
 mod chain;
-mod data;
 mod filter;
 mod joint;
 mod settings;

@@ -1,23 +1,24 @@
 //! Numbers that govern a whole world.
 
+use crate::codec::{described, described_enum};
 use crate::error::Error;
 
-/// How two materials make one coefficient.
-#[derive(Clone, Copy, PartialEq, PartialOrd, Ord, Eq, Debug, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-pub enum Mix {
-    /// Square root of the product: one zero makes zero.
-    #[default]
-    GeometricMean,
-    /// Half of the sum.
-    Average,
-    /// The smaller.
-    Min,
-    /// The larger.
-    Max,
-    /// The product.
-    Multiply,
+described_enum! {
+    /// How two materials make one coefficient.
+    #[derive(Clone, Copy, PartialEq, PartialOrd, Ord, Eq, Debug, Default)]
+    pub enum Mix {
+        /// Square root of the product: one zero makes zero.
+        #[default]
+        GeometricMean = 0,
+        /// Half of the sum.
+        Average = 1,
+        /// The smaller.
+        Min = 2,
+        /// The larger.
+        Max = 3,
+        /// The product.
+        Multiply = 4,
+    }
 }
 
 impl Mix {
@@ -51,47 +52,47 @@ impl Mix {
     }
 }
 
-/// Settings of a world. The defaults are good; lengths and speeds assume that 1 unit is about the
-/// size of a typical moving body (0.1 to 10 units).
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
-pub struct Settings {
-    /// Solver substeps in a step; at least 1. More make stacks stiffer and joints tighter.
-    pub substeps: u32,
-    /// Solver iterations in a substep; at least 1. One substep with 10 iterations is the classic
-    /// scheme, four substeps with one iteration (the default) give more for the same time.
-    pub iterations: u32,
-    /// Islands (bodies that touch or are joined) of up to this many bodies get more substeps where their contacts
-    /// would sink visibly otherwise: tall stacks, heavy bodies on light ones. 0 turns it off.
-    pub refine_up_to: u32,
-    /// Units a metre-scaled constant is multiplied by: set 100 where a crate is 100 units (pixels) wide.
-    pub length_unit: f32,
-    /// Greatest contact stiffness, hertz; at most 0.22 of the substep rate is used.
-    pub contact_hertz: f32,
-    /// Contact damping ratio, no unit.
-    pub contact_damping_ratio: f32,
-    /// Greatest speed at which overlap is pushed out, metres a second. What a contact needs to carry its load
-    /// is not bounded.
-    pub push_speed: f32,
-    /// Approach speed below which nothing bounces that lay on the other already, or that forces would soon bring back,
-    /// metres a second. What just touches and has nothing to press it on, as a ball on a table without gravity or one
-    /// that touches a wall aslant, bounces from a tenth of it on.
-    pub restitution_threshold: f32,
-    /// Approach speed above which a hit event is sent, metres a second.
-    pub hit_event_threshold: f32,
-    /// Greatest speed of a body, metres a second.
-    pub max_speed: f32,
-    /// Do islands at rest fall asleep?
-    pub sleep: bool,
-    /// Time at rest before an island sleeps, seconds.
-    pub time_to_sleep: f32,
-    /// Are fast bodies swept against the motions of static and kinematic shapes?
-    pub continuous: bool,
-    /// Friction of a pair from the frictions of its shapes.
-    pub friction_mix: Mix,
-    /// Restitution of a pair from the restitutions of its shapes.
-    pub restitution_mix: Mix,
+described! {
+    /// Settings of a world. The defaults are good; lengths and speeds assume that 1 unit is about the
+    /// size of a typical moving body (0.1 to 10 units).
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub struct Settings {
+        /// Solver substeps in a step; at least 1. More make stacks stiffer and joints tighter.
+        pub substeps: u32 = 4,
+        /// Solver iterations in a substep; at least 1. One substep with 10 iterations is the classic
+        /// scheme, four substeps with one iteration (the default) give more for the same time.
+        pub iterations: u32 = 1,
+        /// Islands (bodies that touch or are joined) of up to this many bodies get more substeps where their contacts
+        /// would sink visibly otherwise: tall stacks, heavy bodies on light ones. 0 turns it off.
+        pub refine_up_to: u32 = 1000,
+        /// Units a metre-scaled constant is multiplied by: set 100 where a crate is 100 units (pixels) wide.
+        pub length_unit: f32 = 1.0,
+        /// Greatest contact stiffness, hertz; at most 0.22 of the substep rate is used.
+        pub contact_hertz: f32 = 240.0,
+        /// Contact damping ratio, no unit.
+        pub contact_damping_ratio: f32 = 3.0,
+        /// Greatest speed at which overlap is pushed out, metres a second. What a contact needs to carry its load
+        /// is not bounded.
+        pub push_speed: f32 = 0.4,
+        /// Approach speed below which nothing bounces that lay on the other already, or that forces would soon bring back,
+        /// metres a second. What just touches and has nothing to press it on, as a ball on a table without gravity or one
+        /// that touches a wall aslant, bounces from a tenth of it on.
+        pub restitution_threshold: f32 = 1.0,
+        /// Approach speed above which a hit event is sent, metres a second.
+        pub hit_event_threshold: f32 = 1.0,
+        /// Greatest speed of a body, metres a second.
+        pub max_speed: f32 = 400.0,
+        /// Do islands at rest fall asleep?
+        pub sleep: bool = true,
+        /// Time at rest before an island sleeps, seconds.
+        pub time_to_sleep: f32 = 0.5,
+        /// Are fast bodies swept against the motions of static and kinematic shapes?
+        pub continuous: bool = true,
+        /// Friction of a pair from the frictions of its shapes.
+        pub friction_mix: Mix = Mix::GeometricMean,
+        /// Restitution of a pair from the restitutions of its shapes.
+        pub restitution_mix: Mix = Mix::Min,
+    }
 }
 
 impl Settings {
@@ -113,27 +114,5 @@ impl Settings {
         Error::check_not_negative("hit_event_threshold", self.hit_event_threshold)?;
         Error::check_positive("max_speed", self.max_speed)?;
         Error::check_not_negative("time_to_sleep", self.time_to_sleep)
-    }
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            substeps: 4,
-            iterations: 1,
-            refine_up_to: 1000,
-            length_unit: 1.0,
-            contact_hertz: 240.0,
-            contact_damping_ratio: 3.0,
-            push_speed: 0.4,
-            restitution_threshold: 1.0,
-            hit_event_threshold: 1.0,
-            max_speed: 400.0,
-            sleep: true,
-            time_to_sleep: 0.5,
-            continuous: true,
-            friction_mix: Mix::GeometricMean,
-            restitution_mix: Mix::Min,
-        }
     }
 }

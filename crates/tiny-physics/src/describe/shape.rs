@@ -1,126 +1,91 @@
 //! A shape on a body: geometry, place, material, filter.
 
 use super::{Filter, Mix};
+use crate::codec::described;
 use crate::geometry::Shape;
 use crate::math::Vec2;
 
-/// The surface and stuff of a shape.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
-pub struct Material {
-    /// Kilograms a square metre; 0 adds no mass.
-    pub density: f32,
-    /// Coulomb friction, 0 or above.
-    pub friction: f32,
-    /// Bounce: 0 none, 1 all of the approach speed comes back. 0 unless it is said; [`RigidBody::new`](crate::RigidBody::new)
-    /// says 0.5.
-    pub restitution: f32,
-    /// Resistance of round shapes against rolling, as a fraction of their radius, 0 or above.
-    pub rolling_resistance: f32,
-    /// Speed of the surface along itself, metres a second: a conveyor belt. It runs clockwise round the shape,
-    /// so what lies on top goes to the right.
-    pub tangent_speed: f32,
-    /// How its friction mixes with that of others, instead of [`Settings::friction_mix`](crate::Settings::friction_mix).
-    /// Where both of a pair say so, the rule counts that comes later in [`Mix`].
-    pub friction_mix: Option<Mix>,
-    /// How its restitution mixes with that of others, likewise. A trampoline takes [`Mix::Max`]: everything bounces.
-    pub restitution_mix: Option<Mix>,
-}
-
-impl Default for Material {
-    fn default() -> Self {
-        Self {
-            density: 1.0,
-            friction: 0.6,
-            restitution: 0.0,
-            rolling_resistance: 0.0,
-            tangent_speed: 0.0,
-            friction_mix: None,
-            restitution_mix: None,
-        }
+described! {
+    /// The surface and stuff of a shape.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub struct Material {
+        /// Kilograms a square metre; 0 adds no mass.
+        pub density: f32 = 1.0,
+        /// Coulomb friction, 0 or above.
+        pub friction: f32 = 0.6,
+        /// Bounce: 0 none, 1 all of the approach speed comes back. 0 unless it is said; [`RigidBody::new`](crate::RigidBody::new)
+        /// says 0.5.
+        pub restitution: f32 = 0.0,
+        /// Resistance of round shapes against rolling, as a fraction of their radius, 0 or above.
+        pub rolling_resistance: f32 = 0.0,
+        /// Speed of the surface along itself, metres a second: a conveyor belt. It runs clockwise round the shape,
+        /// so what lies on top goes to the right.
+        pub tangent_speed: f32 = 0.0,
+        /// How its friction mixes with that of others, instead of [`Settings::friction_mix`](crate::Settings::friction_mix).
+        /// Where both of a pair say so, the rule counts that comes later in [`Mix`].
+        pub friction_mix: Option<Mix> = None,
+        /// How its restitution mixes with that of others, likewise. A trampoline takes [`Mix::Max`]: everything bounces.
+        pub restitution_mix: Option<Mix> = None,
     }
 }
 
-/// What a segment of a chain knows of its neighbours, so that nothing catches on the joints.
-///
-/// A segment with a link is solid from one side only: the right of the way from `a` to `b` is outside.
-#[derive(Clone, Copy, PartialEq, Debug, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
-pub struct ChainLink {
-    /// Start of the segment before this one, in the shape's frame. `None`: the chain begins at `a`.
-    pub previous: Option<Vec2>,
-    /// End of the segment after this one. `None`: the chain ends at `b`.
-    pub next: Option<Vec2>,
+described! {
+    /// What a segment of a chain knows of its neighbours, so that nothing catches on the joints.
+    ///
+    /// A segment with a link is solid from one side only: the right of the way from `a` to `b` is outside.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub struct ChainLink {
+        /// Start of the segment before this one, in the shape's frame. `None`: the chain begins at `a`.
+        pub previous: Option<Vec2> = None,
+        /// End of the segment after this one. `None`: the chain ends at `b`.
+        pub next: Option<Vec2> = None,
+    }
 }
 
-/// One shape of a body, as described by the user.
-///
-/// ```
-/// use tiny_physics::{Shape, ShapeDef, Vec2};
-/// let foot = ShapeDef::new(Shape::Circle { radius: 0.2 }).offset(Vec2::new(0.0, -0.5)).friction(0.9);
-/// assert_eq!(foot.material.friction, 0.9);
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct ShapeDef {
-    /// The geometry, in its own frame.
-    pub shape: Shape,
-    /// Origin of the shape's frame in the body's frame, metres.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub offset: Vec2,
-    /// Angle of the shape's frame in the body's frame, radians.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub angle: f32,
-    /// Surface and stuff.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub material: Material,
-    /// What it collides with.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub filter: Filter,
-    /// A sensor sees what overlaps it and collides with nothing.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub sensor: bool,
-    /// Does this sensor see other sensors too?
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub sees_sensors: bool,
-    /// For a one-way platform: the direction, in the body's frame, out of its solid side. Others pass
-    /// through from behind. `None` is solid from everywhere.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub one_way: Option<Vec2>,
-    /// For a segment that is part of a chain: its neighbours. [`ChainDef`](super::ChainDef) sets it.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
-    pub link: Option<ChainLink>,
-    /// Are contact begin and end events sent for this shape?
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub contact_events: bool,
-    /// Are hit events (fast approach) sent for this shape?
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub hit_events: bool,
-    /// Free for the user.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub user_data: u64,
+described! {
+    /// One shape of a body, as described by the user.
+    ///
+    /// ```
+    /// use tiny_physics::{Shape, ShapeDef, Vec2};
+    /// let foot = ShapeDef::new(Shape::Circle { radius: 0.2 }).offset(Vec2::new(0.0, -0.5)).friction(0.9);
+    /// assert_eq!(foot.material.friction, 0.9);
+    /// ```
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct ShapeDef {
+        /// The geometry, in its own frame.
+        pub shape: Shape,
+        /// Origin of the shape's frame in the body's frame, metres.
+        pub offset: Vec2 = default,
+        /// Angle of the shape's frame in the body's frame, radians.
+        pub angle: f32 = default,
+        /// Surface and stuff.
+        pub material: Material = default,
+        /// What it collides with.
+        pub filter: Filter = default,
+        /// A sensor sees what overlaps it and collides with nothing.
+        pub sensor: bool = default,
+        /// Does this sensor see other sensors too?
+        pub sees_sensors: bool = default,
+        /// For a one-way platform: the direction, in the body's frame, out of its solid side. Others pass
+        /// through from behind. `None` is solid from everywhere.
+        pub one_way: Option<Vec2> = default,
+        /// For a segment that is part of a chain: its neighbours. [`ChainDef`](super::ChainDef) sets it.
+        #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+        pub link: Option<ChainLink> = default,
+        /// Are contact begin and end events sent for this shape?
+        pub contact_events: bool = default,
+        /// Are hit events (fast approach) sent for this shape?
+        pub hit_events: bool = default,
+        /// Free for the user.
+        pub user_data: u64 = default,
+    }
+    with fn of_shape(shape: Shape);
 }
 
 impl ShapeDef {
     /// A shape at the body's origin with default material.
     pub fn new(shape: impl Into<Shape>) -> Self {
-        Self {
-            shape: shape.into(),
-            offset: Vec2::ZERO,
-            angle: 0.0,
-            material: Material::default(),
-            filter: Filter::default(),
-            sensor: false,
-            sees_sensors: false,
-            one_way: None,
-            link: None,
-            contact_events: false,
-            hit_events: false,
-            user_data: 0,
-        }
+        Self::of_shape(shape.into())
     }
 
     /// Sets [`ShapeDef::offset`].

@@ -5,6 +5,7 @@
 //! lies over many cells has two points, and an edit touches one block only.
 
 use super::{Filter, Material, RigidBody, ShapeDef};
+use crate::codec::{data, described, described_enum};
 use crate::error::Error;
 use crate::geometry::Shape;
 use crate::geometry::{MAX_EXTENT, MIN_EXTENT};
@@ -15,46 +16,46 @@ pub(crate) const BLOCK_CELLS: u32 = 16;
 /// Most cells of a grid along either axis.
 const MAX_CELLS: u32 = 1 << 20;
 
-/// What part of its cell a tile fills. [`Tile::mirror_x`] and [`Tile::mirror_y`] give the others: slopes that
-/// fall, ceilings, upper halves.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-pub enum TileForm {
-    /// All of it.
-    #[default]
-    Full,
-    /// The lower half.
-    Half,
-    /// The left half.
-    Side,
-    /// Under the diagonal that rises to the right, 45 degrees.
-    Slope,
-    /// The lower cell of a slope over two cells: rises from the bottom left to half the height.
-    GentleLow,
-    /// The upper cell of a slope over two cells: rises from half the height to the top right.
-    GentleHigh,
+described_enum! {
+    /// What part of its cell a tile fills. [`Tile::mirror_x`] and [`Tile::mirror_y`] give the others: slopes that
+    /// fall, ceilings, upper halves.
+    #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+    pub enum TileForm {
+        /// All of it.
+        #[default]
+        Full = 0,
+        /// The lower half.
+        Half = 1,
+        /// The left half.
+        Side = 2,
+        /// Under the diagonal that rises to the right, 45 degrees.
+        Slope = 3,
+        /// The lower cell of a slope over two cells: rises from the bottom left to half the height.
+        GentleLow = 4,
+        /// The upper cell of a slope over two cells: rises from half the height to the top right.
+        GentleHigh = 5,
+    }
 }
 
-/// A kind of tile.
-#[derive(Clone, Copy, PartialEq, Debug, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
-pub struct Tile {
-    /// The part of the cell that is solid.
-    pub form: TileForm,
-    /// Is the form mirrored left to right?
-    pub mirror_x: bool,
-    /// Is the form turned upside down?
-    pub mirror_y: bool,
-    /// The surface.
-    pub material: Material,
-    /// What it collides with.
-    pub filter: Filter,
-    /// For one-way tiles: the direction out of the solid side, in the grid's frame.
-    pub one_way: Option<Vec2>,
-    /// Free for the user; the shapes get it.
-    pub user_data: u64,
+described! {
+    /// A kind of tile.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub struct Tile {
+        /// The part of the cell that is solid.
+        pub form: TileForm = TileForm::default(),
+        /// Is the form mirrored left to right?
+        pub mirror_x: bool = false,
+        /// Is the form turned upside down?
+        pub mirror_y: bool = false,
+        /// The surface.
+        pub material: Material = Material::default(),
+        /// What it collides with.
+        pub filter: Filter = Filter::default(),
+        /// For one-way tiles: the direction out of the solid side, in the grid's frame.
+        pub one_way: Option<Vec2> = None,
+        /// Free for the user; the shapes get it.
+        pub user_data: u64 = 0,
+    }
 }
 
 impl Tile {
@@ -114,38 +115,36 @@ impl Tile {
     }
 }
 
-/// A map of tiles, fixed in the world.
-///
-/// ```
-/// use tiny_physics::{TileGrid, Vec2, World};
-/// # fn main() -> Result<(), tiny_physics::Error> {
-/// let grid = TileGrid::parse(1.0, &["..........", "...----...", "......./##", "##########"])?;
-/// let mut world = World::new(Vec2::new(0.0, -9.8));
-/// let level = world.add_tiles(grid)?;
-/// world.set_tile(level, 4, 1, 1)?; // A full tile in the second row from below.
-/// # Ok(())
-/// # }
-/// ```
-#[derive(Clone, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct TileGrid {
-    /// The lower left corner of cell (0, 0): world, metres.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub position: DVec2,
-    /// Angle of the rows, radians.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub angle: f32,
-    /// Side of a cell, metres.
-    pub cell_size: f32,
-    /// Cells in a row.
-    pub width: u32,
-    /// Rows, from the bottom up.
-    pub height: u32,
-    /// Kinds of tiles; cell value 1 is the first.
-    pub palette: Vec<Tile>,
-    /// Cell values by row from the bottom, 0 is empty.
-    pub cells: Vec<u16>,
+described! {
+    /// A map of tiles, fixed in the world.
+    ///
+    /// ```
+    /// use tiny_physics::{TileGrid, Vec2, World};
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let grid = TileGrid::parse(1.0, &["..........", "...----...", "......./##", "##########"])?;
+    /// let mut world = World::new(Vec2::new(0.0, -9.8));
+    /// let level = world.add_tiles(grid)?;
+    /// world.set_tile(level, 4, 1, 1)?; // A full tile in the second row from below.
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[derive(Clone, PartialEq, Debug)]
+    pub struct TileGrid {
+        /// The lower left corner of cell (0, 0): world, metres.
+        pub position: DVec2 = default,
+        /// Angle of the rows, radians.
+        pub angle: f32 = default,
+        /// Side of a cell, metres.
+        pub cell_size: f32,
+        /// Cells in a row.
+        pub width: u32,
+        /// Rows, from the bottom up.
+        pub height: u32,
+        /// Kinds of tiles; cell value 1 is the first.
+        pub palette: Vec<Tile>,
+        /// Cell values by row from the bottom, 0 is empty.
+        pub cells: Vec<u16>,
+    }
 }
 
 impl TileGrid {
@@ -358,7 +357,7 @@ pub(crate) struct Piece {
     value: u16,
 }
 
-crate::codec::data!(Piece { x, y, width, height, value });
+data!(Piece { x, y, width, height, value });
 
 /// Letters of [`TileGrid::parse`] in the order of its palette.
 const LETTERS: &str = "#_\"[]/\\lhHL-";

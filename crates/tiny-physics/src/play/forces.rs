@@ -3,95 +3,96 @@
 //! Nothing here is kept in the world: call the functions before every step in which the force is to act. Each
 //! works on bodies in index order, so results do not depend on anything but the world.
 
+use crate::codec::{described, described_enum};
 use crate::{Aabb, BodyKind, BodyMut, DVec2, Pose, QueryFilter, Shape, ShapeId, Vec2, World};
 
-/// A blast: impulses away from a point.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Explosion {
-    /// Where: world, metres.
-    pub center: DVec2,
-    /// Up to here it is at full strength, metres.
-    pub radius: f32,
-    /// Over this distance beyond the radius it falls to nothing, metres.
-    pub falloff: f32,
-    /// Newton seconds for every metre of a shape's width that faces the centre; negative pulls.
-    pub impulse_per_metre: f32,
+described! {
+    /// A blast: impulses away from a point.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub struct Explosion {
+        /// Where: world, metres.
+        pub center: DVec2,
+        /// Up to here it is at full strength, metres.
+        pub radius: f32,
+        /// Over this distance beyond the radius it falls to nothing, metres.
+        pub falloff: f32,
+        /// Newton seconds for every metre of a shape's width that faces the centre; negative pulls.
+        pub impulse_per_metre: f32,
+    }
 }
 
-/// Moving air (or water all around).
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
-pub struct Wind {
-    /// Metres a second.
-    pub velocity: Vec2,
-    /// Density of the medium, kilograms a square metre.
-    pub density: f32,
-    /// Drag coefficient: about 1 for blunt shapes.
-    pub drag: f32,
+described! {
+    /// Moving air (or water all around).
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub struct Wind {
+        /// Metres a second.
+        pub velocity: Vec2 = Vec2::ZERO,
+        /// Density of the medium, kilograms a square metre.
+        pub density: f32 = 1.2,
+        /// Drag coefficient: about 1 for blunt shapes.
+        pub drag: f32 = 1.0,
+    }
 }
 
-/// A body of water: everything below its surface, or what of that lies in an area.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
-pub struct Water {
-    /// A point of the surface: world, metres.
-    pub surface: DVec2,
-    /// Direction out of the water, of any length.
-    pub normal: Vec2,
-    /// Kilograms a square metre: what is lighter floats.
-    pub density: f32,
-    /// Velocity of the water, metres a second.
-    pub flow: Vec2,
-    /// How fast a body that is all water takes on the flow, 1/s.
-    pub linear_drag: f32,
-    /// How fast a body that is all water stops turning, 1/s.
-    pub angular_drag: f32,
-    /// Only shapes that overlap this box (world, metres) are in the water.
-    pub area: Option<Aabb>,
+described! {
+    /// A body of water: everything below its surface, or what of that lies in an area.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub struct Water {
+        /// A point of the surface: world, metres.
+        pub surface: DVec2 = DVec2::ZERO,
+        /// Direction out of the water, of any length.
+        pub normal: Vec2 = Vec2::Y,
+        /// Kilograms a square metre: what is lighter floats.
+        pub density: f32 = 1000.0,
+        /// Velocity of the water, metres a second.
+        pub flow: Vec2 = Vec2::ZERO,
+        /// How fast a body that is all water takes on the flow, 1/s.
+        pub linear_drag: f32 = 2.0,
+        /// How fast a body that is all water stops turning, 1/s.
+        pub angular_drag: f32 = 2.0,
+        /// Only shapes that overlap this box (world, metres) are in the water.
+        pub area: Option<Aabb> = None,
+    }
 }
 
-/// What a zone does to the bodies in it.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
-pub enum ZoneForce {
-    /// Accelerates them, metres a second squared: gravity of its own.
-    Acceleration(Vec2),
-    /// Accelerates them towards a point (away from it where negative), metres a second squared.
-    Attraction {
-        /// World, metres.
-        center: DVec2,
-        /// Metres a second squared.
-        acceleration: f32,
-    },
-    /// Wind blows on them.
-    Wind(Wind),
-    /// Slows them, 1/s.
-    Damping {
-        /// Of motion.
-        linear: f32,
-        /// Of turning.
-        angular: f32,
-    },
+described_enum! {
+    /// What a zone does to the bodies in it.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub enum ZoneForce {
+        /// Accelerates them, metres a second squared: gravity of its own.
+        Acceleration(acceleration: Vec2) = 0,
+        /// Accelerates them towards a point (away from it where negative), metres a second squared.
+        Attraction {
+            /// World, metres.
+            center: DVec2,
+            /// Metres a second squared.
+            acceleration: f32,
+        } = 1,
+        /// Wind blows on them.
+        Wind(wind: Wind) = 2,
+        /// Slows them, 1/s.
+        Damping {
+            /// Of motion.
+            linear: f32,
+            /// Of turning.
+            angular: f32,
+        } = 3,
+    }
 }
 
-/// An area in which a force acts on every body that overlaps it.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct ForceZone {
-    /// Form of the area.
-    pub shape: Shape,
-    /// Where it is in the world.
-    pub pose: Pose,
-    /// What it does.
-    pub force: ZoneForce,
-    /// Does it wake sleeping bodies? Otherwise it leaves them alone.
-    pub wakes: bool,
+described! {
+    /// An area in which a force acts on every body that overlaps it.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub struct ForceZone {
+        /// Form of the area.
+        pub shape: Shape,
+        /// Where it is in the world.
+        pub pose: Pose,
+        /// What it does.
+        pub force: ZoneForce,
+        /// Does it wake sleeping bodies? Otherwise it leaves them alone.
+        pub wakes: bool,
+    }
 }
 
 impl World {
@@ -284,27 +285,5 @@ impl BodyMut<'_> {
                 self.apply_torque(-spin * (inertia * slow(angular)));
             }
         }
-    }
-}
-
-impl Default for Water {
-    /// Water below y = 0, as heavy as water a metre deep, and at rest.
-    fn default() -> Self {
-        Self {
-            surface: DVec2::ZERO,
-            normal: Vec2::Y,
-            density: 1000.0,
-            flow: Vec2::ZERO,
-            linear_drag: 2.0,
-            angular_drag: 2.0,
-            area: None,
-        }
-    }
-}
-
-impl Default for Wind {
-    /// Still air, a metre deep.
-    fn default() -> Self {
-        Self { velocity: Vec2::ZERO, density: 1.2, drag: 1.0 }
     }
 }

@@ -8,7 +8,7 @@
 //! The method is cast and slide (Fauerby, *Improved Collision Detection and Response*, 2003), with
 //! steps climbed by casts up, forward and down.
 
-use crate::codec::data;
+use crate::codec::described;
 use crate::geometry::{MIN_EXTENT, distance, shape_cast};
 use crate::math::sin_cos;
 use crate::{
@@ -27,118 +27,114 @@ const THIN_SKIN: f32 = 0.125;
 /// An edge whose normal is at least this much upward may have floor behind it.
 const LEAST_EDGE: f32 = 0.05;
 
-/// What a character is asked to do in an update.
-#[derive(Clone, Copy, PartialEq, Debug, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
-pub struct MoverInput {
-    /// Horizontal speed, metres a second; positive to the right of up.
-    pub walk: f32,
-    /// Speed of a jump off the ground, metres a second; 0 is none. Nothing happens in the air.
-    pub jump: f32,
-    /// Falls through the one-way platforms that it stands on; one update is enough.
-    pub drop: bool,
+described! {
+    /// What a character is asked to do in an update.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub struct MoverInput {
+        /// Horizontal speed, metres a second; positive to the right of up.
+        pub walk: f32 = 0.0,
+        /// Speed of a jump off the ground, metres a second; 0 is none. Nothing happens in the air.
+        pub jump: f32 = 0.0,
+        /// Falls through the one-way platforms that it stands on; one update is enough.
+        pub drop: bool = false,
+    }
 }
 
-/// What a character stands on.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct MoverGround {
-    /// The body.
-    pub body: BodyId,
-    /// The shape.
-    pub shape: ShapeId,
-    /// Unit normal, world.
-    pub normal: Vec2,
-    /// The place under the foot: world, metres.
-    pub point: DVec2,
-    /// The same place in the body's frame.
-    local: Vec2,
+described! {
+    /// What a character stands on.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub struct MoverGround {
+        /// The body.
+        pub body: BodyId,
+        /// The shape.
+        pub shape: ShapeId,
+        /// Unit normal, world.
+        pub normal: Vec2,
+        /// The place under the foot: world, metres.
+        pub point: DVec2,
+        /// The same place in the body's frame.
+        local: Vec2,
+    }
 }
 
-/// What stopped a character on its way.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct MoverHit {
-    /// The body.
-    pub body: BodyId,
-    /// The shape.
-    pub shape: ShapeId,
-    /// Where, on its surface: world, metres.
-    pub point: DVec2,
-    /// Unit normal out of it, world.
-    pub normal: Vec2,
+described! {
+    /// What stopped a character on its way.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub struct MoverHit {
+        /// The body.
+        pub body: BodyId,
+        /// The shape.
+        pub shape: ShapeId,
+        /// Where, on its surface: world, metres.
+        pub point: DVec2,
+        /// Unit normal out of it, world.
+        pub normal: Vec2,
+    }
 }
 
-/// A capsule that walks, climbs slopes and steps, jumps, rides on platforms and pushes things.
-///
-/// A plain value beside the world: clone it with the world, or throw it away. It is not a body, so others
-/// do not collide with it; it gets out of their way. Call [`CharacterMover::update`] after each step. What is to
-/// notice it, such as pickups and doors, meets its [`CharacterMover::body`].
-///
-/// ```
-/// use tiny_physics::{CharacterMover, MoverInput, RigidBody, Shape, Vec2, World};
-/// # fn main() -> Result<(), tiny_physics::Error> {
-/// let mut world = World::new(Vec2::new(0.0, -10.0));
-/// world.add_body(RigidBody::fixed().shape(Shape::rect(20.0, 1.0)?))?;
-/// let mut hero = CharacterMover::new(Vec2::new(0.0, 2.0), 1.8, 0.3);
-/// for _ in 0..120 {
-///     world.step(1.0 / 60.0);
-///     hero.update(&mut world, MoverInput { walk: 3.0, ..MoverInput::default() }, 1.0 / 60.0);
-/// }
-/// assert!(hero.ground().is_some() && (hero.position.x - 6.0).abs() < 0.01);
-/// # Ok(())
-/// # }
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct CharacterMover {
-    /// The middle of the capsule: world, metres. Set it to teleport.
-    pub position: DVec2,
-    /// Velocity in the air, metres a second; on the ground that of the last update.
-    pub velocity: Vec2,
-    /// Height of the whole capsule, metres.
-    pub height: f32,
-    /// Radius, metres.
-    pub radius: f32,
-    /// Steepest slope that it walks on, radians from level.
-    pub max_slope: f32,
-    /// Highest step that it climbs, metres.
-    pub step_height: f32,
-    /// Greatest drop over which it stays on the ground at a standstill, metres.
-    pub snap_distance: f32,
-    /// Greatest force with which it pushes dynamic bodies, newtons.
-    pub push_force: f32,
-    /// Mass with which it weighs on what it stands on, kilograms.
-    pub mass: f32,
-    /// Factor on the world's gravity.
-    pub gravity_scale: f32,
-    /// Gap that it keeps to everything, metres.
-    pub skin: f32,
-    /// What it collides with.
-    pub filter: Filter,
-    /// A body of its own, which it does not collide with and takes along: see [`CharacterMover::describe_body`].
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub body: Option<BodyId>,
-    ground: Option<MoverGround>,
-    /// Where it was before the last update.
-    #[cfg_attr(feature = "serde", serde(default))]
-    previous: DVec2,
-    /// What stopped it in the last update.
-    #[cfg_attr(feature = "serde", serde(default))]
-    hits: Vec<MoverHit>,
-    /// The velocity with which the next update leaves the ground.
-    #[cfg_attr(feature = "serde", serde(default))]
-    launched: Option<Vec2>,
-    /// Horizontal speed taken along from a platform, until it lands.
-    drift: f32,
-    /// Ignores one-way platforms, until it has come through.
-    dropping: bool,
-    /// What it pushed in the last update.
-    pushed: Option<Push>,
+described! {
+    /// A capsule that walks, climbs slopes and steps, jumps, rides on platforms and pushes things.
+    ///
+    /// A plain value beside the world: clone it with the world, or throw it away. It is not a body, so others
+    /// do not collide with it; it gets out of their way. Call [`CharacterMover::update`] after each step. What is to
+    /// notice it, such as pickups and doors, meets its [`CharacterMover::body`].
+    ///
+    /// ```
+    /// use tiny_physics::{CharacterMover, MoverInput, RigidBody, Shape, Vec2, World};
+    /// # fn main() -> Result<(), tiny_physics::Error> {
+    /// let mut world = World::new(Vec2::new(0.0, -10.0));
+    /// world.add_body(RigidBody::fixed().shape(Shape::rect(20.0, 1.0)?))?;
+    /// let mut hero = CharacterMover::new(Vec2::new(0.0, 2.0), 1.8, 0.3);
+    /// for _ in 0..120 {
+    ///     world.step(1.0 / 60.0);
+    ///     hero.update(&mut world, MoverInput { walk: 3.0, ..MoverInput::default() }, 1.0 / 60.0);
+    /// }
+    /// assert!(hero.ground().is_some() && (hero.position.x - 6.0).abs() < 0.01);
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct CharacterMover {
+        /// The middle of the capsule: world, metres. Set it to teleport.
+        pub position: DVec2,
+        /// Velocity in the air, metres a second; on the ground that of the last update.
+        pub velocity: Vec2,
+        /// Height of the whole capsule, metres.
+        pub height: f32,
+        /// Radius, metres.
+        pub radius: f32,
+        /// Steepest slope that it walks on, radians from level.
+        pub max_slope: f32,
+        /// Highest step that it climbs, metres.
+        pub step_height: f32,
+        /// Greatest drop over which it stays on the ground at a standstill, metres.
+        pub snap_distance: f32,
+        /// Greatest force with which it pushes dynamic bodies, newtons.
+        pub push_force: f32,
+        /// Mass with which it weighs on what it stands on, kilograms.
+        pub mass: f32,
+        /// Factor on the world's gravity.
+        pub gravity_scale: f32,
+        /// Gap that it keeps to everything, metres.
+        pub skin: f32,
+        /// What it collides with.
+        pub filter: Filter,
+        /// A body of its own, which it does not collide with and takes along: see [`CharacterMover::describe_body`].
+        pub body: Option<BodyId> = default,
+        ground: Option<MoverGround>,
+        /// Where it was before the last update.
+        previous: DVec2 = default,
+        /// What stopped it in the last update.
+        hits: Vec<MoverHit> = default,
+        /// The velocity with which the next update leaves the ground.
+        launched: Option<Vec2> = default,
+        /// Horizontal speed taken along from a platform, until it lands.
+        drift: f32,
+        /// Ignores one-way platforms, until it has come through.
+        dropping: bool,
+        /// What it pushed in the last update.
+        pushed: Option<Push>,
+    }
 }
 
 /// The first obstacle on a way.
@@ -152,43 +148,17 @@ struct Obstacle {
     body: BodyId,
 }
 
-/// What a character pushed in an update, and what came of it.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-struct Push {
-    body: BodyId,
-    /// Speed of its centre that was expected after the next step, metres a second.
-    expected: f32,
-    /// Force that holds it back: friction, or what it pushes in turn; newtons.
-    resistance: f32,
+described! {
+    /// What a character pushed in an update, and what came of it.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    struct Push {
+        body: BodyId,
+        /// Speed of its centre that was expected after the next step, metres a second.
+        expected: f32,
+        /// Force that holds it back: friction, or what it pushes in turn; newtons.
+        resistance: f32,
+    }
 }
-
-data!(MoverGround { body, shape, normal, point, local });
-data!(MoverHit { body, shape, point, normal });
-data!(Push { body, expected, resistance });
-data!(CharacterMover {
-    position,
-    velocity,
-    height,
-    radius,
-    max_slope,
-    step_height,
-    snap_distance,
-    push_force,
-    mass,
-    gravity_scale,
-    skin,
-    filter,
-    body,
-    ground,
-    previous,
-    hits,
-    launched,
-    drift,
-    dropping,
-    pushed,
-});
 
 /// Numbers of one update.
 #[derive(Clone, Copy)]

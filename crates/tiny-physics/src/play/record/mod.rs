@@ -38,9 +38,10 @@
 
 mod change;
 mod command;
-mod data;
+mod declare;
 mod delta;
 mod history;
+mod made;
 mod player;
 mod recorder;
 mod recording;
@@ -48,8 +49,9 @@ mod recording;
 mod tests;
 
 pub use change::{BodyCommand, ShapeCommand};
-pub use command::{Command, FilterData, Made};
+pub use command::{Command, FilterData};
 pub use history::History;
+pub use made::Made;
 pub use player::Player;
 pub use recorder::Recorder;
 pub use recording::Recording;

@@ -8,7 +8,7 @@ use crate::{Error, World};
 const MAGIC: [u8; 3] = *b"tpr";
 /// Goes up whenever the bytes of a recording change their meaning. Version 1 had fewer commands, version 2 padded
 /// options.
-const VERSION: u8 = b'4';
+const VERSION: u8 = b'5';
 
 /// One step of a recording.
 #[derive(Clone, PartialEq, Debug)]
