@@ -43,7 +43,7 @@ mod show {
 pub extern "C" fn tp_draw(session: u32, x: f64, y: f64, alpha: f32, shown: u32) -> bool {
     with(session, |session, shelf| {
         let mut picture = core::mem::take(&mut session.picture);
-        let places = crate::places::now(session);
+        let places = crate::places::now(session.world(), &session.places, session.commands());
         picture.draw(session.world(), &places, DVec2::new(x, y), alpha, shown);
         let lists = [&picture.boxes, &picture.polygons, &picture.lines, &picture.waters];
         let lists = lists.iter().flat_map(|list| [list.as_ptr() as usize, list.len()]);

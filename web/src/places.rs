@@ -1,6 +1,6 @@
 //! Water and areas of force: they act on a world, which does not know of them.
 
-use crate::session::Session;
+use tiny_physics::World;
 use tiny_physics::record::Command;
 use tiny_physics_scenes::{Act, Deed, Scene, Script};
 
@@ -11,12 +11,10 @@ pub(crate) fn of_scene(scene: &Scene) -> Vec<Act> {
     timeline.acts.iter().filter(lasts).cloned().collect()
 }
 
-/// What acts on places at the moment: by the scene, or by the recording where there is no scene.
-pub(crate) fn now(session: &Session) -> Vec<Command> {
-    let step = u32::try_from(session.world().step_count()).unwrap_or(u32::MAX);
-    let acts = session.places.iter().filter(|act| act.when.is_before(step) == Some(true));
-    let of_scene = acts.filter_map(|act| act.deed.on_place(0.0));
-    of_scene
-        .chain(session.commands().iter().filter(|_| session.places.is_empty()).cloned())
-        .collect()
+/// What acts on places at the moment: by the scene's acts, or by the commands of the recording where there are none.
+pub(crate) fn now(world: &World, acts: &[Act], commands: &[Command]) -> Vec<Command> {
+    let step = u32::try_from(world.step_count()).unwrap_or(u32::MAX);
+    let acting = acts.iter().filter(|act| act.when.is_before(step) == Some(true));
+    let of_scene = acting.filter_map(|act| act.deed.on_place(0.0));
+    of_scene.chain(commands.iter().filter(|_| acts.is_empty()).cloned()).collect()
 }

@@ -55,45 +55,60 @@ pub(super) fn load_lanes<B: LaneBlock>(reader: &mut Reader<'_>) -> Result<Vec<B>
     Ok(blocks)
 }
 
-/// Declares a block: arrays of one value a lane, then arrays of smaller blocks.
+impl<B: LaneBlock> LaneBlock for [B; 2] {
+    const NULL: Self = [B::NULL; 2];
+
+    fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
+        self.iter_mut().zip(source).for_each(|(part, source)| part.copy_lane(to, source, from));
+    }
+
+    fn save_lane(&self, lane: usize, sink: &mut Sink) {
+        self.iter().for_each(|part| part.save_lane(lane, sink));
+    }
+
+    fn load_lane(&mut self, lane: usize, reader: &mut Reader<'_>) -> Result<(), Error> {
+        self.iter_mut().try_for_each(|part| part.load_lane(lane, reader))
+    }
+}
+
+/// Declares a block: arrays of one value a lane, then smaller blocks.
 macro_rules! lane_block {
     ($(#[$meta:meta])* $vis:vis struct $name:ident {
         $($(#[$field_meta:meta])* $field:ident : $type:ty = $null:expr),* $(,)?
-    } $(parts { $($part:ident : $part_type:ty = $part_null:expr),* $(,)? })?) => {
+    } $(parts { $($(#[$part_meta:meta])* $part:ident : $part_type:ty),* $(,)? })?) => {
         $(#[$meta])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[repr(C, align(64))]
         $vis struct $name {
             $($(#[$field_meta])* pub(crate) $field: [$type; BLOCK],)*
-            $($(pub(crate) $part: $part_type,)*)?
+            $($($(#[$part_meta])* pub(crate) $part: $part_type,)*)?
         }
 
         impl LaneBlock for $name {
-            const NULL: Self =
-                Self { $($field: [$null; BLOCK],)* $($($part: $part_null,)*)? };
+            const NULL: Self = Self {
+                $($field: [$null; BLOCK],)*
+                $($($part: <$part_type as LaneBlock>::NULL,)*)?
+            };
 
             fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
                 $(self.$field[to] = source.$field[from];)*
-                $($(for (part, source) in self.$part.iter_mut().zip(&source.$part) {
-                    part.copy_lane(to, source, from);
-                })*)?
+                $($(self.$part.copy_lane(to, &source.$part, from);)*)?
             }
 
             fn save_lane(&self, lane: usize, sink: &mut Sink) {
-                $(self.$field[lane].save(sink);)*
-                $($(self.$part.iter().for_each(|part| part.save_lane(lane, sink));)*)?
+                $($crate::codec::Data::save(&self.$field[lane], sink);)*
+                $($(self.$part.save_lane(lane, sink);)*)?
             }
 
             fn load_lane(&mut self, lane: usize, reader: &mut Reader<'_>) -> Result<(), Error> {
-                $(self.$field[lane] = Data::load(reader)?;)*
-                $($(for part in &mut self.$part {
-                    part.load_lane(lane, reader)?;
-                })*)?
+                $(self.$field[lane] = $crate::codec::Data::load(reader)?;)*
+                $($(self.$part.load_lane(lane, reader)?;)*)?
                 Ok(())
             }
         }
     };
 }
+pub(super) use lane_block;
 
 lane_block! {
     /// What the narrow phase keeps of a contact from step to step.
@@ -146,7 +161,7 @@ lane_block! {
         friction: f32 = 0.0,
     }
     parts {
-        points: [PointLanes; 2] = [PointLanes::NULL; 2],
+        points: [PointLanes; 2],
     }
 }
 

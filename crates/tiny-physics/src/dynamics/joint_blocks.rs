@@ -8,8 +8,8 @@
 //! (written when the block is stale), what follows from the poses (written every step), and
 //! accumulated impulses (which live on, and move to the record while the joint sleeps).
 
-use super::blocks::LaneBlock;
-use crate::codec::{Data, Reader, Sink};
+use super::blocks::{LaneBlock, lane_block};
+use crate::codec::{Reader, Sink};
 use crate::describe::JointKind;
 use crate::error::Error;
 use crate::simd::BLOCK;
@@ -59,69 +59,37 @@ impl JointClass {
 pub(crate) trait LaneData: LaneBlock {
     /// Number of accumulated impulses.
     const IMPULSES: usize;
-    /// The impulses of a lane, into the first places of a slice.
+    /// The impulses of a lane, into as many places.
     fn save(&self, lane: usize, impulses: &mut [f32]);
     /// The other way round.
     fn restore(&mut self, lane: usize, impulses: &[f32]);
 }
 
-/// Declares a part: one array for each value of a joint; those after `impulses` are accumulated
-/// impulses, those after `kept` are no impulses but live on like them.
+/// Declares a part: one array for each value of a joint; those after `impulses` live on while the joint has no lanes.
 macro_rules! joint_lanes {
     ($(#[$meta:meta])* $name:ident {
         $($(#[$field_meta:meta])* $field:ident : $type:ty = $null:expr,)*
         $(; impulses $($(#[$impulse_meta:meta])* $impulse:ident,)*)?
-        $(; kept $($(#[$kept_meta:meta])* $kept:ident,)*)?
     }) => {
-        $(#[$meta])*
-        #[derive(Clone, Copy, Debug, PartialEq)]
-        #[repr(C, align(64))]
-        pub(crate) struct $name {
-            $($(#[$field_meta])* pub(crate) $field: [$type; BLOCK],)*
-            $($($(#[$impulse_meta])* pub(crate) $impulse: [f32; BLOCK],)*)?
-            $($($(#[$kept_meta])* pub(crate) $kept: [f32; BLOCK],)*)?
-        }
-
-        impl LaneBlock for $name {
-            const NULL: Self = Self {
-                $($field: [$null; BLOCK],)*
-                $($($impulse: [0.0; BLOCK],)*)?
-                $($($kept: [0.0; BLOCK],)*)?
-            };
-
-            fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
-                $(self.$field[to] = source.$field[from];)*
-                $($(self.$impulse[to] = source.$impulse[from];)*)?
-                $($(self.$kept[to] = source.$kept[from];)*)?
-            }
-
-            fn save_lane(&self, lane: usize, sink: &mut Sink) {
-                $(self.$field[lane].save(sink);)*
-                $($(self.$impulse[lane].save(sink);)*)?
-                $($(self.$kept[lane].save(sink);)*)?
-            }
-
-            fn load_lane(&mut self, lane: usize, reader: &mut Reader<'_>) -> Result<(), Error> {
-                $(self.$field[lane] = Data::load(reader)?;)*
-                $($(self.$impulse[lane] = Data::load(reader)?;)*)?
-                $($(self.$kept[lane] = Data::load(reader)?;)*)?
-                Ok(())
+        lane_block! {
+            $(#[$meta])*
+            pub(crate) struct $name {
+                $($(#[$field_meta])* $field: $type = $null,)*
+                $($($(#[$impulse_meta])* $impulse: f32 = 0.0,)*)?
             }
         }
 
-        #[allow(unused_variables, unused_mut, unused_assignments, reason = "parts without impulses")]
+        #[allow(unused_variables, reason = "parts without impulses")]
         impl LaneData for $name {
-            const IMPULSES: usize = 0 $($(+ { let _ = stringify!($impulse); 1 })*)? $($(+ { let _ = stringify!($kept); 1 })*)?;
+            const IMPULSES: usize = <[&str]>::len(&[$($(stringify!($impulse)),*)?]);
 
             fn save(&self, lane: usize, impulses: &mut [f32]) {
-                let mut places = impulses.iter_mut();
-                $($(if let Some(place) = places.next() { *place = self.$impulse[lane]; })*)?
-                $($(if let Some(place) = places.next() { *place = self.$kept[lane]; })*)?
+                impulses.copy_from_slice(&[$($(self.$impulse[lane]),*)?]);
             }
             fn restore(&mut self, lane: usize, impulses: &[f32]) {
-                let mut places = impulses.iter();
-                $($(if let Some(place) = places.next() { self.$impulse[lane] = *place; })*)?
-                $($(if let Some(place) = places.next() { self.$kept[lane] = *place; })*)?
+                if let [$($($impulse),*)?] = impulses {
+                    $($(self.$impulse[lane] = *$impulse;)*)?
+                }
             }
         }
     };
@@ -129,66 +97,47 @@ macro_rules! joint_lanes {
 
 /// Declares a block: the bodies' indices and parts.
 macro_rules! joint_block {
-    ($(#[$meta:meta])* $name:ident { $($(#[$field_meta:meta])* $part:ident : $type:ty,)* }) => {
-        $(#[$meta])*
-        #[derive(Clone, Copy, Debug, PartialEq)]
-        #[repr(C, align(64))]
-        pub(crate) struct $name {
-            pub(crate) frame: FrameLanes,
-            $($(#[$field_meta])* pub(crate) $part: $type,)*
-        }
-
-        impl LaneBlock for $name {
-            const NULL: Self = Self { frame: FrameLanes::NULL, $($part: <$type>::NULL,)* };
-
-            fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
-                self.frame.copy_lane(to, &source.frame, from);
-                $(self.$part.copy_lane(to, &source.$part, from);)*
-            }
-
-            fn save_lane(&self, lane: usize, sink: &mut Sink) {
-                self.frame.save_lane(lane, sink);
-                $(self.$part.save_lane(lane, sink);)*
-            }
-
-            fn load_lane(&mut self, lane: usize, reader: &mut Reader<'_>) -> Result<(), Error> {
-                self.frame.load_lane(lane, reader)?;
-                $(self.$part.load_lane(lane, reader)?;)*
-                Ok(())
-            }
-        }
-
-        impl LaneData for $name {
-            const IMPULSES: usize = 0 $(+ <$type>::IMPULSES)*;
-
-            #[allow(unused_assignments, reason = "after the last part")]
-            fn save(&self, lane: usize, impulses: &mut [f32]) {
-                let mut at = 0;
-                $(self.$part.save(lane, &mut impulses[at..at + <$type>::IMPULSES]);
-                at += <$type>::IMPULSES;)*
-            }
-            #[allow(unused_assignments, reason = "after the last part")]
-            fn restore(&mut self, lane: usize, impulses: &[f32]) {
-                let mut at = 0;
-                $(self.$part.restore(lane, &impulses[at..at + <$type>::IMPULSES]);
-                at += <$type>::IMPULSES;)*
-            }
+    ($(#[$meta:meta])* $name:ident { $($(#[$part_meta:meta])* $part:ident : $type:ty,)* }) => {
+        lane_block! {
+            $(#[$meta])*
+            pub(crate) struct $name {}
+            parts { frame: FrameLanes, $($(#[$part_meta])* $part: $type,)* }
         }
 
         impl JointLanes for $name {
+            const IMPULSES: usize = 0 $(+ <$type>::IMPULSES)*;
+
             fn frame(&mut self) -> &mut FrameLanes {
                 &mut self.frame
             }
+            #[allow(unused_variables, reason = "after the last part")]
+            fn save(&self, lane: usize, impulses: &mut Impulses) {
+                let rest = &mut impulses[..];
+                $(let (own, rest) = rest.split_at_mut(<$type>::IMPULSES);
+                self.$part.save(lane, own);)*
+            }
+            #[allow(unused_variables, reason = "after the last part")]
+            fn restore(&mut self, lane: usize, impulses: &Impulses) {
+                let rest = &impulses[..];
+                $(let (own, rest) = rest.split_at(<$type>::IMPULSES);
+                self.$part.restore(lane, own);)*
+            }
         }
 
-        const _: () = assert!(<$name as LaneData>::IMPULSES <= IMPULSES);
+        const _: () = assert!(<$name as JointLanes>::IMPULSES <= IMPULSES);
     };
 }
 
 /// A block of one class of joints.
-pub(crate) trait JointLanes: LaneData {
+pub(crate) trait JointLanes: LaneBlock {
+    /// Number of accumulated impulses.
+    const IMPULSES: usize;
     /// The part that all classes have.
     fn frame(&mut self) -> &mut FrameLanes;
+    /// The impulses of a lane, into the first places.
+    fn save(&self, lane: usize, impulses: &mut Impulses);
+    /// The other way round.
+    fn restore(&mut self, lane: usize, impulses: &Impulses);
 }
 
 joint_lanes! {
@@ -422,8 +371,7 @@ joint_lanes! {
         spin_b: f32 = 0.0,
         ; impulses
         impulse,
-        ; kept
-        /// Sum of both changes since the joint was added.
+        /// Sum of both changes since the joint was added: no impulse, but it lives on like one.
         error,
     }
 }

@@ -101,10 +101,15 @@ impl<B: JointLanes> JointBucket<B> {
     }
 
     /// The impulses of a slot.
-    fn saved(&self, slot: u32) -> Impulses {
+    pub(crate) fn saved(&self, slot: u32) -> Impulses {
         let mut impulses = Impulses::default();
         self.blocks[slot as usize / BLOCK].save(slot as usize % BLOCK, &mut impulses);
         impulses
+    }
+
+    /// Gives the lanes of a joint impulses, as [`Self::saved`] gave them.
+    pub(crate) fn restore(&mut self, slot: u32, impulses: &Impulses) {
+        self.blocks[slot as usize / BLOCK].restore(slot as usize % BLOCK, impulses);
     }
 
     fn mark_stale(&mut self, slot: u32) {

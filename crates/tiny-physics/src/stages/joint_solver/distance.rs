@@ -8,13 +8,12 @@
 
 use super::JointKernel;
 use super::axis::{AxisDef, Coordinate, Give};
-use super::parts::{Pair, Row, Soft, Start, Stride, cross, dot, scale, slow_turn};
+use super::parts::{Pair, Row, Soft, Stride, cross, dot, scale, slow_turn};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
-use crate::dynamics::{DistanceBlock, FrameLanes};
-use crate::math::{Pose, Vec2};
+use crate::dynamics::DistanceBlock;
+use crate::math::Vec2;
 use crate::simd::Lanes;
-use crate::threads::SharedRows;
 
 /// Length and unit vector; (1, 0) for the zero vector.
 #[inline(always)]
@@ -29,8 +28,8 @@ pub(super) fn length_and_direction<L: Lanes>(stride: &Stride<L>, v: [L; 2]) -> (
 
 /// Length and Jacobian of it.
 #[inline(always)]
-fn length_row<L: Lanes>(stride: &Stride<L>, pair: &Pair<L>, frame: &FrameLanes) -> (L, Row<L>) {
-    let (length, direction) = length_and_direction(stride, pair.gap(stride, frame));
+fn length_row<L: Lanes>(stride: &Stride<L>, pair: &Pair<L>) -> (L, Row<L>) {
+    let (length, direction) = length_and_direction(stride, pair.gap);
     let arm_a = cross(pair.anchor_a, direction);
     let arm_b = cross(pair.anchor_b, direction);
     (length, Row { direction, arm_a, arm_b })
@@ -62,14 +61,9 @@ impl JointKernel for DistanceBlock {
     }
 
     #[inline(always)]
-    fn prepare<L: Lanes>(&mut self, _: &Stride<L>, _: &Start<L>, _: &[Pose]) {}
-
-    #[inline(always)]
-    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, rows: SharedRows<'_>) {
-        let mut pair = Pair::load(stride, rows, &self.frame);
-        let (_, row) = length_row(stride, &pair, &self.frame);
+    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
+        let (_, row) = length_row(stride, pair);
         pair.apply_along(&row, stride.load(&self.rod.impulse) + self.axis.total(stride));
-        pair.store(stride, rows, &self.frame);
     }
 
     #[inline(always)]
@@ -78,23 +72,17 @@ impl JointKernel for DistanceBlock {
     }
 
     #[inline(always)]
-    fn solve<L: Lanes, const BIAS: bool>(
-        &mut self,
-        stride: &Stride<L>,
-        rows: SharedRows<'_>,
-        extras: bool,
-    ) {
-        let mut pair = Pair::load(stride, rows, &self.frame);
-        let (value, row) = length_row(stride, &pair, &self.frame);
+    fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
+        let (value, row) = length_row(stride, pair);
         let soft = Soft::load::<BIAS>(stride, &self.soft);
         let rigid = stride.load(&self.soft.rigid);
         let inv_mass = pair.inv_mass_along(&row);
         let mut velocity = pair.velocity_along(&row);
         if BIAS {
-            velocity = velocity + outward(stride, &pair, value, row.direction);
+            velocity = velocity + outward(stride, pair, value, row.direction);
         }
         let mut change = stride.zero;
-        if extras {
+        if stride.extras {
             let coordinate = Coordinate { value, velocity, inv_mass };
             change = self.axis.solve::<L, BIAS>(stride, &soft, Give::rope(stride), coordinate);
             velocity = velocity + inv_mass * change;
@@ -105,7 +93,6 @@ impl JointKernel for DistanceBlock {
         let rod = -(stride.invert(inv_mass) * rigid * demand) - soft.impulse_scale * old;
         stride.store(old + rod, &mut self.rod.impulse);
         pair.apply_along(&row, change + rod);
-        pair.store(stride, rows, &self.frame);
         if !BIAS {
             stride.store2(row.direction, &mut self.length.now_x, &mut self.length.now_y);
         }

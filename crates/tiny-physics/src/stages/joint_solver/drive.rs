@@ -16,7 +16,6 @@ use crate::describe::{JointDef, JointKind, Spring};
 use crate::dynamics::DriveBlock;
 use crate::math::{DVec2, Pose, Vec2};
 use crate::simd::Lanes;
-use crate::threads::SharedRows;
 
 /// What a mouse joint drags loses its turning at this rate, 1/s: it hangs and swings, but not for long.
 const MOUSE_TURN_DAMPING: f32 = 2.0;
@@ -90,7 +89,7 @@ impl DriveBlock {
     ) -> [L; 2] {
         let soft = Soft::load::<true>(stride, &self.linear);
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
-        let (velocity, gap) = (pair.anchor_velocity(), pair.gap(stride, &self.frame));
+        let (velocity, gap) = (pair.anchor_velocity(), pair.gap);
         let demand = [soft.demand(velocity[0], gap[0]), soft.demand(velocity[1], gap[1])];
         let kept = sub(old, scale(old, soft.impulse_scale));
         let impulse = sub(kept, inverse.apply(demand));
@@ -177,8 +176,7 @@ impl JointKernel for DriveBlock {
     }
 
     #[inline(always)]
-    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, rows: SharedRows<'_>) {
-        let mut pair = Pair::load(stride, rows, &self.frame);
+    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let drive = &self.drive;
         let impulse = add(
             stride.load2(&self.point.impulse_x, &self.point.impulse_y),
@@ -186,27 +184,19 @@ impl JointKernel for DriveBlock {
         );
         let angular = stride.load(&self.twist.impulse) + stride.load(&drive.angular_impulse);
         pair.apply_at_anchors(impulse, angular);
-        pair.store(stride, rows, &self.frame);
     }
 
     #[inline(always)]
-    fn solve<L: Lanes, const BIAS: bool>(
-        &mut self,
-        stride: &Stride<L>,
-        rows: SharedRows<'_>,
-        _: bool,
-    ) {
-        let mut pair = Pair::load(stride, rows, &self.frame);
-        let angular = self.solve_angle::<L, BIAS>(stride, &pair);
+    fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
+        let angular = self.solve_angle::<L, BIAS>(stride, pair);
         pair.apply([stride.zero; 2], angular, angular);
         let inverse = pair.point_mass(stride);
         if BIAS {
-            let change = self.solve_spring(stride, &pair, &inverse);
+            let change = self.solve_spring(stride, pair, &inverse);
             pair.apply_at_anchors(change, stride.zero);
         }
-        let change = self.solve_velocity(stride, &pair, &inverse);
+        let change = self.solve_velocity(stride, pair, &inverse);
         pair.apply_at_anchors(change, stride.zero);
-        pair.store(stride, rows, &self.frame);
     }
 
     fn impulse(&self, lane: usize) -> (Vec2, f32) {

@@ -8,48 +8,36 @@
 //! The changes are summed up step by step, so any number of turns is coupled, however fast.
 
 use super::JointKernel;
-use super::parts::{Pair, Soft, Start, Stride, add, cross, dot, sub};
-use super::pulley::apply_each;
+use super::parts::{Pair, Sides, Soft, Stride, add, cross, dot, sub};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
 use crate::dynamics::{GearBlock, Slot};
-use crate::math::{Pose, Vec2};
+use crate::math::Vec2;
 use crate::simd::Lanes;
 use crate::threads::SharedRows;
 
-/// The Jacobian as it is now.
-struct Mesh<L> {
-    slide_a: [L; 2],
-    slide_b: [L; 2],
-    arm_a: L,
-    arm_b: L,
-}
-
 impl GearBlock {
     #[inline(always)]
-    fn mesh<L: Lanes>(&self, stride: &Stride<L>, pair: &Pair<L>) -> Mesh<L> {
+    fn mesh<L: Lanes>(&self, stride: &Stride<L>, pair: &Pair<L>) -> Sides<L> {
         let gear = &self.gear;
         let slide_a = stride.load2(&gear.slide_a_x, &gear.slide_a_y);
         let slide_b = stride.load2(&gear.slide_b_x, &gear.slide_b_y);
-        Mesh {
-            slide_a,
-            slide_b,
-            arm_a: cross(pair.anchor_a, slide_a) + stride.load(&gear.spin_a),
-            arm_b: cross(pair.anchor_b, slide_b) + stride.load(&gear.spin_b),
-        }
+        let arm_a = cross(pair.anchor_a, slide_a) + stride.load(&gear.spin_a);
+        let arm_b = cross(pair.anchor_b, slide_b) + stride.load(&gear.spin_b);
+        Sides { directions: [slide_a, slide_b], arms: [arm_a, arm_b] }
     }
 
     /// Error now: that of the step's start and what has come since.
     #[inline(always)]
-    fn error<L: Lanes>(&self, stride: &Stride<L>, pair: &Pair<L>, mesh: &Mesh<L>) -> L {
+    fn error<L: Lanes>(&self, stride: &Stride<L>, pair: &Pair<L>, mesh: &Sides<L>) -> L {
         let (a, b) = (&pair.a, &pair.b);
         let start_a = stride.load2(&self.frame.a_x, &self.frame.a_y);
         let start_b = stride.load2(&self.frame.b_x, &self.frame.b_y);
         let moved_a = add([a[Slot::DX], a[Slot::DY]], sub(pair.anchor_a, start_a));
         let moved_b = add([b[Slot::DX], b[Slot::DY]], sub(pair.anchor_b, start_b));
         stride.load(&self.gear.error)
-            + (dot(mesh.slide_a, moved_a) + stride.load(&self.gear.spin_a) * a[Slot::DA])
-            + (dot(mesh.slide_b, moved_b) + stride.load(&self.gear.spin_b) * b[Slot::DA])
+            + (dot(mesh.directions[0], moved_a) + stride.load(&self.gear.spin_a) * a[Slot::DA])
+            + (dot(mesh.directions[1], moved_b) + stride.load(&self.gear.spin_b) * b[Slot::DA])
     }
 }
 
@@ -67,44 +55,21 @@ impl JointKernel for GearBlock {
     }
 
     #[inline(always)]
-    fn prepare<L: Lanes>(&mut self, _: &Stride<L>, _: &Start<L>, _: &[Pose]) {}
-
-    #[inline(always)]
-    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, rows: SharedRows<'_>) {
-        let mut pair = Pair::load(stride, rows, &self.frame);
-        let Mesh { slide_a, slide_b, arm_a, arm_b } = self.mesh(stride, &pair);
-        let impulse = stride.load(&self.gear.impulse);
-        apply_each(&mut pair, [slide_a, slide_b], [arm_a, arm_b], impulse);
-        pair.store(stride, rows, &self.frame);
+    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
+        let mesh = self.mesh(stride, pair);
+        mesh.apply(pair, stride.load(&self.gear.impulse));
     }
 
     #[inline(always)]
-    fn solve<L: Lanes, const BIAS: bool>(
-        &mut self,
-        stride: &Stride<L>,
-        rows: SharedRows<'_>,
-        _: bool,
-    ) {
-        let mut pair = Pair::load(stride, rows, &self.frame);
+    fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let soft = Soft::load::<BIAS>(stride, &self.soft);
-        let mesh = self.mesh(stride, &pair);
-        let error = self.error(stride, &pair, &mesh);
-        let Mesh { slide_a, slide_b, arm_a, arm_b } = mesh;
-        let (a, b) = (&pair.a, &pair.b);
-        let velocity = dot(slide_a, [a[Slot::VX], a[Slot::VY]])
-            + dot(slide_b, [b[Slot::VX], b[Slot::VY]])
-            + arm_a * a[Slot::W]
-            + arm_b * b[Slot::W];
-        let inv_mass = a[Slot::INV_MASS] * dot(slide_a, slide_a)
-            + b[Slot::INV_MASS] * dot(slide_b, slide_b)
-            + a[Slot::INV_INERTIA] * arm_a * arm_a
-            + b[Slot::INV_INERTIA] * arm_b * arm_b;
+        let mesh = self.mesh(stride, pair);
+        let error = self.error(stride, pair, &mesh);
         let old = stride.load(&self.gear.impulse);
-        let demand = soft.demand(velocity, error);
-        let change = -(stride.invert(inv_mass) * demand) - soft.impulse_scale * old;
+        let demand = soft.demand(mesh.velocity(pair), error);
+        let change = -(stride.invert(mesh.inv_mass(pair)) * demand) - soft.impulse_scale * old;
         stride.store(old + change, &mut self.gear.impulse);
-        apply_each(&mut pair, [slide_a, slide_b], [arm_a, arm_b], change);
-        pair.store(stride, rows, &self.frame);
+        mesh.apply(pair, change);
     }
 
     #[inline(always)]

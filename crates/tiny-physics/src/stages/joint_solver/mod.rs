@@ -49,7 +49,7 @@ use crate::math::{Pose, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_baseline, dispatch_narrow};
 use crate::threads::SharedRows;
 pub(crate) use parts::Substep;
-use parts::{Start, Stride};
+use parts::{Pair, Start, Stride};
 use spring::Rates;
 
 /// One of the passes of a substep, or the last of the step.
@@ -67,20 +67,15 @@ trait JointKernel: JointLanes {
     /// Writes what follows from a joint's description. The anchors are there already.
     fn describe(&mut self, lane: usize, def: &JointDef, rates: &Rates);
     /// Writes what follows from the poses. The anchors are there already.
-    fn prepare<L: Lanes>(&mut self, stride: &Stride<L>, start: &Start<L>, poses: &[Pose]);
+    fn prepare<L: Lanes>(&mut self, _stride: &Stride<L>, _start: &Start<L>, _poses: &[Pose]) {}
     /// Applies the impulses of the substep before.
-    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, rows: SharedRows<'_>);
+    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>);
     /// Is the part used that joints of the class rarely have? Asked once a block and pass.
     fn has_extras(&self) -> bool {
         false
     }
     /// Corrects the velocities, with bias or (relax) without.
-    fn solve<L: Lanes, const BIAS: bool>(
-        &mut self,
-        stride: &Stride<L>,
-        rows: SharedRows<'_>,
-        extras: bool,
-    );
+    fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>);
     /// Takes the motion of the step over.
     fn finish<L: Lanes>(&mut self, _stride: &Stride<L>, _rows: SharedRows<'_>) {}
     /// Impulse and angular impulse on B in the last substep.
@@ -255,13 +250,18 @@ impl<B: JointKernel> LaneKernel for RunPass<'_, B> {
         for (index, block) in blocks.iter_mut().enumerate() {
             let extras = block.has_extras();
             for at in (0..BLOCK.min(count - index * BLOCK)).step_by(L::WIDTH) {
-                let stride = Stride::<L>::new(token, at, substep);
-                match pass {
-                    Pass::WarmStart => block.warm_start(&stride, rows),
-                    Pass::Solve => block.solve::<L, true>(&stride, rows, extras),
-                    Pass::Relax => block.solve::<L, false>(&stride, rows, extras),
-                    Pass::Finish => block.finish(&stride, rows),
+                let stride = Stride::<L> { extras, ..Stride::new(token, at, substep) };
+                if pass == Pass::Finish {
+                    block.finish(&stride, rows);
+                    continue;
                 }
+                let mut pair = Pair::load(&stride, rows, block.frame());
+                match pass {
+                    Pass::WarmStart => block.warm_start(&stride, &mut pair),
+                    Pass::Solve => block.solve::<L, true>(&stride, &mut pair),
+                    Pass::Relax | Pass::Finish => block.solve::<L, false>(&stride, &mut pair),
+                }
+                pair.store(&stride, rows, block.frame());
             }
         }
     }

@@ -40,6 +40,8 @@ pub(super) struct Stride<L: Lanes> {
     pub(super) snap_turn: L,
     /// Length unit, metres.
     pub(super) unit: L,
+    /// Is the part of the block used that joints of its class rarely have?
+    pub(super) extras: bool,
 }
 
 impl<L: Lanes> Stride<L> {
@@ -55,6 +57,7 @@ impl<L: Lanes> Stride<L> {
             snap: L::splat(token, SNAP * unit * inv_h),
             snap_turn: L::splat(token, SNAP * inv_h),
             unit: L::splat(token, unit),
+            extras: false,
         }
     }
 
@@ -323,6 +326,8 @@ pub(super) struct Pair<L: Lanes> {
     /// Anchors relative to the centres of mass, world axes.
     pub(super) anchor_a: [L; 2],
     pub(super) anchor_b: [L; 2],
+    /// From anchor A to anchor B.
+    pub(super) gap: [L; 2],
 }
 
 /// The lanes whose body something can move, as bits.
@@ -337,13 +342,12 @@ impl<L: Lanes> Pair<L> {
         let a = L::gather(stride.token, rows, &frame.body_a[stride.at..]);
         let b = L::gather(stride.token, rows, &frame.body_b[stride.at..]);
         let (turn_a, turn_b) = (turn(stride, a[Slot::DA]), turn(stride, b[Slot::DA]));
-        Self {
-            turn_a,
-            anchor_a: rotate(turn_a, stride.load2(&frame.a_x, &frame.a_y)),
-            anchor_b: rotate(turn_b, stride.load2(&frame.b_x, &frame.b_y)),
-            a,
-            b,
-        }
+        let anchor_a = rotate(turn_a, stride.load2(&frame.a_x, &frame.a_y));
+        let anchor_b = rotate(turn_b, stride.load2(&frame.b_x, &frame.b_y));
+        let between = stride.load2(&frame.between_x, &frame.between_y);
+        let moved = [b[Slot::DX] - a[Slot::DX], b[Slot::DY] - a[Slot::DY]];
+        let gap = add(add(between, moved), sub(anchor_b, anchor_a));
+        Self { turn_a, anchor_a, anchor_b, gap, a, b }
     }
 
     /// Writes the velocities back, except to bodies that nothing moves.
@@ -365,14 +369,6 @@ impl<L: Lanes> Pair<L> {
     #[inline(always)]
     pub(super) fn inv_inertia(&self) -> L {
         self.a[Slot::INV_INERTIA] + self.b[Slot::INV_INERTIA]
-    }
-
-    /// From anchor A to anchor B.
-    #[inline(always)]
-    pub(super) fn gap(&self, stride: &Stride<L>, frame: &FrameLanes) -> [L; 2] {
-        let between = stride.load2(&frame.between_x, &frame.between_y);
-        let moved = [self.b[Slot::DX] - self.a[Slot::DX], self.b[Slot::DY] - self.a[Slot::DY]];
-        add(add(between, moved), sub(self.anchor_b, self.anchor_a))
     }
 
     /// Turn of B against A since the start of the step.
@@ -499,10 +495,10 @@ impl<L: Lanes> Pair<L> {
 
     /// The Jacobian of the gap along a direction that turns with A.
     #[inline(always)]
-    pub(super) fn row_on_a(&self, direction: [L; 2], gap: [L; 2]) -> Row<L> {
+    pub(super) fn row_on_a(&self, direction: [L; 2]) -> Row<L> {
         Row {
             direction,
-            arm_a: cross(add(gap, self.anchor_a), direction),
+            arm_a: cross(add(self.gap, self.anchor_a), direction),
             arm_b: cross(self.anchor_b, direction),
         }
     }
@@ -513,6 +509,44 @@ pub(super) struct Row<L> {
     pub(super) direction: [L; 2],
     pub(super) arm_a: L,
     pub(super) arm_b: L,
+}
+
+/// The Jacobian of a joint that moves each body along a direction of its own.
+pub(super) struct Sides<L> {
+    /// Linear parts on A and B.
+    pub(super) directions: [[L; 2]; 2],
+    /// Angular parts.
+    pub(super) arms: [L; 2],
+}
+
+impl<L: Lanes> Sides<L> {
+    #[inline(always)]
+    pub(super) fn velocity(&self, pair: &Pair<L>) -> L {
+        let (a, b) = (&pair.a, &pair.b);
+        dot(self.directions[0], [a[Slot::VX], a[Slot::VY]])
+            + dot(self.directions[1], [b[Slot::VX], b[Slot::VY]])
+            + self.arms[0] * a[Slot::W]
+            + self.arms[1] * b[Slot::W]
+    }
+
+    #[inline(always)]
+    pub(super) fn inv_mass(&self, pair: &Pair<L>) -> L {
+        let (a, b) = (&pair.a, &pair.b);
+        a[Slot::INV_MASS] * dot(self.directions[0], self.directions[0])
+            + b[Slot::INV_MASS] * dot(self.directions[1], self.directions[1])
+            + a[Slot::INV_INERTIA] * self.arms[0] * self.arms[0]
+            + b[Slot::INV_INERTIA] * self.arms[1] * self.arms[1]
+    }
+
+    #[inline(always)]
+    pub(super) fn apply(&self, pair: &mut Pair<L>, impulse: L) {
+        for (side, body) in [&mut pair.a, &mut pair.b].into_iter().enumerate() {
+            let linear = body[Slot::INV_MASS] * impulse;
+            body[Slot::VX] = body[Slot::VX] + self.directions[side][0] * linear;
+            body[Slot::VY] = body[Slot::VY] + self.directions[side][1] * linear;
+            body[Slot::W] = body[Slot::W] + body[Slot::INV_INERTIA] * (self.arms[side] * impulse);
+        }
+    }
 }
 
 /// A symmetric 2 x 2 matrix.

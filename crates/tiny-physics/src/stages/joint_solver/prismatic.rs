@@ -20,7 +20,6 @@ use crate::describe::{JointDef, JointKind};
 use crate::dynamics::{DirectionLanes, PrismaticBlock, Slot};
 use crate::math::{Pose, Rot, Vec2};
 use crate::simd::Lanes;
-use crate::threads::SharedRows;
 
 /// Writes a description's direction.
 pub(super) fn describe_direction(lanes: &mut DirectionLanes, lane: usize, def: &JointDef) {
@@ -48,8 +47,8 @@ struct Rows<L> {
 
 impl<L: Lanes> Rows<L> {
     #[inline(always)]
-    fn new(pair: &Pair<L>, direction: [L; 2], gap: [L; 2]) -> Self {
-        Self { along: pair.row_on_a(direction, gap), across: pair.row_on_a(perp(direction), gap) }
+    fn new(pair: &Pair<L>, direction: [L; 2]) -> Self {
+        Self { along: pair.row_on_a(direction), across: pair.row_on_a(perp(direction)) }
     }
 
     /// Applies impulses along, across, and angular.
@@ -99,13 +98,11 @@ impl JointKernel for PrismaticBlock {
     }
 
     #[inline(always)]
-    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, rows: SharedRows<'_>) {
-        let mut pair = Pair::load(stride, rows, &self.frame);
+    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let direction = pair.direction(stride, &self.direction);
-        let jacobians = Rows::new(&pair, direction, pair.gap(stride, &self.frame));
+        let jacobians = Rows::new(pair, direction);
         let rigid = stride.load2(&self.rigid.impulse_x, &self.rigid.impulse_y);
-        jacobians.apply(&mut pair, self.axis.total(stride), rigid);
-        pair.store(stride, rows, &self.frame);
+        jacobians.apply(pair, self.axis.total(stride), rigid);
     }
 
     #[inline(always)]
@@ -114,36 +111,29 @@ impl JointKernel for PrismaticBlock {
     }
 
     #[inline(always)]
-    fn solve<L: Lanes, const BIAS: bool>(
-        &mut self,
-        stride: &Stride<L>,
-        rows: SharedRows<'_>,
-        extras: bool,
-    ) {
-        let mut pair = Pair::load(stride, rows, &self.frame);
+    fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let soft = Soft::load::<BIAS>(stride, &self.soft);
         let direction = pair.direction(stride, &self.direction);
-        let gap = pair.gap(stride, &self.frame);
-        let jacobians = Rows::new(&pair, direction, gap);
+        let jacobians = Rows::new(pair, direction);
         let old = stride.load2(&self.rigid.impulse_x, &self.rigid.impulse_y);
-        let inverse = jacobians.rigid_mass(stride, &pair);
+        let inverse = jacobians.rigid_mass(stride, pair);
         let velocity = [pair.velocity_along(&jacobians.across), pair.spin()];
         let angle = stride.load(&self.angle.start) + pair.turned();
         let demand = [
-            soft.hold(stride, velocity[0], dot(gap, jacobians.across.direction), stride.snap),
+            soft.hold(stride, velocity[0], dot(pair.gap, jacobians.across.direction), stride.snap),
             soft.hold(stride, velocity[1], angle, stride.snap_turn),
         ];
         let mut change = scale(inverse.apply(demand), -stride.one);
         let mut along = stride.zero;
-        if extras {
-            let coupling = jacobians.coupling(&pair);
+        if stride.extras {
+            let coupling = jacobians.coupling(pair);
             let per_along = inverse.apply(coupling);
             let free = pair.inv_mass_along(&jacobians.along);
             let least = free * stride.splat(LEAST_COMPLEMENT);
             let carried = add(old, scale(per_along, self.axis.total(stride)));
             let alone = sub(change, scale(carried, soft.impulse_scale));
             let coordinate = Coordinate {
-                value: dot(gap, direction),
+                value: dot(pair.gap, direction),
                 velocity: pair.velocity_along(&jacobians.along) + dot(coupling, alone),
                 inv_mass: (free - dot(coupling, per_along)).max(least),
             };
@@ -154,8 +144,7 @@ impl JointKernel for PrismaticBlock {
         }
         let impulse = add(old, change);
         stride.store2(impulse, &mut self.rigid.impulse_x, &mut self.rigid.impulse_y);
-        jacobians.apply(&mut pair, along, change);
-        pair.store(stride, rows, &self.frame);
+        jacobians.apply(pair, along, change);
         if !BIAS {
             stride.store2(direction, &mut self.direction.now_x, &mut self.direction.now_y);
         }

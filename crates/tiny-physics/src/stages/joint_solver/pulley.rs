@@ -8,22 +8,19 @@
 use super::JointKernel;
 use super::axis::{Give, solve_limit};
 use super::distance::length_and_direction;
-use super::parts::{Pair, Soft, Start, Stride, add, cross, dot, scale};
+use super::parts::{Pair, Sides, Soft, Start, Stride, add, cross, scale};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
 use crate::dynamics::{PulleyBlock, Slot};
 use crate::math::{DVec2, Pose, Vec2};
 use crate::simd::Lanes;
-use crate::threads::SharedRows;
 
-/// The rope as it is now: room, and what a unit of tension does to A and B.
+/// The rope as it is now.
 struct Rope<L> {
     room: L,
-    pull_a: [L; 2],
-    pull_b: [L; 2],
+    /// What a unit of tension does to A and B.
+    pull: Sides<L>,
     direction_b: [L; 2],
-    arm_a: L,
-    arm_b: L,
 }
 
 /// Length and direction from a fixed point to an anchor.
@@ -47,60 +44,13 @@ impl PulleyBlock {
             from_ground(stride, &pair.b, stride.load2(&rope.arm_b_x, &rope.arm_b_y), pair.anchor_b);
         let ratio = stride.load(&rope.ratio);
         let (pull_a, pull_b) = (scale(ua, -stride.one), scale(ub, -ratio));
+        let arms = [cross(pair.anchor_a, pull_a), cross(pair.anchor_b, pull_b)];
         Rope {
             room: stride.load(&rope.length) - length_a - ratio * length_b,
-            pull_a,
-            pull_b,
+            pull: Sides { directions: [pull_a, pull_b], arms },
             direction_b: ub,
-            arm_a: cross(pair.anchor_a, pull_a),
-            arm_b: cross(pair.anchor_b, pull_b),
         }
     }
-}
-
-impl<L: Lanes> Rope<L> {
-    #[inline(always)]
-    fn velocity(&self, pair: &Pair<L>) -> L {
-        let (a, b) = (&pair.a, &pair.b);
-        dot(self.pull_a, [a[Slot::VX], a[Slot::VY]])
-            + dot(self.pull_b, [b[Slot::VX], b[Slot::VY]])
-            + self.arm_a * a[Slot::W]
-            + self.arm_b * b[Slot::W]
-    }
-
-    #[inline(always)]
-    fn inv_mass(&self, pair: &Pair<L>) -> L {
-        let (a, b) = (&pair.a, &pair.b);
-        a[Slot::INV_MASS] * dot(self.pull_a, self.pull_a)
-            + b[Slot::INV_MASS] * dot(self.pull_b, self.pull_b)
-            + a[Slot::INV_INERTIA] * self.arm_a * self.arm_a
-            + b[Slot::INV_INERTIA] * self.arm_b * self.arm_b
-    }
-
-    #[inline(always)]
-    fn apply(&self, pair: &mut Pair<L>, tension: L) {
-        apply_each(pair, [self.pull_a, self.pull_b], [self.arm_a, self.arm_b], tension);
-    }
-}
-
-/// Applies an impulse times directions and lever arms that each body has for itself.
-#[inline(always)]
-pub(super) fn apply_each<L: Lanes>(
-    pair: &mut Pair<L>,
-    directions: [[L; 2]; 2],
-    arms: [L; 2],
-    impulse: L,
-) {
-    apply_to(&mut pair.a, directions[0], arms[0], impulse);
-    apply_to(&mut pair.b, directions[1], arms[1], impulse);
-}
-
-#[inline(always)]
-fn apply_to<L: Lanes>(body: &mut [L; 8], direction: [L; 2], arm: L, impulse: L) {
-    let linear = body[Slot::INV_MASS] * impulse;
-    body[Slot::VX] = body[Slot::VX] + direction[0] * linear;
-    body[Slot::VY] = body[Slot::VY] + direction[1] * linear;
-    body[Slot::W] = body[Slot::W] + body[Slot::INV_INERTIA] * (arm * impulse);
 }
 
 impl JointKernel for PulleyBlock {
@@ -128,26 +78,18 @@ impl JointKernel for PulleyBlock {
     }
 
     #[inline(always)]
-    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, rows: SharedRows<'_>) {
-        let mut pair = Pair::load(stride, rows, &self.frame);
-        let rope = self.rope(stride, &pair);
-        rope.apply(&mut pair, stride.load(&self.rod.impulse));
-        pair.store(stride, rows, &self.frame);
+    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
+        let rope = self.rope(stride, pair);
+        rope.pull.apply(pair, stride.load(&self.rod.impulse));
     }
 
     #[inline(always)]
-    fn solve<L: Lanes, const BIAS: bool>(
-        &mut self,
-        stride: &Stride<L>,
-        rows: SharedRows<'_>,
-        _: bool,
-    ) {
-        let mut pair = Pair::load(stride, rows, &self.frame);
+    fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let soft = Soft::load::<BIAS>(stride, &self.soft);
-        let rope = self.rope(stride, &pair);
-        let inv_mass = rope.inv_mass(&pair);
+        let rope = self.rope(stride, pair);
+        let inv_mass = rope.pull.inv_mass(pair);
         let mass = stride.invert(inv_mass);
-        let velocity = rope.velocity(&pair);
+        let velocity = rope.pull.velocity(pair);
         let tension = &mut self.rod.impulse;
         let change = solve_limit::<L, BIAS>(
             stride,
@@ -157,8 +99,7 @@ impl JointKernel for PulleyBlock {
             rope.room,
             [velocity, mass, inv_mass],
         );
-        rope.apply(&mut pair, change);
-        pair.store(stride, rows, &self.frame);
+        rope.pull.apply(pair, change);
         if !BIAS {
             stride.store2(rope.direction_b, &mut self.rope.now_x, &mut self.rope.now_y);
         }

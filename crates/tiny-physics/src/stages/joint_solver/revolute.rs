@@ -21,7 +21,6 @@ use crate::describe::{JointDef, JointKind, Limits};
 use crate::dynamics::{AngleLanes, RevoluteBlock};
 use crate::math::{Pose, Rot, Vec2};
 use crate::simd::Lanes;
-use crate::threads::SharedRows;
 
 /// Writes what a description adds to the angle.
 pub(super) fn describe_angle(angle: &mut AngleLanes, lane: usize, def: &JointDef) {
@@ -92,11 +91,9 @@ impl JointKernel for RevoluteBlock {
     }
 
     #[inline(always)]
-    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, rows: SharedRows<'_>) {
-        let mut pair = Pair::load(stride, rows, &self.frame);
+    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let impulse = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         pair.apply_at_anchors(impulse, self.axis.total(stride));
-        pair.store(stride, rows, &self.frame);
     }
 
     #[inline(always)]
@@ -105,25 +102,15 @@ impl JointKernel for RevoluteBlock {
     }
 
     #[inline(always)]
-    fn solve<L: Lanes, const BIAS: bool>(
-        &mut self,
-        stride: &Stride<L>,
-        rows: SharedRows<'_>,
-        extras: bool,
-    ) {
-        let mut pair = Pair::load(stride, rows, &self.frame);
+    fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let soft = Soft::load::<BIAS>(stride, &self.soft);
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         let inverse = pair.point_mass(stride);
-        let demand = soft.hold2(
-            stride,
-            pair.anchor_velocity_in::<BIAS>(stride),
-            pair.gap(stride, &self.frame),
-        );
+        let demand = soft.hold2(stride, pair.anchor_velocity_in::<BIAS>(stride), pair.gap);
         let mut change = scale(inverse.apply(demand), -stride.one);
         let mut angular = stride.zero;
-        if extras {
-            let tie = Tie::new(stride, &pair, &inverse, stride.one);
+        if stride.extras {
+            let tie = Tie::new(stride, pair, &inverse, stride.one);
             let carried = add(old, scale(tie.per_angular, self.axis.total(stride)));
             let alone = sub(change, scale(carried, soft.impulse_scale));
             let coordinate = Coordinate {
@@ -139,7 +126,6 @@ impl JointKernel for RevoluteBlock {
         let impulse = add(old, change);
         stride.store2(impulse, &mut self.point.impulse_x, &mut self.point.impulse_y);
         pair.apply_at_anchors(change, angular);
-        pair.store(stride, rows, &self.frame);
     }
 
     fn impulse(&self, lane: usize) -> (Vec2, f32) {

@@ -15,7 +15,6 @@ use crate::describe::{JointDef, JointKind};
 use crate::dynamics::WeldBlock;
 use crate::math::{Pose, Vec2};
 use crate::simd::Lanes;
-use crate::threads::SharedRows;
 
 impl JointKernel for WeldBlock {
     fn describe(&mut self, lane: usize, def: &JointDef, rates: &Rates) {
@@ -32,33 +31,21 @@ impl JointKernel for WeldBlock {
     }
 
     #[inline(always)]
-    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, rows: SharedRows<'_>) {
-        let mut pair = Pair::load(stride, rows, &self.frame);
+    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let impulse = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         pair.apply_at_anchors(impulse, stride.load(&self.twist.impulse));
-        pair.store(stride, rows, &self.frame);
     }
 
     #[inline(always)]
-    fn solve<L: Lanes, const BIAS: bool>(
-        &mut self,
-        stride: &Stride<L>,
-        rows: SharedRows<'_>,
-        _: bool,
-    ) {
-        let mut pair = Pair::load(stride, rows, &self.frame);
+    fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let linear = Soft::load::<BIAS>(stride, &self.linear);
         let angular = Soft::load::<BIAS>(stride, &self.angular);
         let inverse = pair.point_mass(stride);
 
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
-        let demand = linear.hold2(
-            stride,
-            pair.anchor_velocity_in::<BIAS>(stride),
-            pair.gap(stride, &self.frame),
-        );
+        let demand = linear.hold2(stride, pair.anchor_velocity_in::<BIAS>(stride), pair.gap);
         let alone = scale(inverse.apply(demand), -stride.one);
-        let tie = Tie::new(stride, &pair, &inverse, stride.load(&self.linear.rigid));
+        let tie = Tie::new(stride, pair, &inverse, stride.load(&self.linear.rigid));
 
         let old_twist = stride.load(&self.twist.impulse);
         let angle = stride.load(&self.angle.start) + pair.turned();
@@ -76,7 +63,6 @@ impl JointKernel for WeldBlock {
         stride.store2(impulse, &mut self.point.impulse_x, &mut self.point.impulse_y);
         stride.store(old_twist + twist, &mut self.twist.impulse);
         pair.apply_at_anchors(change, twist);
-        pair.store(stride, rows, &self.frame);
     }
 
     fn impulse(&self, lane: usize) -> (Vec2, f32) {

@@ -12,7 +12,6 @@ use crate::describe::{JointDef, JointKind};
 use crate::dynamics::{Slot, WheelBlock};
 use crate::math::{Pose, Vec2};
 use crate::simd::Lanes;
-use crate::threads::SharedRows;
 
 /// Applies impulses along and across the line, and angular.
 #[inline(always)]
@@ -53,15 +52,12 @@ impl JointKernel for WheelBlock {
     }
 
     #[inline(always)]
-    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, rows: SharedRows<'_>) {
-        let mut pair = Pair::load(stride, rows, &self.frame);
+    fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let direction = pair.direction(stride, &self.direction);
-        let gap = pair.gap(stride, &self.frame);
-        let along = pair.row_on_a(direction, gap);
-        let across = pair.row_on_a(perp(direction), gap);
+        let along = pair.row_on_a(direction);
+        let across = pair.row_on_a(perp(direction));
         let impulses = [self.axis.total(stride), stride.load(&self.rod.impulse)];
-        apply(&mut pair, [&along, &across], impulses, stride.load(&self.motor.impulse));
-        pair.store(stride, rows, &self.frame);
+        apply(pair, [&along, &across], impulses, stride.load(&self.motor.impulse));
     }
 
     #[inline(always)]
@@ -70,32 +66,25 @@ impl JointKernel for WheelBlock {
     }
 
     #[inline(always)]
-    fn solve<L: Lanes, const BIAS: bool>(
-        &mut self,
-        stride: &Stride<L>,
-        rows: SharedRows<'_>,
-        extras: bool,
-    ) {
-        let mut pair = Pair::load(stride, rows, &self.frame);
-        let motor = self.solve_motor(stride, &pair);
+    fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
+        let motor = self.solve_motor(stride, pair);
         pair.apply([stride.zero; 2], motor, motor);
 
         let soft = Soft::load::<BIAS>(stride, &self.soft);
         let direction = pair.direction(stride, &self.direction);
-        let gap = pair.gap(stride, &self.frame);
-        let across = pair.row_on_a(perp(direction), gap);
-        let along = pair.row_on_a(direction, gap);
+        let across = pair.row_on_a(perp(direction));
+        let along = pair.row_on_a(direction);
         let old = stride.load(&self.rod.impulse);
         let mass = stride.invert(pair.inv_mass_along(&across));
         let demand = soft.hold(
             stride,
             pair.velocity_along(&across),
-            dot(gap, across.direction),
+            dot(pair.gap, across.direction),
             stride.snap,
         );
         let mut change = -(mass * demand);
         let mut slide = stride.zero;
-        if extras {
+        if stride.extras {
             let coupling = pair.a[Slot::INV_INERTIA] * along.arm_a * across.arm_a
                 + pair.b[Slot::INV_INERTIA] * along.arm_b * across.arm_b;
             let per_slide = mass * coupling;
@@ -104,7 +93,7 @@ impl JointKernel for WheelBlock {
             let carried = old + per_slide * self.axis.total(stride);
             change = change - soft.impulse_scale * carried;
             let coordinate = Coordinate {
-                value: dot(gap, direction),
+                value: dot(pair.gap, direction),
                 velocity: pair.velocity_along(&along) + coupling * change,
                 inv_mass: (free - coupling * per_slide).max(least),
             };
@@ -114,8 +103,7 @@ impl JointKernel for WheelBlock {
             change = change - soft.impulse_scale * old;
         }
         stride.store(old + change, &mut self.rod.impulse);
-        apply(&mut pair, [&along, &across], [slide, change], stride.zero);
-        pair.store(stride, rows, &self.frame);
+        apply(pair, [&along, &across], [slide, change], stride.zero);
         if !BIAS {
             stride.store2(direction, &mut self.direction.now_x, &mut self.direction.now_y);
         }

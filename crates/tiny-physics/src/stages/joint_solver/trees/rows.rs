@@ -6,6 +6,7 @@ use super::factor::{dot3, invert};
 use crate::dynamics::{
     AngleLanes, AxisLanes, DirectionLanes, FrameLanes, JOINTED, JointClass, JointColour,
     JointPlace, JointTree, Joints, NULL, Slot, TreeAxis, TreeLink, TreeNode, TreeRow, UNLIMITED,
+    joint_classes, with_bucket,
 };
 use crate::math::Rot;
 use crate::simd::{BLOCK, Simd, Three, add_times, times};
@@ -36,63 +37,48 @@ pub(super) fn prepare(tree: &mut JointTree, lanes: &JointColour, joints: &Joints
 
 fn read(link: &mut TreeLink, axes: &mut Vec<TreeAxis>, lanes: &JointColour) {
     let (at, lane) = (link.slot as usize / BLOCK, link.slot as usize % BLOCK);
+    let saved = with_bucket!(ref lanes, link.class, bucket => {
+        read_frame(link, &bucket.blocks[at].frame, lane);
+        bucket.saved(link.slot)
+    });
+    link.rigid = match link.class {
+        JointClass::Distance | JointClass::Wheel | JointClass::Gear => 1,
+        JointClass::Weld => 3,
+        _ => 2,
+    };
     link.impulses = [0.0; 4];
+    for (impulse, saved) in link.impulses[..link.rigid].iter_mut().zip(saved) {
+        *impulse = f64::from(saved);
+    }
     match link.class {
         JointClass::Distance => {
-            let block = &lanes.distance.blocks[at];
-            read_frame(link, &block.frame, lane);
-            link.length = f64::from(block.length.length[lane]);
-            link.impulses[0] = f64::from(block.rod.impulse[lane]);
-            link.rigid = 1;
+            link.length = f64::from(lanes.distance.blocks[at].length.length[lane]);
         }
         JointClass::Prismatic => {
             let block = &lanes.prismatic.blocks[at];
-            read_frame(link, &block.frame, lane);
             read_angle(link, &block.angle, lane);
             read_direction(link, &block.direction, lane);
             read_axis(link, axes, &block.axis, lane);
-            link.impulses[0] = f64::from(block.rigid.impulse_x[lane]);
-            link.impulses[1] = f64::from(block.rigid.impulse_y[lane]);
-            link.rigid = 2;
         }
-        JointClass::Weld => {
-            let block = &lanes.weld.blocks[at];
-            read_frame(link, &block.frame, lane);
-            read_angle(link, &block.angle, lane);
-            link.impulses[0] = f64::from(block.point.impulse_x[lane]);
-            link.impulses[1] = f64::from(block.point.impulse_y[lane]);
-            link.impulses[2] = f64::from(block.twist.impulse[lane]);
-            link.rigid = 3;
-        }
+        JointClass::Weld => read_angle(link, &lanes.weld.blocks[at].angle, lane),
         JointClass::Wheel => {
             let block = &lanes.wheel.blocks[at];
-            read_frame(link, &block.frame, lane);
             read_direction(link, &block.direction, lane);
             read_axis(link, axes, &block.axis, lane);
-            link.impulses[0] = f64::from(block.rod.impulse[lane]);
             let motor = &block.motor;
             link.motor = [motor.speed[lane], motor.max[lane], motor.impulse[lane]];
-            link.rigid = 1;
         }
         JointClass::Gear => {
-            let block = &lanes.gear.blocks[at];
-            read_frame(link, &block.frame, lane);
-            let gear = &block.gear;
+            let gear = &lanes.gear.blocks[at].gear;
             let a = [gear.slide_a_x[lane], gear.slide_a_y[lane], gear.spin_a[lane]];
             let b = [gear.slide_b_x[lane], gear.slide_b_y[lane], gear.spin_b[lane]];
             link.mesh = [a.map(f64::from), b.map(f64::from)];
             link.angle = f64::from(gear.error[lane]);
-            link.impulses[0] = f64::from(gear.impulse[lane]);
-            link.rigid = 1;
         }
         _ => {
             let block = &lanes.revolute.blocks[at];
-            read_frame(link, &block.frame, lane);
             read_angle(link, &block.angle, lane);
             read_axis(link, axes, &block.axis, lane);
-            link.impulses[0] = f64::from(block.point.impulse_x[lane]);
-            link.impulses[1] = f64::from(block.point.impulse_y[lane]);
-            link.rigid = 2;
         }
     }
 }
@@ -132,65 +118,47 @@ fn read_axis(link: &mut TreeLink, axes: &mut Vec<TreeAxis>, axis: &AxisLanes, la
     });
 }
 
-fn write_axis(target: &mut AxisLanes, lane: usize, axis: Option<&TreeAxis>) {
-    let Some(axis) = axis else { return };
-    target.spring[lane] = axis.spring as f32;
-    target.motor[lane] = axis.motor as f32;
-    target.lower_impulse[lane] = axis.limit[0] as f32;
-    target.upper_impulse[lane] = axis.limit[1] as f32;
-}
-
 /// Gives the impulses, and the directions in which they act, back to the lanes.
 pub(super) fn finish(tree: &JointTree, lanes: &mut JointColour) {
     for link in &tree.links {
-        let (at, lane) = (link.slot as usize / BLOCK, link.slot as usize % BLOCK);
-        let impulses = link.impulses.map(|impulse| impulse as f32);
-        let axis = tree.axes.get(link.axis as usize);
-        let dir = [0, 1].map(|k: usize| link.jacobians[1].rows[0][k] as f32);
-        match link.class {
-            JointClass::Distance => {
-                let block = &mut lanes.distance.blocks[at];
-                block.rod.impulse[lane] = impulses[0];
-                (block.length.now_x[lane], block.length.now_y[lane]) = (dir[0], dir[1]);
-            }
-            JointClass::Prismatic => {
-                let block = &mut lanes.prismatic.blocks[at];
-                write_axis(&mut block.axis, lane, axis);
-                block.rigid.impulse_x[lane] = impulses[0];
-                block.rigid.impulse_y[lane] = impulses[1];
-                write_direction(&mut block.direction, lane, dir);
-            }
-            JointClass::Weld => {
-                let block = &mut lanes.weld.blocks[at];
-                block.point.impulse_x[lane] = impulses[0];
-                block.point.impulse_y[lane] = impulses[1];
-                block.twist.impulse[lane] = impulses[2];
-            }
-            JointClass::Wheel => {
-                let block = &mut lanes.wheel.blocks[at];
-                write_axis(&mut block.axis, lane, axis);
-                block.rod.impulse[lane] = impulses[0];
-                block.motor.impulse[lane] = link.motor[2];
-                write_direction(&mut block.direction, lane, dir);
-            }
-            JointClass::Gear => {
-                let gear = &mut lanes.gear.blocks[at].gear;
-                gear.impulse[lane] = impulses[0];
-                gear.error[lane] = link.error[0] as f32;
-            }
-            _ => {
-                let block = &mut lanes.revolute.blocks[at];
-                write_axis(&mut block.axis, lane, axis);
-                block.point.impulse_x[lane] = impulses[0];
-                block.point.impulse_y[lane] = impulses[1];
-            }
+        let mut saved = with_bucket!(ref lanes, link.class, bucket => bucket.saved(link.slot));
+        for (saved, impulse) in saved.iter_mut().zip(&link.impulses[..link.rigid]) {
+            *saved = *impulse as f32;
         }
+        let mut rest = link.rigid;
+        match link.class {
+            JointClass::Wheel => {
+                saved[rest] = link.motor[2];
+                rest += 1;
+            }
+            JointClass::Gear => saved[rest] = link.error[0] as f32,
+            _ => {}
+        }
+        if let Some(axis) = tree.axes.get(link.axis as usize) {
+            let impulses = [axis.spring, axis.motor, axis.limit[0], axis.limit[1]];
+            saved[rest..rest + 4].copy_from_slice(&impulses.map(|impulse| impulse as f32));
+        }
+        with_bucket!(mut lanes, link.class, bucket => bucket.restore(link.slot, &saved));
+        write_direction(link, lanes);
     }
 }
 
-/// The rigid row is across the direction.
-fn write_direction(direction: &mut DirectionLanes, lane: usize, across: [f32; 2]) {
-    (direction.now_x[lane], direction.now_y[lane]) = (across[1], -across[0]);
+/// The direction that a joint's load is told along.
+fn write_direction(link: &TreeLink, lanes: &mut JointColour) {
+    let (at, lane) = (link.slot as usize / BLOCK, link.slot as usize % BLOCK);
+    let [x, y] = [0, 1].map(|k: usize| link.jacobians[1].rows[0][k] as f32);
+    let direction = match link.class {
+        JointClass::Distance => {
+            let length = &mut lanes.distance.blocks[at].length;
+            (length.now_x[lane], length.now_y[lane]) = (x, y);
+            return;
+        }
+        JointClass::Prismatic => &mut lanes.prismatic.blocks[at].direction,
+        JointClass::Wheel => &mut lanes.wheel.blocks[at].direction,
+        _ => return,
+    };
+    // Their first row is that across.
+    (direction.now_x[lane], direction.now_y[lane]) = (y, -x);
 }
 
 /// Gathers the velocities of a tree's bodies.
