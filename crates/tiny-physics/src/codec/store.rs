@@ -92,7 +92,8 @@ macro_rules! store {
     };
 }
 
-/// Declares a record: a struct with [`Data`], whose fields may be `as apart` (see [`field!`]).
+/// Declares a record: a struct with [`Data`], whose fields may be `as apart` (see [`field!`]). With values behind
+/// them it has `Default`.
 macro_rules! record {
     (
         $(#[$meta:meta])*
@@ -112,6 +113,25 @@ macro_rules! record {
             }
             fn load(reader: &mut $crate::codec::Reader<'_>) -> Result<Self, $crate::error::Error> {
                 Ok(Self { $($field: $crate::codec::field!(load reader $($mode)?),)* })
+            }
+        }
+    };
+    (
+        $(#[$meta:meta])*
+        $vis:vis struct $name:ident {
+            $($(#[$field_meta:meta])* $field_vis:vis $field:ident: $type:ty $(as $mode:ident)? = $default:expr),* $(,)?
+        }
+    ) => {
+        $crate::codec::record! {
+            $(#[$meta])*
+            $vis struct $name {
+                $($(#[$field_meta])* $field_vis $field: $type $(as $mode)?),*
+            }
+        }
+
+        impl Default for $name {
+            fn default() -> Self {
+                Self { $($field: $default),* }
             }
         }
     };

@@ -94,7 +94,7 @@ mod tests {
 
     /// So many bodies, none awake.
     fn bodies(count: u32) -> Bodies {
-        let mut bodies = Bodies::new();
+        let mut bodies = Bodies::default();
         (0..count).for_each(|_| _ = bodies.insert(BodyInfo::default(), Pose::default()));
         bodies
     }

@@ -40,51 +40,51 @@ record! {
     #[derive(Clone, Copy, PartialEq, Debug)]
     #[repr(C, align(64))]
     pub(crate) struct BodyInfo {
-        pub(crate) kind: BodyKind,
-        pub(crate) alive: bool,
-        pub(crate) enabled: bool,
-        pub(crate) awake: bool,
-        pub(crate) bullet: bool,
-        pub(crate) can_sleep: bool,
+        pub(crate) kind: BodyKind = BodyKind::Static,
+        pub(crate) alive: bool = false,
+        pub(crate) enabled: bool = true,
+        pub(crate) awake: bool = false,
+        pub(crate) bullet: bool = false,
+        pub(crate) can_sleep: bool = true,
         /// Some shape of the body turns with nothing: rotation is locked for good.
-        pub(crate) never_turns: bool,
+        pub(crate) never_turns: bool = false,
         /// How finely its island is solved, see [`pace`](super::pace).
-        pub(crate) pace: u8,
-        pub(crate) locks: Locks,
-        pub(crate) force: Vec2,
-        pub(crate) torque: f32,
-        pub(crate) gravity_scale: f32,
-        pub(crate) linear_damping: f32,
-        pub(crate) angular_damping: f32,
+        pub(crate) pace: u8 = PLAIN as u8,
+        pub(crate) locks: Locks = Locks::default(),
+        pub(crate) force: Vec2 = Vec2::ZERO,
+        pub(crate) torque: f32 = 0.0,
+        pub(crate) gravity_scale: f32 = 1.0,
+        pub(crate) linear_damping: f32 = 0.0,
+        pub(crate) angular_damping: f32 = 0.0,
         /// Seconds below the sleep speed.
-        pub(crate) sleep_time: f32,
-        pub(crate) sleep_speed: f32,
+        pub(crate) sleep_time: f32 = 0.0,
+        pub(crate) sleep_speed: f32 = 0.05,
         /// Smallest half width of a shape: how far it may move before it could jump over something.
-        pub(crate) min_extent: f32,
+        pub(crate) min_extent: f32 = 0.0,
         /// Greatest distance of a point of a shape from the centre of mass.
-        pub(crate) max_extent: f32,
-        pub(crate) first_shape: u32,
+        pub(crate) max_extent: f32 = 0.0,
+        pub(crate) first_shape: u32 = NULL,
         /// First joint edge: joint index * 2 + side.
-        pub(crate) first_joint: u32,
+        pub(crate) first_joint: u32 = NULL,
         /// Centre of mass in the body's frame.
-        pub(crate) local_center: Vec2,
-        pub(crate) mass: f32,
-        pub(crate) inertia: f32,
+        pub(crate) local_center: Vec2 = Vec2::ZERO,
+        pub(crate) mass: f32 = 0.0,
+        pub(crate) inertia: f32 = 0.0,
         /// Mass given by the user, if any.
-        pub(crate) fixed_mass: Given,
-        pub(crate) fixed_center: Option<Vec2>,
-        pub(crate) fixed_inertia: Given,
-        pub(crate) generation: u32 as apart,
-        pub(crate) shape_count: u32,
+        pub(crate) fixed_mass: Given = Given::default(),
+        pub(crate) fixed_center: Option<Vec2> = None,
+        pub(crate) fixed_inertia: Given = Given::default(),
+        pub(crate) generation: u32 as apart = 0,
+        pub(crate) shape_count: u32 = 0,
         /// First contact edge: contact index * 2 + side.
-        pub(crate) first_contact: u32,
+        pub(crate) first_contact: u32 = NULL,
         /// Colours of the constraint graph that its contacts use, as bits.
-        pub(crate) contact_colours: u32,
+        pub(crate) contact_colours: u32 = 0,
         /// Colours that its joints use, as bits.
-        pub(crate) joint_colours: u32,
+        pub(crate) joint_colours: u32 = 0,
         /// Next body of the same sleeping island, in a ring; NULL while awake.
-        pub(crate) island_next: u32,
-        pub(crate) user_data: u64,
+        pub(crate) island_next: u32 = NULL,
+        pub(crate) user_data: u64 = 0,
     }
 }
 
@@ -111,46 +111,6 @@ impl Data for Given {
     }
     fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
         Option::load(reader).map(Self::new)
-    }
-}
-
-impl Default for BodyInfo {
-    fn default() -> Self {
-        Self {
-            kind: BodyKind::Static,
-            alive: false,
-            enabled: true,
-            awake: false,
-            bullet: false,
-            can_sleep: true,
-            never_turns: false,
-            pace: PLAIN as u8,
-            locks: Locks::default(),
-            generation: 0,
-            local_center: Vec2::ZERO,
-            mass: 0.0,
-            inertia: 0.0,
-            fixed_mass: Given::default(),
-            fixed_center: None,
-            fixed_inertia: Given::default(),
-            force: Vec2::ZERO,
-            torque: 0.0,
-            gravity_scale: 1.0,
-            linear_damping: 0.0,
-            angular_damping: 0.0,
-            sleep_time: 0.0,
-            sleep_speed: 0.05,
-            min_extent: 0.0,
-            max_extent: 0.0,
-            first_shape: NULL,
-            shape_count: 0,
-            first_contact: NULL,
-            first_joint: NULL,
-            contact_colours: 0,
-            joint_colours: 0,
-            island_next: NULL,
-            user_data: 0,
-        }
     }
 }
 
@@ -185,15 +145,9 @@ store! {
     load with Bodies::settle
 }
 
-impl Bodies {
-    /// Finds out what follows from the rest, for bodies that were read.
-    fn settle(&mut self) -> Result<(), Error> {
-        self.motions.resize(self.infos.len(), Motion::default());
-        self.starts.resize(self.infos.len(), [0.0; 4]);
-        self.find_awake_places()
-    }
-
-    pub(crate) fn new() -> Self {
+impl Default for Bodies {
+    /// None but body 0.
+    fn default() -> Self {
         Self {
             rows: vec![[0.0; 8]],
             poses: vec![Pose::default()],
@@ -209,6 +163,15 @@ impl Bodies {
             refined: 0,
             generations: Generations::default(),
         }
+    }
+}
+
+impl Bodies {
+    /// Finds out what follows from the rest, for bodies that were read.
+    fn settle(&mut self) -> Result<(), Error> {
+        self.motions.resize(self.infos.len(), Motion::default());
+        self.starts.resize(self.infos.len(), [0.0; 4]);
+        self.find_awake_places()
     }
 
     /// Bodies alive, without body 0.
@@ -357,7 +320,7 @@ mod tests {
 
     #[test]
     fn a_reused_place_has_another_generation() {
-        let mut bodies = Bodies::new();
+        let mut bodies = Bodies::default();
         let a = bodies.insert(BodyInfo::default(), Pose::default());
         let generation = bodies.infos[a as usize].generation;
         bodies.remove(a);

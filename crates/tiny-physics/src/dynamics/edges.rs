@@ -69,6 +69,14 @@ fn links_of<R: Edges>(records: &mut [R], edge: u32) -> &mut (u32, u32) {
 /// [`BodyInfo`] that holds the first edge.
 macro_rules! edges {
     ($record:ident, $first:ident) => {
+        impl $record {
+            /// The body at the other end.
+            #[inline]
+            pub(crate) fn other(&self, body: u32) -> u32 {
+                if self.body_a == body { self.body_b } else { self.body_a }
+            }
+        }
+
         impl crate::dynamics::edges::Edges for $record {
             fn bodies(&self) -> [u32; 2] {
                 [self.body_a, self.body_b]

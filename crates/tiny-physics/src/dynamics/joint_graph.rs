@@ -490,7 +490,7 @@ mod tests {
     /// Random insertions, removals and changes of kind; colours and places stay consistent.
     #[test]
     fn graph_stays_consistent() {
-        let mut bodies = Bodies::new();
+        let mut bodies = Bodies::default();
         for i in 0..12 {
             let kind = if i < 3 { BodyKind::Static } else { BodyKind::Dynamic };
             bodies.insert(BodyInfo { kind, ..BodyInfo::default() }, Pose::default());

@@ -183,7 +183,7 @@ mod tests {
     /// Random insertions and removals; the lists of the bodies always agree with the records.
     #[test]
     fn lists_follow_insertions_and_removals() {
-        let mut bodies = Bodies::new();
+        let mut bodies = Bodies::default();
         let mut joints = Joints::default();
         for _ in 0..8 {
             bodies.insert(BodyInfo::default(), Pose::default());

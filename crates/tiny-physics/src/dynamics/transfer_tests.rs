@@ -17,7 +17,7 @@ struct Stores {
 
 impl Stores {
     fn new(contact_count: usize) -> Self {
-        let mut bodies = Bodies::new();
+        let mut bodies = Bodies::default();
         for i in 0..BODIES {
             let kind = if i < 3 { BodyKind::Static } else { BodyKind::Dynamic };
             let info = BodyInfo { kind, awake: i >= 3, mass: 1.0, ..BodyInfo::default() };

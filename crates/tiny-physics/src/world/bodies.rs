@@ -120,17 +120,13 @@ impl<'a> Body<'a> {
     /// Its contacts that touch (or are about to) as of the last step, the newest first; none while it sleeps.
     pub fn contacts(&self) -> impl Iterator<Item = ContactView> + use<'a> {
         let world = self.world;
-        world
-            .state
-            .contacts
-            .of_body(self.info().first_contact)
-            .filter_map(move |(i, _)| world.contact_view(i))
+        world.state.contacts_of(self.index).filter_map(|(i, _)| world.contact_view(i))
     }
 
     /// Handles of its shapes, in the order in which it was described; later ones first.
     pub fn shapes(&self) -> impl Iterator<Item = ShapeId> + use<'a> {
         let world = self.world;
-        world.state.shapes.of_body(self.info().first_shape).map(move |i| world.shape_id(i))
+        world.state.shapes_of(self.index).map(|i| world.shape_id(i))
     }
 }
 
@@ -387,47 +383,26 @@ impl World {
 
     /// Kinetic energy of all bodies, joules.
     pub fn kinetic_energy(&self) -> f64 {
-        self.state
-            .bodies
-            .indices()
-            .map(|i| {
-                let info = &self.state.bodies.infos[i as usize];
-                let (v, w) = (self.state.bodies.velocity(i), self.state.bodies.angular_velocity(i));
-                let linear = f64::from(info.mass) * f64::from(v.length_sq());
-                let angular = f64::from(info.inertia) * f64::from(w) * f64::from(w);
-                0.5 * (linear + angular)
-            })
-            .sum()
+        let bodies = &self.state.bodies;
+        let energy = |i: u32| {
+            let (info, w) = (&bodies.infos[i as usize], f64::from(bodies.angular_velocity(i)));
+            let linear = f64::from(info.mass) * f64::from(bodies.velocity(i).length_sq());
+            0.5 * (linear + f64::from(info.inertia) * w * w)
+        };
+        bodies.indices().map(energy).sum()
     }
 
     /// Wakes the islands of bodies that touch this one.
     pub(super) fn wake_neighbours(&mut self, index: u32) {
-        let first = self.state.bodies.infos[index as usize].first_contact;
-        let others: Vec<u32> = self
-            .state
-            .contacts
-            .of_body(first)
-            .map(|(contact, _)| &self.state.contacts.records[contact as usize])
-            .filter(|contact| contact.touching)
-            .map(|contact| if contact.body_a == index { contact.body_b } else { contact.body_a })
-            .collect();
-        for other in others {
-            self.wake_index(other);
-        }
+        let touching = self.state.contacts_of(index).filter(|(_, contact)| contact.touching);
+        let others: Vec<u32> = touching.map(|(_, contact)| contact.other(index)).collect();
+        others.into_iter().for_each(|other| self.wake_index(other));
     }
 
     /// Wakes the islands of bodies that are joined to this one.
     pub(super) fn wake_joined(&mut self, index: u32) {
-        let first = self.state.bodies.infos[index as usize].first_joint;
-        let others: Vec<u32> = self
-            .state
-            .joints
-            .of_body(first)
-            .map(|(joint, _)| &self.state.joints.records[joint as usize])
-            .map(|joint| if joint.body_a == index { joint.body_b } else { joint.body_a })
-            .collect();
-        for other in others {
-            self.wake_index(other);
-        }
+        let joints = self.state.joints_of(index);
+        let others: Vec<u32> = joints.map(|(_, joint)| joint.other(index)).collect();
+        others.into_iter().for_each(|other| self.wake_index(other));
     }
 }

@@ -43,7 +43,7 @@ impl<'a> Body<'a> {
     /// Handles of its joints, the newest first.
     pub fn joints(&self) -> impl Iterator<Item = JointId> + use<'a> {
         let world = self.world;
-        world.state.joints.of_body(self.info().first_joint).map(move |(i, _)| world.joint_id(i))
+        world.state.joints_of(self.index).map(|(i, _)| world.joint_id(i))
     }
 
     /// Its frame between the start (`alpha` 0) and the end (1) of the last step, for drawing at a rate of its
@@ -207,7 +207,7 @@ impl World {
         self.destroy_contacts_of(index, |_| true);
         for (joint, partner) in self.joints_and_partners(index) {
             self.wake_index(partner);
-            self.state.joint_graph.remove(&mut self.state.bodies, &mut self.state.joints, joint);
+            self.state.displace_joint(joint);
         }
         self.note_ground_of(index);
         for shape in self.shapes_of(index) {
@@ -238,33 +238,22 @@ impl World {
             let awake = |body: u32| self.state.bodies.infos[body as usize].awake;
             if awake(index) || awake(partner) {
                 self.wake_index(partner);
-                self.state.joint_graph.insert(
-                    &mut self.state.bodies,
-                    &mut self.state.joints,
-                    joint,
-                );
+                self.state.place_joint(joint);
             }
         }
     }
 
     /// The joints of a body with the body at the other end, ascending.
     fn joints_and_partners(&self, body: u32) -> Vec<(u32, u32)> {
-        let mut joints: Vec<(u32, u32)> = self
-            .state
-            .joints
-            .of_body(self.state.bodies.infos[body as usize].first_joint)
-            .map(|(joint, side)| {
-                let record = &self.state.joints.records[joint as usize];
-                (joint, if side == 0 { record.body_b } else { record.body_a })
-            })
-            .collect();
+        let joints = self.state.joints_of(body);
+        let mut joints: Vec<(u32, u32)> = joints.map(|(i, joint)| (i, joint.other(body))).collect();
         joints.sort_unstable();
         joints
     }
 
     /// Indices of the shapes of a body.
     pub(super) fn shapes_of(&self, body: u32) -> Vec<u32> {
-        self.state.shapes.of_body(self.state.bodies.infos[body as usize].first_shape).collect()
+        self.state.shapes_of(body).collect()
     }
 
     /// Handles of the bodies whose pose the last step changed, those that fell asleep in it included. What the

@@ -6,7 +6,7 @@ use super::ids::{BodyId, ShapeId};
 use super::state::State;
 use crate::broad_phase::{ProxyDef, ProxyKind};
 use crate::describe::{BodyKind, RigidBody, ShapeDef};
-use crate::dynamics::{BodyInfo, Given, NULL, ShapeRecord};
+use crate::dynamics::{BodyInfo, Contact, Given, NULL, ShapeRecord};
 use crate::error::Error;
 use crate::geometry::manifold::{RoundedBox, ShapeClass};
 use crate::geometry::{MassProperties, Shape};
@@ -172,21 +172,18 @@ impl World {
 
     /// Destroys the contacts of a body whose shapes (A, B) satisfy the predicate.
     pub(super) fn destroy_contacts_of(&mut self, body: u32, which: impl Fn((u32, u32)) -> bool) {
-        let first = self.state.bodies.infos[body as usize].first_contact;
-        let mut indices: Vec<u32> = self
-            .state
-            .contacts
-            .of_body(first)
-            .map(|(index, _)| index)
-            .filter(|&index| {
-                let contact = &self.state.contacts.records[index as usize];
-                which((contact.shape_a, contact.shape_b))
-            })
-            .collect();
-        indices.sort_unstable();
-        for index in indices {
+        let goes = |contact: &Contact| which((contact.shape_a, contact.shape_b));
+        for index in self.contacts_where(body, goes) {
             self.destroy_contact(index);
         }
+    }
+
+    /// The contacts of a body for which the predicate holds, ascending.
+    pub(super) fn contacts_where(&self, body: u32, which: impl Fn(&Contact) -> bool) -> Vec<u32> {
+        let contacts = self.state.contacts_of(body).filter(|(_, contact)| which(contact));
+        let mut indices: Vec<u32> = contacts.map(|(index, _)| index).collect();
+        indices.sort_unstable();
+        indices
     }
 
     /// Puts a shape record at the head of a body's list.
@@ -225,23 +222,17 @@ impl World {
 
     /// Takes a shape without contacts out of its body's list and out of the world.
     fn unlink_shape(&mut self, shape: u32) {
-        let (body, next) = {
-            let record = &self.state.shapes.records[shape as usize];
-            (record.body, record.next)
-        };
+        let ShapeRecord { body, next, .. } = self.state.shapes.records[shape as usize];
         let info = &mut self.state.bodies.infos[body as usize];
         info.shape_count -= 1;
         if info.first_shape == shape {
             info.first_shape = next;
         } else {
-            let first = info.first_shape;
-            let previous = self
-                .state
-                .shapes
-                .of_body(first)
-                .find(|&i| self.state.shapes.records[i as usize].next == shape);
-            if let Some(previous) = previous {
-                self.state.shapes.records[previous as usize].next = next;
+            let shapes = &mut self.state.shapes;
+            let mut all = shapes.of_body(info.first_shape);
+            if let Some(previous) = all.find(|&i| shapes.records[i as usize].next == shape) {
+                drop(all);
+                shapes.records[previous as usize].next = next;
             }
         }
         self.note_ground(shape);
@@ -289,10 +280,9 @@ impl World {
             // Shapes have stayed where they were, but for rounding, which a far centre of mass makes visible.
             self.update_boxes(index);
         }
-        for (joint, _) in
-            self.state.joints.of_body(self.state.bodies.infos[index as usize].first_joint)
-        {
-            self.state.joint_graph.refresh(&self.state.joints, joint);
+        let State { bodies, joints, joint_graph, .. } = &mut self.state;
+        for (joint, _) in joints.of_body(bodies.infos[index as usize].first_joint) {
+            joint_graph.refresh(joints, joint);
         }
     }
 
@@ -305,14 +295,11 @@ impl World {
     /// Mass properties of all shapes in the body's frame, and whether one of them must not turn.
     fn sum_masses(&self, index: u32) -> (MassProperties, bool) {
         let mut never_turns = false;
-        let parts =
-            self.state.shapes.of_body(self.state.bodies.infos[index as usize].first_shape).map(
-                |i| {
-                    let record = &self.state.shapes.records[i as usize];
-                    never_turns |= matches!(record.shape, Shape::Aabb { .. });
-                    record.shape.mass_properties(record.material.density).transformed(record.local)
-                },
-            );
+        let parts = self.state.shapes_of(index).map(|i| {
+            let record = &self.state.shapes.records[i as usize];
+            never_turns |= matches!(record.shape, Shape::Aabb { .. });
+            record.shape.mass_properties(record.material.density).transformed(record.local)
+        });
         let parts: Vec<MassProperties> = parts.collect();
         (MassProperties::combined(&parts), never_turns)
     }
@@ -400,35 +387,7 @@ impl World {
 
     /// Notes that all ground of a body is about to change, or has changed.
     pub(super) fn note_ground_of(&mut self, body: u32) {
-        let shapes: Vec<u32> =
-            self.state.shapes.of_body(self.state.bodies.infos[body as usize].first_shape).collect();
-        shapes.into_iter().for_each(|shape| self.note_ground(shape));
-    }
-
-    /// The handle of a body that is alive.
-    pub(super) fn body_id(&self, index: u32) -> BodyId {
-        BodyId::new(index, self.state.bodies.infos[index as usize].generation)
-    }
-
-    /// The handle of a shape; stale if it has been removed.
-    pub(super) fn shape_id(&self, index: u32) -> ShapeId {
-        ShapeId::new(index, self.state.shapes.records[index as usize].generation)
-    }
-
-    /// The index behind a handle.
-    pub(super) fn body_index(&self, id: BodyId) -> Result<u32, Error> {
-        match self.state.bodies.infos.get(id.index()) {
-            Some(info) if info.alive && info.generation == id.generation => Ok(id.index),
-            _ => Err(id.into()),
-        }
-    }
-
-    /// The index behind a handle.
-    pub(super) fn shape_index(&self, id: ShapeId) -> Result<u32, Error> {
-        match self.state.shapes.records.get(id.index()) {
-            Some(record) if record.alive && record.generation == id.generation => Ok(id.index),
-            _ => Err(id.into()),
-        }
+        self.shapes_of(body).into_iter().for_each(|shape| self.note_ground(shape));
     }
 }
 

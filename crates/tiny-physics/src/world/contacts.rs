@@ -307,7 +307,7 @@ impl World {
             }
             self.wake_dynamic([body_a, body_b]);
         }
-        self.state.graph.remove(&mut self.state.bodies, &mut self.state.contacts, index);
+        self.state.displace_contact(index);
         self.state.contacts.remove(&mut self.state.bodies, index);
     }
 

@@ -1,10 +1,8 @@
 //! Bodies whose numbers stopped being finite.
 
 use super::World;
-use super::state::State;
 use crate::dynamics::SavedPoint;
 use crate::math::Vec2;
-use crate::stages::boxes;
 
 impl World {
     /// Stops a body where it last was, and lets all that acts on it start anew: what has been gathered there may
@@ -20,31 +18,24 @@ impl World {
         self.forget_joint_impulses(index);
         self.forget_contact_impulses(index);
         // They reached as far as it would have gone.
-        let State { bodies, shapes, broad_phase, .. } = &mut self.state;
-        boxes::update(bodies, shapes, broad_phase, index, Vec2::ZERO, &mut Vec::new());
+        self.update_boxes(index);
     }
 
     fn forget_joint_impulses(&mut self, index: u32) {
-        let State { bodies, joints, joint_graph, .. } = &mut self.state;
-        let first = bodies.infos[index as usize].first_joint;
-        let mut indices: Vec<u32> = joints.of_body(first).map(|(joint, _)| joint).collect();
-        indices.sort_unstable();
-        for joint in indices {
-            joint_graph.remove(bodies, joints, joint);
-            joints.records[joint as usize].saved = Default::default();
-            joint_graph.insert(bodies, joints, joint);
+        let mut joints: Vec<u32> = self.state.joints_of(index).map(|(joint, _)| joint).collect();
+        joints.sort_unstable();
+        for joint in joints {
+            self.state.displace_joint(joint);
+            self.state.joints.records[joint as usize].saved = Default::default();
+            self.state.place_joint(joint);
         }
     }
 
     fn forget_contact_impulses(&mut self, index: u32) {
-        let State { bodies, contacts, graph, .. } = &mut self.state;
-        let first = bodies.infos[index as usize].first_contact;
-        let mut indices: Vec<u32> = contacts.of_body(first).map(|(contact, _)| contact).collect();
-        indices.sort_unstable();
-        for contact in indices {
-            graph.remove(bodies, contacts, contact);
-            contacts.records[contact as usize].saved = [SavedPoint::NONE; 2];
-            graph.insert(bodies, contacts, contact);
+        for contact in self.contacts_where(index, |_| true) {
+            self.state.displace_contact(contact);
+            self.state.contacts.records[contact as usize].saved = [SavedPoint::NONE; 2];
+            self.state.place_contact(contact);
         }
     }
 }

@@ -163,7 +163,7 @@ impl World {
         let record = JointRecord::new(a, b, def);
         let index = self.state.joints.insert(&mut self.state.bodies, record);
         if awake(self, a) || awake(self, b) {
-            self.state.joint_graph.insert(&mut self.state.bodies, &mut self.state.joints, index);
+            self.state.place_joint(index);
         }
         if !def.collide_connected && def.enabled {
             self.part_bodies(a, b);
@@ -196,7 +196,7 @@ impl World {
         self.wake_index(b);
         self.state.joint_graph.update(&mut self.state.bodies, &mut self.state.joints, index, &def);
         if self.state.bodies.infos[a as usize].awake || self.state.bodies.infos[b as usize].awake {
-            self.state.joint_graph.insert(&mut self.state.bodies, &mut self.state.joints, index);
+            self.state.place_joint(index);
         }
         if def.collide_connected || !def.enabled {
             self.buffer_shapes(self.smaller(a, b));
@@ -240,7 +240,7 @@ impl World {
         let (a, b) = (record.body_a, record.body_b);
         self.wake_index(a);
         self.wake_index(b);
-        self.state.joint_graph.remove(&mut self.state.bodies, &mut self.state.joints, index);
+        self.state.displace_joint(index);
         self.state.joints.remove(&mut self.state.bodies, index);
         self.buffer_shapes(self.smaller(a, b));
     }
@@ -279,38 +279,16 @@ impl World {
 
     /// Destroys the contacts between two bodies.
     fn part_bodies(&mut self, a: u32, b: u32) {
-        let pair = |contact: &crate::dynamics::Contact| {
-            (contact.body_a, contact.body_b) == (a, b) || (contact.body_a, contact.body_b) == (b, a)
-        };
-        let first = self.state.bodies.infos[self.smaller(a, b) as usize].first_contact;
-        let mut indices: Vec<u32> = self
-            .state
-            .contacts
-            .of_body(first)
-            .map(|(index, _)| index)
-            .filter(|&index| pair(&self.state.contacts.records[index as usize]))
-            .collect();
-        indices.sort_unstable();
-        indices.into_iter().for_each(|index| self.destroy_contact(index));
+        let one = self.smaller(a, b);
+        let between =
+            self.contacts_where(one, |contact| contact.other(one) == if one == a { b } else { a });
+        between.into_iter().for_each(|index| self.destroy_contact(index));
     }
 
     /// Makes the next step look for all partners of a body's shapes.
     pub(super) fn buffer_shapes(&mut self, body: u32) {
-        for shape in self.state.shapes.of_body(self.state.bodies.infos[body as usize].first_shape) {
+        for shape in self.shapes_of(body) {
             self.state.broad_phase.buffer(self.state.shapes.proxy(shape));
-        }
-    }
-
-    /// The handle of a joint that is alive.
-    pub(super) fn joint_id(&self, index: u32) -> JointId {
-        JointId::new(index, self.state.joints.records[index as usize].generation)
-    }
-
-    /// The index behind a handle.
-    pub(super) fn joint_index(&self, id: JointId) -> Result<u32, Error> {
-        match self.state.joints.records.get(id.index()) {
-            Some(record) if record.alive && record.generation == id.generation => Ok(id.index),
-            _ => Err(id.into()),
         }
     }
 }

@@ -139,7 +139,7 @@ impl World {
         Self {
             gravity,
             settings,
-            state: State::new(),
+            state: State::default(),
             hooks: hooks::Hooks::default(),
             moved: OnceLock::new(),
             level: SimdLevel::detect(),

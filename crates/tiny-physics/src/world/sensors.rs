@@ -82,7 +82,7 @@ impl World {
 
     /// Tells the sensors that the shapes of a body are not where or what they were.
     pub(super) fn mark_shapes_changed(&mut self, body: u32) {
-        for shape in self.state.shapes.of_body(self.state.bodies.infos[body as usize].first_shape) {
+        for shape in self.shapes_of(body) {
             self.state.sensors.mark_changed(shape);
         }
     }

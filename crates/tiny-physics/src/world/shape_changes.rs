@@ -203,15 +203,7 @@ impl World {
     /// Contacts of a shape, ascending.
     fn contacts_of(&self, shape: u32) -> Vec<u32> {
         let body = self.state.shapes.records[shape as usize].body;
-        let first = self.state.bodies.infos[body as usize].first_contact;
-        let mut indices: Vec<u32> =
-            self.state.contacts.of_body(first).map(|(index, _)| index).collect();
-        indices.retain(|&index| {
-            let contact = &self.state.contacts.records[index as usize];
-            contact.shape_a == shape || contact.shape_b == shape
-        });
-        indices.sort_unstable();
-        indices
+        self.contacts_where(body, |contact| contact.shape_a == shape || contact.shape_b == shape)
     }
 
     /// Brings what contacts know of the materials of their shapes up to date.
@@ -221,8 +213,8 @@ impl World {
             pairs::mix_materials(contact, &self.settings, &self.state.shapes);
             if matches!(contact.place, Place::Graph { .. }) {
                 // Lanes are filled when a contact enters the graph; its impulses live on.
-                self.state.graph.remove(&mut self.state.bodies, &mut self.state.contacts, index);
-                self.state.graph.insert(&mut self.state.bodies, &mut self.state.contacts, index);
+                self.state.displace_contact(index);
+                self.state.place_contact(index);
             }
         }
     }

@@ -20,7 +20,7 @@ pub(super) struct Rig {
 impl Rig {
     pub(super) fn new() -> Self {
         Self {
-            bodies: Bodies::new(),
+            bodies: Bodies::default(),
             joints: Joints::default(),
             graph: JointGraph::default(),
             gravity: Vec2::new(0.0, -G),
