@@ -405,13 +405,14 @@ impl BroadPhase {
         hits: &mut Hits,
         report: &mut impl FnMut(usize, u32),
     ) {
-        tree.query_bottom(&group.aabb, group.mask, |node| {
+        tree.walk(&group.aabb, group.mask, |node| {
             for (index, member) in group.members().iter().enumerate() {
                 hits.push(node, index, tree.overlaps(node, &member.aabb));
             }
             if hits.is_full() {
                 self.drain(tree, group, hits, report);
             }
+            ControlFlow::Continue(())
         });
         self.drain(tree, group, hits, report);
     }
@@ -533,6 +534,22 @@ impl BroadPhase {
                 });
             }
         }
+    }
+
+    /// Visits the users of the proxies of one kind whose fat boxes overlap `aabb` and whose category has a bit of `mask`,
+    /// in no fixed order.
+    #[inline]
+    pub(crate) fn each_of(
+        &self,
+        kind: ProxyKind,
+        aabb: &Aabb,
+        mask: u64,
+        mut visit: impl FnMut(u32),
+    ) {
+        self.trees[kind as usize].query(aabb, mask, |id| {
+            visit(self.proxies[id as usize].user);
+            ControlFlow::Continue(())
+        });
     }
 
     /// Calls `visit` with the `user` numbers of proxies whose fat box the cast may hit before the

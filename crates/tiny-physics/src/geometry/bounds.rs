@@ -1,6 +1,7 @@
 //! Axis-aligned boxes and circles around and inside shapes.
 
 use super::Shape;
+use super::edges::least_by;
 use crate::math::{Aabb, DVec2, Pose, Rot, Transform, Vec2};
 
 impl Shape {
@@ -33,14 +34,8 @@ impl Shape {
             return core.radius;
         }
         let center = self.mass_properties(1.0).center;
-        let mut least = f32::INFINITY;
-        for i in 0..core.edge_count() {
-            let depth = core.normal(i).dot(core.points[i] - center);
-            if depth < least {
-                least = depth;
-            }
-        }
-        least + core.radius
+        let depth = |i: usize| core.normal(i).dot(core.points[i] - center);
+        least_by(core.edge_count(), depth).1 + core.radius
     }
 
     /// Box around the turned core, relative to the frame's origin, and the radius to add.

@@ -66,7 +66,7 @@ fn rounding(a: &Core, b: &Core, translation: Vec2) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{any_frame, any_shape, any_vec};
+    use super::super::tests::{any_frame, any_shape, any_vec};
     use super::super::{Ray, distance};
     use super::*;
     use proptest::prelude::*;

@@ -154,7 +154,7 @@ impl TryFrom<RectData> for Polygon {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::any_shape;
+    use super::super::tests::any_shape;
     use super::*;
     use proptest::prelude::*;
 

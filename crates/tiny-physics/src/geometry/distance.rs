@@ -245,7 +245,7 @@ fn overlap(a: &Core, b: &Core) -> Distance {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{any_frame, any_shape};
+    use super::super::tests::{any_frame, any_shape};
     use super::*;
     use crate::math::Rot;
     use proptest::prelude::*;

@@ -16,3 +16,16 @@ pub(super) fn edge_normal(start: Vec2, end: Vec2) -> Vec2 {
 pub(super) fn box_corners(half: Vec2) -> [Vec2; 4] {
     [-half, Vec2::new(half.x, -half.y), half, Vec2::new(-half.x, half.y)]
 }
+
+/// The first of so many indices for which `key` is least, and the key; 0 and infinity where there is none.
+#[inline]
+pub(crate) fn least_by(count: usize, key: impl Fn(usize) -> f32) -> (usize, f32) {
+    let mut least = (0, f32::INFINITY);
+    for i in 0..count {
+        let key = key(i);
+        if key < least.1 {
+            least = (i, key);
+        }
+    }
+    least
+}

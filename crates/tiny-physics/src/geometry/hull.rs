@@ -3,6 +3,7 @@
 //! Andrew's monotone chain ("Another efficient algorithm for convex hulls in two dimensions", 1979) with
 //! turns in 64 bits, then corners that are no corners within a tolerance are taken out, the flattest first.
 
+use super::edges::least_by;
 use crate::error::Error;
 use crate::math::Vec2;
 
@@ -82,19 +83,14 @@ fn remove_flat_corners(corners: &mut Vec<Vec2>, tolerance: f32) {
 /// to a coincident one stands out by the distance between the two at most.
 fn flattest(corners: &[Vec2]) -> (usize, f32) {
     let count = corners.len();
-    let mut flattest = (0, f32::INFINITY);
-    for i in 0..count {
+    least_by(count, |i| {
         let (before, after) = (corners[(i + count - 1) % count], corners[(i + 1) % count]);
         let base = before.distance(after);
         let area = turn(before, corners[i], after) as f32;
         let gap = corners[i].distance(after);
         let height = if base > 0.0 { area / base } else { 0.0 };
-        let height = if gap < height { gap } else { height };
-        if height < flattest.1 {
-            flattest = (i, height);
-        }
-    }
-    flattest
+        if gap < height { gap } else { height }
+    })
 }
 
 #[cfg(test)]

@@ -165,7 +165,7 @@ impl Moments {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::any_shape;
+    use super::super::tests::any_shape;
     use super::*;
     use crate::geometry::Polygon;
     use crate::math::Rot;
@@ -252,7 +252,7 @@ mod tests {
 
         #[test]
         fn turning_a_polygon_turns_its_mass(
-            polygon in super::super::testing::any_polygon(),
+            polygon in super::super::tests::any_polygon(),
             angle in -4.0_f32..4.0,
         ) {
             let frame = Transform::new(Vec2::new(3.0, -2.0), Rot::from_angle(angle));

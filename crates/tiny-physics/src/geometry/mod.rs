@@ -25,15 +25,17 @@ mod sweep;
 mod toi;
 
 #[cfg(test)]
-pub(crate) mod testing;
+pub(crate) mod tests;
 
 pub use cast::{CastHit, shape_cast};
 pub use distance::{Distance, distance};
+pub(crate) use edges::least_by;
 pub(crate) use limits::check_point;
 pub use limits::{MAX_EXTENT, MIN_EXTENT};
 pub use manifold::{Contact, Manifold, ManifoldPoint, collide, contact};
 pub use mass::MassProperties;
 pub use part::AreaPart;
+pub(crate) use point::segment_fraction;
 pub use polygon::{MAX_VERTICES, Polygon};
 pub use ray::{Ray, RayHit};
 pub use rounded_core::Core;

@@ -158,7 +158,7 @@ impl Triangles {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{any_shape, any_vec};
+    use super::super::tests::{any_shape, any_vec};
     use super::*;
     use proptest::prelude::*;
 

@@ -54,7 +54,7 @@ impl Core {
 
 /// How far along the segment, 0 to 1, its closest point to `point` is.
 #[inline]
-pub(super) fn segment_fraction(start: Vec2, end: Vec2, point: Vec2) -> f32 {
+pub(crate) fn segment_fraction(start: Vec2, end: Vec2, point: Vec2) -> f32 {
     let edge = end - start;
     let (along, length_sq) = ((point - start).dot(edge), edge.length_sq());
     if along <= 0.0 {
@@ -69,7 +69,7 @@ pub(super) fn segment_fraction(start: Vec2, end: Vec2, point: Vec2) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::super::Polygon;
-    use super::super::testing::{any_shape, boundary};
+    use super::super::tests::{any_shape, boundary};
     use super::*;
     use proptest::prelude::*;
 

@@ -167,7 +167,7 @@ fn enter_disk(ray: &Ray, center: Vec2, radius: f32) -> Option<RayHit> {
 #[cfg(test)]
 mod tests {
     use super::super::point::segment_fraction;
-    use super::super::testing::{any_shape, any_vec, boundary};
+    use super::super::tests::{any_shape, any_vec, boundary};
     use super::super::{Polygon, Shape};
     use super::*;
     use proptest::prelude::*;

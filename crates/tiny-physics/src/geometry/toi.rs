@@ -245,7 +245,7 @@ fn time_to_close(gap: f32, closing: f32, k: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{any_frame, any_shape, any_vec};
+    use super::super::tests::{any_frame, any_shape, any_vec};
     use super::super::{Polygon, distance};
     use super::*;
     use crate::math::{Rot, Transform};

@@ -35,29 +35,31 @@ impl Boxes<'_> {
     /// `motion` is that of the last step, metres: the best guess of the next.
     #[inline]
     pub(crate) fn follow(self, first_shape: u32, pose: Pose, motion: Vec2, moved: &mut Moved) {
-        let Self { shapes, tight: tight_boxes, broad_phase } = self;
+        let Self { shapes, tight: tight_boxes, .. } = self;
         for shape in shapes.of_body(first_shape) {
             let tight = shape_box(shapes, shape, pose);
             tight_boxes.write(shape, tight);
-            if !shapes.fat[shape as usize].contains(&tight)
-                && let Some(fat) = broad_phase.needed_fat_aabb(shapes.proxy(shape), tight, motion)
-            {
-                moved.push((shape, fat));
-            }
+            self.hold(shape, &tight, motion, moved);
+        }
+    }
+
+    /// Notes a larger fat box where a shape's own does not hold a box.
+    #[inline]
+    fn hold(self, shape: u32, aabb: &Aabb, motion: Vec2, moved: &mut Moved) {
+        if !self.shapes.fat[shape as usize].contains(aabb) {
+            let fat = self.broad_phase.needed_fat_aabb(self.shapes.proxy(shape), *aabb, motion);
+            moved.extend(fat.map(|fat| (shape, fat)));
         }
     }
 
     /// As [`Boxes::follow`] for a body that is fast: the fat boxes hold all that `next` would take it through.
     pub(crate) fn lead(self, first_shape: u32, next: &Way, moved: &mut Moved) {
-        let Self { shapes, tight: tight_boxes, broad_phase } = self;
+        let Self { shapes, tight: tight_boxes, .. } = self;
         for shape in shapes.of_body(first_shape) {
             let tight = shape_box(shapes, shape, next.start);
             tight_boxes.write(shape, tight);
             let path = next.turned(shapes, shape, tight).swept(next.motion);
-            if !shapes.fat[shape as usize].contains(&path) {
-                let fat = broad_phase.needed_fat_aabb(shapes.proxy(shape), path, Vec2::ZERO);
-                moved.extend(fat.map(|fat| (shape, fat)));
-            }
+            self.hold(shape, &path, Vec2::ZERO, moved);
         }
     }
 
@@ -70,16 +72,13 @@ impl Boxes<'_> {
         moved: &mut Moved,
         ways: &mut Vec<(u32, Vec2)>,
     ) {
-        let Self { shapes, tight: tight_boxes, broad_phase } = self;
+        let Self { shapes, tight: tight_boxes, .. } = self;
         for shape in shapes.of_body(first_shape) {
             let tight = way.turned(shapes, shape, shape_box(shapes, shape, way.start));
             tight_boxes.write(shape, tight);
             ways.push((shape, way.motion));
             let path = tight.swept(way.motion);
-            if !shapes.fat[shape as usize].contains(&path) {
-                let fat = broad_phase.needed_fat_aabb(shapes.proxy(shape), path, Vec2::ZERO);
-                moved.extend(fat.map(|fat| (shape, fat)));
-            }
+            self.hold(shape, &path, Vec2::ZERO, moved);
         }
     }
 }

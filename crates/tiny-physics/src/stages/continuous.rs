@@ -12,14 +12,13 @@ use super::finalize::FastBody;
 use super::one_way;
 use super::pairs::PairRule;
 use super::surfaces::{self, Ground, Seams};
-use crate::broad_phase::{BroadPhase, ProxyId, ProxyKind};
+use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes, Slot};
 use crate::geometry::manifold::ShapeClass;
 use crate::geometry::{LINEAR_SLOP, Shape, Sweep, ToiState, distance, time_of_impact_within};
 use crate::math::{Aabb, Pose, Rot, Transform, Vec2};
 use crate::simd::Row;
 use crate::threads::{SharedSlice, Team};
-use core::ops::ControlFlow;
 
 /// What decides about pairs besides filters.
 #[derive(Clone, Copy)]
@@ -168,15 +167,12 @@ impl Scene<'_> {
                 }
                 let path = carrier.course().swept_box(shapes, shape);
                 let mask = record.filter.reach().1;
-                broad_phase.tree(ProxyKind::Dynamic).query(&path, mask, |proxy| {
-                    if let Some(other) = broad_phase.user(ProxyId(proxy)) {
-                        let body = shapes.records[other as usize].body;
-                        let hit = &bodies.infos[body as usize];
-                        if hit.awake && way > super::finalize::SAFE_FRACTION * hit.min_extent {
-                            fast.push(FastBody::of_step(bodies, body));
-                        }
+                broad_phase.each_of(ProxyKind::Dynamic, &path, mask, |other| {
+                    let body = shapes.records[other as usize].body;
+                    let hit = &bodies.infos[body as usize];
+                    if hit.awake && way > super::finalize::SAFE_FRACTION * hit.min_extent {
+                        fast.push(FastBody::of_step(bodies, body));
                     }
-                    ControlFlow::Continue(())
                 });
             }
         }
@@ -312,13 +308,10 @@ impl Search<'_> {
             if record.sensor {
                 continue;
             }
-            broad_phase.tree(kind).query(&path, record.filter.reach().1, |proxy| {
-                if let Some(other) = broad_phase.user(ProxyId(proxy))
-                    && self.may_collide((shape, record), other)
-                {
+            broad_phase.each_of(kind, &path, record.filter.reach().1, |other| {
+                if self.may_collide((shape, record), other) {
                     visit(record, other);
                 }
-                ControlFlow::Continue(())
             });
         }
     }
@@ -448,7 +441,7 @@ fn stays_clear(reach: f32, motion: Vec2, row: &Row, frame: Transform) -> bool {
 mod tests {
     use super::*;
     use crate::geometry::manifold::RoundedBox;
-    use crate::geometry::testing::{any_frame, any_shape, any_vec};
+    use crate::geometry::tests::{any_frame, any_shape, any_vec};
     use crate::geometry::time_of_impact;
     use proptest::prelude::*;
 

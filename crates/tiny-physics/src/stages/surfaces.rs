@@ -24,7 +24,6 @@ use crate::geometry::manifold::{
 };
 use crate::geometry::{Core, Shape};
 use crate::math::{Aabb, DVec2, Pose, Transform, Vec2};
-use core::ops::ControlFlow;
 
 /// Shapes this close to each other make one surface, metres; multiplied by the length unit.
 const TOLERANCE: f32 = 0.002;
@@ -248,19 +247,16 @@ impl<'a> Seams<'a> {
         let pose = self.own_pose();
         let bounds = world_box(pose, points, TOLERANCE * length_unit);
         let Some(kind) = broad_phase.kind(ProxyId(self.record.proxy)) else { return };
-        broad_phase.tree(kind).query(&bounds, u64::MAX, |proxy| {
-            if let Some(index) = broad_phase.user(ProxyId(proxy)) {
-                let neighbour = &shapes[index as usize];
-                if index != self.own
-                    && is_ground(neighbour, self.record, kind)
-                    && neighbour.body != self.other.body
-                    && neighbour.filter.collides(&self.other.filter)
-                {
-                    let place = boxed_pose(poses, neighbour).relative_to(pose);
-                    visit(&boxed_core(neighbour).transformed(place));
-                }
+        broad_phase.each_of(kind, &bounds, u64::MAX, |index| {
+            let neighbour = &shapes[index as usize];
+            if index != self.own
+                && is_ground(neighbour, self.record, kind)
+                && neighbour.body != self.other.body
+                && neighbour.filter.collides(&self.other.filter)
+            {
+                let place = boxed_pose(poses, neighbour).relative_to(pose);
+                visit(&boxed_core(neighbour).transformed(place));
             }
-            ControlFlow::Continue(())
         });
     }
 }
@@ -433,11 +429,8 @@ pub(crate) fn refresh(
     let mut near = vec![0_u64; shapes.records.len().div_ceil(64)];
     for kind in [ProxyKind::Static, ProxyKind::Kinematic] {
         for bounds in &changed {
-            broad_phase.tree(kind).query(bounds, u64::MAX, |proxy| {
-                if let Some(index) = broad_phase.user(ProxyId(proxy)) {
-                    near[index as usize / 64] |= 1 << (index % 64);
-                }
-                ControlFlow::Continue(())
+            broad_phase.each_of(kind, bounds, u64::MAX, |index| {
+                near[index as usize / 64] |= 1 << (index % 64);
             });
         }
     }
@@ -473,15 +466,12 @@ fn touched_features(
     let pose = boxed_pose(&bodies.poses, record);
     let bounds = world_box(pose, core.points(), tolerance);
     let mut bits = 0;
-    broad_phase.tree(kind).query(&bounds, u64::MAX, |proxy| {
-        if let Some(other) = broad_phase.user(ProxyId(proxy)).filter(|&other| other != index) {
-            let neighbour = &shapes.records[other as usize];
-            if is_ground(neighbour, record, kind) {
-                let place = boxed_pose(&bodies.poses, neighbour).relative_to(pose);
-                bits |= touched_by(&core, &boxed_core(neighbour).transformed(place), tolerance);
-            }
+    broad_phase.each_of(kind, &bounds, u64::MAX, |other| {
+        let neighbour = &shapes.records[other as usize];
+        if other != index && is_ground(neighbour, record, kind) {
+            let place = boxed_pose(&bodies.poses, neighbour).relative_to(pose);
+            bits |= touched_by(&core, &boxed_core(neighbour).transformed(place), tolerance);
         }
-        ControlFlow::Continue(())
     });
     if bits == 0 || record.one_way.is_some() {
         return bits;

@@ -2,7 +2,7 @@
 
 use super::World;
 use super::state::State;
-use crate::broad_phase::{ProxyId, ProxyKind};
+use crate::broad_phase::ProxyKind;
 use crate::describe::BodyKind;
 use crate::geometry::{LINEAR_SLOP, collide};
 use core::ops::ControlFlow;
@@ -32,13 +32,11 @@ impl World {
         let (bodies, shapes) = (&self.state.bodies, &self.state.shapes);
         let mut near = Vec::new();
         for bounds in &shapes.changed_ground {
-            self.state.broad_phase.tree(ProxyKind::Dynamic).query(bounds, u64::MAX, |proxy| {
-                let shape = self.state.broad_phase.user(ProxyId(proxy));
-                let sleeps = |&shape: &u32| {
-                    !bodies.infos[shapes.records[shape as usize].body as usize].awake
-                };
-                near.extend(shape.filter(sleeps));
-                ControlFlow::Continue(())
+            self.state.broad_phase.each_of(ProxyKind::Dynamic, bounds, u64::MAX, |shape| {
+                let body = shapes.records[shape as usize].body;
+                if !bodies.infos[body as usize].awake {
+                    near.push(shape);
+                }
             });
         }
         near.sort_unstable();

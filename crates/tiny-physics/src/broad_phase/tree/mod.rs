@@ -254,35 +254,30 @@ impl DynamicTree {
     /// bit of `mask`, until it breaks. The order depends on the shape of the tree.
     #[inline]
     pub fn query(&self, aabb: &Aabb, mask: u64, mut visit: impl FnMut(u32) -> ControlFlow<()>) {
-        if self.root == NONE {
-            return;
-        }
         let aabb = clamped(*aabb);
-        let mut stack = Stack::new();
-        let mut next = Some(self.root);
-        while let Some(index) = next {
+        self.walk(&aabb, mask, |index| {
             let node = &self.nodes[index as usize];
             let mut bits = self.boxes[index as usize].overlaps(&aabb);
             while bits != 0 {
                 let lane = bits.trailing_zeros() as usize % WIDTH;
                 bits &= bits - 1;
-                if node.category[lane] & mask == 0 {
-                    continue;
-                }
-                if node.level > 0 {
-                    stack.push(node.child[lane]);
-                } else if visit(node.child[lane]).is_break() {
-                    return;
+                if node.category[lane] & mask != 0 {
+                    visit(node.child[lane])?;
                 }
             }
-            next = stack.pop();
-        }
+            ControlFlow::Continue(())
+        });
     }
 
     /// Calls `visit` with every node of the lowest level that may have children which overlap
     /// `aabb` and have a bit of `mask`.
     #[inline]
-    pub(super) fn query_bottom(&self, aabb: &Aabb, mask: u64, mut visit: impl FnMut(u32)) {
+    pub(super) fn walk(
+        &self,
+        aabb: &Aabb,
+        mask: u64,
+        mut visit: impl FnMut(u32) -> ControlFlow<()>,
+    ) {
         if self.root == NONE {
             return;
         }
@@ -291,7 +286,9 @@ impl DynamicTree {
         while let Some(index) = next {
             let node = &self.nodes[index as usize];
             if node.level == 0 {
-                visit(index);
+                if visit(index).is_break() {
+                    return;
+                }
                 next = stack.pop();
                 continue;
             }

@@ -1,7 +1,7 @@
 //! Contacts against one chosen face, and what a neighbour covers: for surfaces made of several shapes.
 
 use super::{Manifold, ManifoldPoint};
-use crate::geometry::Core;
+use crate::geometry::{Core, least_by, segment_fraction};
 use crate::math::Vec2;
 
 /// Ids of these points begin here, above those of every other kernel.
@@ -12,16 +12,8 @@ const FIRST_ID: u16 = 4096;
 pub(crate) fn point_gap(core: &Core, point: Vec2) -> f32 {
     if core.count <= 2 {
         let (a, b) = (core.points[0], core.points[core.count - 1]);
-        let edge = b - a;
-        let (along, length_sq) = (edge.dot(point - a), edge.length_sq());
-        let fraction = if along <= 0.0 {
-            0.0
-        } else if along >= length_sq {
-            1.0
-        } else {
-            along / length_sq
-        };
-        return (point - (a + edge * fraction)).length() - core.radius;
+        let nearest = a + (b - a) * segment_fraction(a, b, point);
+        return (point - nearest).length() - core.radius;
     }
     let mut gap = f32::NEG_INFINITY;
     for i in 0..core.count {
@@ -43,14 +35,7 @@ pub(crate) fn face_of(core: &Core, normal: Vec2) -> Option<usize> {
 
 /// Index of the core point closest to `point`; the first of equals.
 pub(crate) fn nearest_vertex(core: &Core, point: Vec2) -> usize {
-    let mut best = (0, f32::INFINITY);
-    for (i, vertex) in core.points().iter().enumerate() {
-        let distance_sq = (*vertex - point).length_sq();
-        if distance_sq < best.1 {
-            best = (i, distance_sq);
-        }
-    }
-    best.0
+    least_by(core.count, |i| (core.points[i] - point).length_sq()).0
 }
 
 /// Where `other` touches one face of `core`, both in the frame of `core`; the normal is the face's. Empty
@@ -90,14 +75,8 @@ fn facing_edge(core: &Core, direction: Vec2) -> (usize, (Vec2, Vec2)) {
     if core.count < 2 {
         return (0, (core.points[0], core.points[0]));
     }
-    let mut best = (0, f32::INFINITY);
-    for i in 0..core.edge_count() {
-        let facing = core.normal(i).dot(direction);
-        if facing < best.1 {
-            best = (i, facing);
-        }
-    }
-    (best.0, core.edge(best.0))
+    let (facing, _) = least_by(core.edge_count(), |i| core.normal(i).dot(direction));
+    (facing, core.edge(facing))
 }
 
 /// The part of a line between (across, height) points that lies over 0 to `length`.

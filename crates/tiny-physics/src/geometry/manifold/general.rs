@@ -5,7 +5,7 @@
 //! the best axis is always within 45 degrees of the direction between two nearest corners.
 
 use super::{Manifold, ManifoldPoint, RoundedBox};
-use crate::geometry::{MAX_VERTICES, Shape};
+use crate::geometry::{MAX_VERTICES, Shape, least_by};
 use crate::math::{Transform, Vec2};
 
 /// An axis of B replaces one of A, and a later one an earlier, only if it separates by this fraction of
@@ -174,14 +174,7 @@ impl Outline {
 
     /// The face most opposed to a direction; the first of equal ones.
     fn facing(&self, direction: Vec2) -> usize {
-        let mut best = (0, f32::INFINITY);
-        for face in 0..self.count {
-            let along = direction.dot(self.normals.at(face));
-            if along < best.1 {
-                best = (face, along);
-            }
-        }
-        best.0
+        least_by(self.count, |face| direction.dot(self.normals.at(face))).0
     }
 
     /// Both ends of a face, anticlockwise.

@@ -24,20 +24,22 @@
 
 mod world;
 
+use crate::codec::described;
 use crate::{Aabb, BodyKind, DVec2, Rot, Shape, Transform, Vec2};
 
-/// A colour: red, green, blue and opacity, 0 to 255 each, sRGB, not premultiplied.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Color {
-    /// Red.
-    pub r: u8,
-    /// Green.
-    pub g: u8,
-    /// Blue.
-    pub b: u8,
-    /// Opacity: 0 is invisible, 255 hides what is below.
-    pub a: u8,
+described! {
+    /// A colour: red, green, blue and opacity, 0 to 255 each, sRGB, not premultiplied.
+    #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+    pub struct Color {
+        /// Red.
+        pub r: u8,
+        /// Green.
+        pub g: u8,
+        /// Blue.
+        pub b: u8,
+        /// Opacity: 0 is invisible, 255 hides what is below.
+        pub a: u8,
+    }
 }
 
 impl Color {
@@ -111,46 +113,30 @@ impl Layer {
     }
 }
 
-/// Colours of everything that is drawn.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Palette {
-    /// Static bodies.
-    pub fixed: Color,
-    /// Kinematic bodies.
-    pub kinematic: Color,
-    /// Dynamic bodies, awake.
-    pub awake: Color,
-    /// Dynamic bodies, asleep: the same hue, dimmed.
-    pub asleep: Color,
-    /// Sensors.
-    pub sensor: Color,
-    /// Bounding boxes.
-    pub bounds: Color,
-    /// Joints.
-    pub joint: Color,
-    /// Centres of mass.
-    pub mass: Color,
-    /// Contact normals.
-    pub normal: Color,
-    /// Velocities.
-    pub velocity: Color,
-}
-
-impl Default for Palette {
-    fn default() -> Self {
-        Self {
-            fixed: Color::rgb(112, 122, 138),
-            kinematic: Color::rgb(178, 122, 240),
-            awake: Color::rgb(76, 158, 248),
-            asleep: Color::rgb(52, 84, 122),
-            sensor: Color::rgb(240, 190, 90).with_alpha(120),
-            bounds: Color::rgb(140, 140, 160).with_alpha(140),
-            joint: Color::rgb(238, 238, 170),
-            mass: Color::rgb(250, 250, 250),
-            normal: Color::rgb(238, 240, 245),
-            velocity: Color::rgb(120, 230, 170),
-        }
+described! {
+    /// Colours of everything that is drawn.
+    #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+    pub struct Palette {
+        /// Static bodies.
+        pub fixed: Color = Color::rgb(112, 122, 138),
+        /// Kinematic bodies.
+        pub kinematic: Color = Color::rgb(178, 122, 240),
+        /// Dynamic bodies, awake.
+        pub awake: Color = Color::rgb(76, 158, 248),
+        /// Dynamic bodies, asleep: the same hue, dimmed.
+        pub asleep: Color = Color::rgb(52, 84, 122),
+        /// Sensors.
+        pub sensor: Color = Color::rgb(240, 190, 90).with_alpha(120),
+        /// Bounding boxes.
+        pub bounds: Color = Color::rgb(140, 140, 160).with_alpha(140),
+        /// Joints.
+        pub joint: Color = Color::rgb(238, 238, 170),
+        /// Centres of mass.
+        pub mass: Color = Color::rgb(250, 250, 250),
+        /// Contact normals.
+        pub normal: Color = Color::rgb(238, 240, 245),
+        /// Velocities.
+        pub velocity: Color = Color::rgb(120, 230, 170),
     }
 }
 
@@ -196,57 +182,38 @@ pub fn depth_color(depth: f32) -> Color {
     DEPTH_SCALE[DEPTH_SCALE.len() - 1].1
 }
 
-/// What to draw, and in which colours.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct DebugDrawOptions {
-    /// Shapes of bodies.
-    pub shapes: bool,
-    /// Joints: lines to their anchors.
-    pub joints: bool,
-    /// Bounding boxes of shapes.
-    pub bounds: bool,
-    /// Centres of mass with the body's axes.
-    pub mass: bool,
-    /// Contact points, coloured by penetration depth.
-    pub contacts: bool,
-    /// Contact normals.
-    pub normals: bool,
-    /// Velocities of moving bodies, as the way of a tenth of a second.
-    pub velocities: bool,
-    /// Bodies blend into the colour of their deepest contact where that is deeper than they should
-    /// rest: trouble glows.
-    pub depth_tint: bool,
-    /// Diameter of points, pixels.
-    pub point_size: f32,
-    /// The world point that is (0, 0) in what is drawn, usually the camera's centre.
-    pub origin: DVec2,
-    /// Bodies are drawn between the start (0) and the end (1) of the last step: see
-    /// [`FixedStep::alpha`](crate::FixedStep::alpha).
-    pub alpha: f32,
-    /// Leave out what is outside this box (relative to the origin).
-    pub clip: Option<Aabb>,
-    /// The colours.
-    pub palette: Palette,
-}
-
-impl Default for DebugDrawOptions {
-    fn default() -> Self {
-        Self {
-            shapes: true,
-            joints: true,
-            bounds: false,
-            mass: false,
-            contacts: true,
-            normals: true,
-            velocities: false,
-            depth_tint: true,
-            point_size: 6.0,
-            origin: DVec2::ZERO,
-            alpha: 1.0,
-            clip: None,
-            palette: Palette::default(),
-        }
+described! {
+    /// What to draw, and in which colours.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    pub struct DebugDrawOptions {
+        /// Shapes of bodies.
+        pub shapes: bool = true,
+        /// Joints: lines to their anchors.
+        pub joints: bool = true,
+        /// Bounding boxes of shapes.
+        pub bounds: bool = false,
+        /// Centres of mass with the body's axes.
+        pub mass: bool = false,
+        /// Contact points, coloured by penetration depth.
+        pub contacts: bool = true,
+        /// Contact normals.
+        pub normals: bool = true,
+        /// Velocities of moving bodies, as the way of a tenth of a second.
+        pub velocities: bool = false,
+        /// Bodies blend into the colour of their deepest contact where that is deeper than they should
+        /// rest: trouble glows.
+        pub depth_tint: bool = true,
+        /// Diameter of points, pixels.
+        pub point_size: f32 = 6.0,
+        /// The world point that is (0, 0) in what is drawn, usually the camera's centre.
+        pub origin: DVec2 = DVec2::ZERO,
+        /// Bodies are drawn between the start (0) and the end (1) of the last step: see
+        /// [`FixedStep::alpha`](crate::FixedStep::alpha).
+        pub alpha: f32 = 1.0,
+        /// Leave out what is outside this box (relative to the origin).
+        pub clip: Option<Aabb> = None,
+        /// The colours.
+        pub palette: Palette = Palette::default(),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Contacts of the moments of impact; see the [stage](super).
 
-use crate::broad_phase::{BroadPhase, ProxyId, ProxyKind};
+use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{
     Bodies, ConstraintBlock, Contact, Contacts, Graph, Place, ShapeRecord, Shapes, Slot,
 };
@@ -15,7 +15,6 @@ use crate::stages::narrow_context::Context;
 use crate::stages::pairs::Partners;
 use crate::stages::surfaces::{self, LanePoints};
 use crate::threads::Team;
-use core::ops::ControlFlow;
 
 /// Through how many bodies a hit may be handed on in a step.
 const ROUNDS: usize = 6;
@@ -338,12 +337,10 @@ impl Again {
         for shape in shapes.of_body(info.first_shape) {
             let mask = shapes.records[shape as usize].filter.reach().1;
             let path = shapes.tight[shape as usize].swept(partners.ways[shape as usize]);
-            broad_phase.tree(ProxyKind::Dynamic).query(&path, mask, |proxy| {
-                let other = broad_phase.user(ProxyId(proxy)).filter(|&other| {
-                    partners.come_near(shape, other) && partners.may_meet(shape, other)
-                });
-                self.pairs.extend(other.map(|other| (shape.min(other), shape.max(other))));
-                ControlFlow::Continue(())
+            broad_phase.each_of(ProxyKind::Dynamic, &path, mask, |other| {
+                if partners.come_near(shape, other) && partners.may_meet(shape, other) {
+                    self.pairs.push((shape.min(other), shape.max(other)));
+                }
             });
         }
     }

@@ -1,0 +1,187 @@
+//! Bodies and shapes: describing, changing, drawing them.
+
+use super::{DT, circle, ground, square, steps};
+use tiny_physics::prelude::*;
+use tiny_physics::*;
+
+/// A doll whose centre of mass is low rights itself; one with the centre of its shape does not.
+#[test]
+fn centre_and_inertia_are_what_they_are_set_to() {
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let doll = |x: f64| {
+        let body = RigidBody::dynamic().position((x, 0.5)).angle(1.2).shape(circle(0.5)).mass(2.0);
+        body.damping(0.0, 1.0).can_sleep(false)
+    };
+    let low = world.add_body(doll(0.0).center((0.0, -0.3))).unwrap();
+    let plain = world.add_body(doll(5.0)).unwrap();
+    let inertia = |world: &World, id| world.body(id).unwrap().inertia();
+    // Of a disk, and about a point 0.3 m off.
+    assert!((inertia(&world, plain) - 0.5 * 2.0 * 0.25).abs() < 1e-5);
+    assert!((inertia(&world, low) - (0.25 + 2.0 * 0.09)).abs() < 1e-5);
+    steps(&mut world, 900);
+    assert!(world.body(low).unwrap().angle().abs() < 0.05);
+    assert!((world.body(plain).unwrap().angle() - 1.2).abs() < 0.05);
+
+    let place = world.body(plain).unwrap().position();
+    let mut body = world.body_mut(plain).unwrap();
+    body.set_inertia(Some(9.0)).unwrap();
+    body.set_center(Some(Vec2::new(0.1, 0.0))).unwrap();
+    assert!(body.set_inertia(Some(0.0)).is_err() && body.set_inertia(Some(f32::NAN)).is_err());
+    assert!(body.set_center(Some(Vec2::new(f32::NAN, 0.0))).is_err());
+    assert_eq!((body.inertia(), body.local_center()), (9.0, Vec2::new(0.1, 0.0)));
+    assert!((body.position() - place).length() < 1e-6);
+    body.set_mass(Some(4.0)).unwrap();
+    assert_eq!(body.inertia(), 9.0, "as it was set");
+    body.set_center(None).unwrap();
+    body.set_inertia(None).unwrap();
+    assert!((body.inertia() - 0.5).abs() < 1e-5);
+    assert!(world.add_body(doll(9.0).inertia(-1.0)).is_err());
+    assert!(world.add_body(doll(9.0).center((f32::INFINITY, 0.0))).is_err());
+    world.validate().unwrap();
+}
+
+/// Friction, restitution and density alone; a filter that switches a shape off and on.
+#[test]
+fn shapes_are_changed_one_thing_at_a_time() {
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let body = RigidBody::dynamic().position((0.0, 0.5)).velocity((4.0, 0.0)).shape(square(0.5));
+    let body = world.add_body(body.friction(0.0)).unwrap();
+    let shape = world.body(body).unwrap().shapes().next().unwrap();
+    steps(&mut world, 30);
+    assert!((world.body(body).unwrap().velocity().x - 4.0).abs() < 1e-3);
+    let mut change = world.shape_mut(shape).unwrap();
+    change.set_friction(1.0).unwrap();
+    change.set_restitution(0.3).unwrap();
+    change.set_density(3.0).unwrap();
+    assert!(change.set_friction(-1.0).is_err() && change.set_density(f32::NAN).is_err());
+    let material = change.material();
+    assert_eq!((material.friction, material.restitution, material.density), (1.0, 0.3, 3.0));
+    assert_eq!(world.body(body).unwrap().mass(), 3.0);
+    steps(&mut world, 60);
+    assert!(world.body(body).unwrap().velocity().x.abs() < 0.5, "rubs now");
+
+    let filter = world.shape(shape).unwrap().filter();
+    world.shape_mut(shape).unwrap().set_filter(Filter::NONE);
+    steps(&mut world, 20);
+    assert!(world.body(body).unwrap().position().y < 0.3, "it falls through the ground");
+    assert!(
+        world
+            .overlap_point(world.body(body).unwrap().center(), &QueryFilter::new())
+            .iter()
+            .all(|found| *found != shape)
+    );
+    world.body_mut(body).unwrap().set_position((0.0, 2.0));
+    world.shape_mut(shape).unwrap().set_filter(filter);
+    steps(&mut world, 120);
+    assert!((world.body(body).unwrap().position().y - 0.5).abs() < 0.01, "and stands on it again");
+}
+
+/// Whatever a body has, its copy has.
+#[test]
+fn bodies_are_described_as_they_are() {
+    let mut world = World::new((0.0, -10.0));
+    let shape =
+        ShapeDef::new(Shape::regular(5, 0.5).unwrap()).offset((0.3, 0.1)).angle(0.5).events();
+    let shape =
+        shape.friction(0.2).density(3.0).one_way((0.0, 1.0)).user_data(4).mix(Some(Mix::Min), None);
+    let sensor = ShapeDef::new(circle(1.0)).density(0.0).sensor_of_sensors();
+    let body = RigidBody::dynamic()
+        .position((3.0, 9.0))
+        .angle(0.7)
+        .velocity((1.0, 2.0))
+        .shape(shape)
+        .shape(sensor);
+    let body = body
+        .angular_velocity(3.0)
+        .damping(0.1, 0.2)
+        .gravity_scale(0.5)
+        .bullet()
+        .mass(7.0)
+        .inertia(2.0)
+        .center((0.1, 0.0));
+    let body = RigidBody { locks: Locks { x: true, y: false, rotation: false }, ..body }
+        .user_data(11)
+        .can_sleep(false);
+    let first = world.add_body(body.clone()).unwrap();
+    let told = world.body(first).unwrap().describe();
+    assert!((told.angle - body.angle).abs() < 1e-6);
+    assert!((told.shapes[0].angle - body.shapes[0].angle).abs() < 1e-6);
+    let exact = |mut told: RigidBody| {
+        told.angle = body.angle;
+        told.position = body.position;
+        told.shapes[0].angle = body.shapes[0].angle;
+        told
+    };
+    assert!((told.position - body.position).length() < 1e-6);
+    assert_eq!(exact(told), body);
+    let chain = RigidBody::fixed().chain(&ChainDef::heights(1.0, &[0.0, 1.0, 0.5])).unwrap();
+    let ground = world.add_body(chain.clone()).unwrap();
+    assert_eq!(world.body(ground).unwrap().describe(), chain);
+    steps(&mut world, 10);
+    let copy = world.body(first).unwrap().describe();
+    let mut apart = World::new((0.0, -10.0));
+    let copy = apart.add_body(copy).unwrap();
+    assert!(
+        (apart.body(copy).unwrap().center() - world.body(first).unwrap().center()).length() < 1e-5
+    );
+}
+
+#[test]
+fn ground_of_heights_and_half_spaces_holds() {
+    let mut world = World::new((0.0, -10.0));
+    let hills: Vec<f32> = (0..41).map(|i| (0.5 * i as f32).sin()).collect();
+    let field = ChainDef::heights(1.0, &hills);
+    world.add_body(RigidBody::fixed().position((-20.0, 0.0)).chain(&field).unwrap()).unwrap();
+    let floor = ChainDef::half_space((0.0, -5.0), (0.0, 1.0));
+    world.add_body(RigidBody::fixed().chain(&floor).unwrap()).unwrap();
+    let at = |x: f64| RigidBody::dynamic().position((x, 4.0)).shape(circle(0.3));
+    let on_hill = world.add_body(at(0.0).damping(0.5, 0.5)).unwrap();
+    let beside = world.add_body(at(400.0)).unwrap();
+    steps(&mut world, 600);
+    let hill = world.body(on_hill).unwrap().position();
+    let height = (0.5 * (hill.x + 20.0)).sin();
+    assert!(hill.y > height && hill.y < height + 0.6, "{hill:?} over {height}");
+    assert!((world.body(beside).unwrap().position().y + 4.7).abs() < 0.01);
+    let tilted = ChainDef::half_space((0.0, 0.0), (1.0, 1.0)).shapes().unwrap();
+    let Shape::Segment { a, b } = tilted[0].shape else { panic!("a segment") };
+    assert!((b - a).cross(Vec2::new(1.0, 1.0)) < 0.0, "outside is to the right of the way");
+}
+
+#[test]
+fn drawing_stands_between_steps() {
+    struct Circles(Vec<Vec2>);
+    impl DebugDraw for Circles {
+        fn polygon(&mut self, _: &Transform, _: &[Vec2], _: f32, _: Color) {}
+        fn circle(&mut self, pose: &Transform, _: f32, _: Color) {
+            self.0.push(pose.p);
+        }
+        fn capsule(&mut self, _: Vec2, _: Vec2, _: f32, _: Color) {}
+        fn segment(&mut self, _: Vec2, _: Vec2, _: Color) {}
+        fn point(&mut self, _: Vec2, _: f32, _: Color) {}
+        fn text(&mut self, _: Vec2, _: &str, _: Color) {}
+    }
+    let mut world = World::new((0.0, 0.0));
+    world.add_body(RigidBody::dynamic().velocity((6.0, 0.0)).shape(circle(0.5))).unwrap();
+    world.step(DT);
+    for (alpha, x) in [(0.0, 0.0), (0.5, 0.05), (1.0, 0.1)] {
+        let mut drawn = Circles(Vec::new());
+        world.debug_draw(&mut drawn, &DebugDrawOptions { alpha, ..DebugDrawOptions::default() });
+        assert!((drawn.0[0].x - x).abs() < 1e-5, "{alpha}: {:?}", drawn.0);
+    }
+}
+
+/// A polygon of more than eight corners is split, whole and with the same mass.
+#[test]
+fn polygons_of_many_corners_are_split() {
+    let ring: Vec<Vec2> =
+        (0..24).map(|i| Vec2::new((i as f32 * 0.2618).cos(), (i as f32 * 0.2618).sin())).collect();
+    let material = ShapeDef::new(square(1.0));
+    let wheel = RigidBody::dynamic().outline(&ring, &material).unwrap();
+    assert!(wheel.shapes.len() < 6);
+    let mut world = World::new((0.0, 0.0));
+    let wheel = world.add_body(wheel).unwrap();
+    let area = 12.0 * (0.2618_f32).sin();
+    assert!((world.body(wheel).unwrap().mass() - area).abs() < 1e-3);
+}

@@ -1,0 +1,253 @@
+//! Characters.
+
+use super::{DT, circle, ground, square, steps};
+use tiny_physics::prelude::*;
+use tiny_physics::*;
+
+fn walk(walk: f32) -> MoverInput {
+    MoverInput { walk, ..MoverInput::default() }
+}
+
+fn hero(world: &mut World, place: (f64, f64)) -> CharacterMover {
+    let mut hero = CharacterMover::new(place, 1.8, 0.3);
+    hero.body = Some(world.add_body(hero.describe_body()).unwrap());
+    hero
+}
+
+fn go(world: &mut World, hero: &mut CharacterMover, input: MoverInput, count: usize) {
+    for _ in 0..count {
+        world.step(DT);
+        hero.update(world, input, DT);
+    }
+}
+
+/// The recipe of the guide: coins to pick up, a door that opens, a zone that hurts. Each is a plain sensor.
+#[test]
+fn a_hero_picks_up_opens_doors_and_is_hurt() {
+    const COIN: u64 = 1;
+    const DOOR: u64 = 2;
+    const FIRE: u64 = 3;
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let zone = |x: f64, half: f32, what: u64| {
+        let shape = ShapeDef::new(Shape::rect(half, 0.5).unwrap()).sensor();
+        RigidBody::fixed().position((x, 0.5)).shape(shape).user_data(what)
+    };
+    for x in [2.0, 3.0, 4.0] {
+        world.add_body(zone(x, 0.1, COIN)).unwrap();
+    }
+    world.add_body(zone(7.0, 1.0, DOOR)).unwrap();
+    let door = RigidBody::kinematic().position((8.5, 1.5)).shape(Shape::rect(0.2, 1.5).unwrap());
+    let door = world.add_body(door).unwrap();
+    world.add_body(zone(12.0, 1.0, FIRE)).unwrap();
+    let mut hero = hero(&mut world, (0.0, 0.91));
+    let (mut coins, mut in_fire, mut health) = (0, 0, 100.0);
+    let mut events = world.events().clone();
+    for _ in 0..480 {
+        world.step(DT);
+        events.clone_from(world.events());
+        for met in events.sensor_begin().iter().filter(|met| Some(met.sensor_body) == hero.body) {
+            match met.visitor_data.body {
+                COIN => {
+                    coins += 1;
+                    world.remove_body(met.visitor_body).unwrap();
+                }
+                DOOR => world.body_mut(door).unwrap().set_velocity((0.0, 6.0)),
+                FIRE => in_fire += 1,
+                _ => {}
+            }
+        }
+        for left in events.sensor_end().iter().filter(|left| Some(left.sensor_body) == hero.body) {
+            match left.visitor_data.body {
+                DOOR => world.body_mut(door).unwrap().set_velocity((0.0, 0.0)),
+                FIRE => in_fire -= 1,
+                _ => {}
+            }
+        }
+        health -= 20.0 * DT * in_fire as f32;
+        hero.update(&mut world, walk(3.0), DT);
+    }
+    assert!(hero.position.x > 15.0, "the door has let him through: {:?}", hero.position);
+    assert_eq!((coins, in_fire), (3, 0));
+    // 2 m of fire and his own width, at 3 m/s and 20 points a second.
+    let burnt = 100.0 - health;
+    assert!((burnt - 20.0 * 2.6 / 3.0).abs() < 1.0, "{burnt}");
+    assert_eq!(world.body(hero.body.unwrap()).unwrap().position_f64(), hero.position);
+    world.validate().unwrap();
+}
+
+/// A solid body of his own does not get in his way.
+#[test]
+fn a_hero_does_not_fight_his_own_body() {
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let mut alone = CharacterMover::new((0.0, 0.91), 1.8, 0.3);
+    let mut with_body = CharacterMover::new((0.0, 0.91), 1.8, 0.3);
+    let solid = Shape::capsule((0.0, -0.6), (0.0, 0.6), 0.3).unwrap();
+    let body = RigidBody::kinematic().position((0.0, 0.91)).shape(solid);
+    let ball = RigidBody::dynamic().position((30.0, 0.4)).velocity((-4.0, 0.0)).shape(circle(0.3));
+    let ball = world.add_body(ball).unwrap();
+    with_body.body = Some(world.add_body(body).unwrap());
+    let mut apart = World::new((0.0, -10.0));
+    ground(&mut apart);
+    for step in 0..200 {
+        let input = MoverInput { jump: if step % 50 == 20 { 4.0 } else { 0.0 }, ..walk(2.0) };
+        go(&mut world, &mut with_body, input, 1);
+        go(&mut apart, &mut alone, input, 1);
+        assert_eq!(alone.position, with_body.position);
+    }
+    steps(&mut world, 300);
+    assert!(
+        world.body(ball).unwrap().position().x > with_body.position.x as f32,
+        "it is stopped by him"
+    );
+}
+
+#[test]
+fn a_hero_is_launched_along_with_what_he_wants() {
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let wall = Shape::rect(0.5, 9.0).unwrap();
+    let wall = world.add_body(RigidBody::fixed().position((5.0, 9.0)).shape(wall)).unwrap();
+    let mut hero = hero(&mut world, (0.0, 0.91));
+    go(&mut world, &mut hero, MoverInput::default(), 5);
+    // Knockback: off the ground and back to it, as far as the parabola goes.
+    hero.launch((-4.0, 5.0));
+    go(&mut world, &mut hero, MoverInput::default(), 10);
+    assert!(hero.ground().is_none());
+    go(&mut world, &mut hero, MoverInput::default(), 60);
+    assert!(hero.ground().is_some() && (hero.position.x + 4.0).abs() < 0.05, "{:?}", hero.position);
+    // Wall jump: run against the wall in the air, push off from what was hit.
+    go(&mut world, &mut hero, walk(6.0), 80);
+    go(&mut world, &mut hero, MoverInput { jump: 6.0, ..walk(6.0) }, 1);
+    go(&mut world, &mut hero, walk(6.0), 15);
+    let hit = *hero.hits().iter().find(|hit| hit.body == wall).expect("he runs against the wall");
+    assert!((hit.normal + Vec2::X).length() < 1e-3 && (hit.point.x - 4.5).abs() < 1e-3);
+    let height = hero.position.y;
+    hero.launch(hit.normal * 3.0 + Vec2::Y * 5.0);
+    go(&mut world, &mut hero, MoverInput::default(), 20);
+    assert!(hero.position.y > height + 0.8 && hero.position.x < 3.4, "{:?}", hero.position);
+    // Sideways speed ends where it meets a wall.
+    hero.position = DVec2::new(3.5, 5.0);
+    hero.launch((5.0, 0.0));
+    go(&mut world, &mut hero, MoverInput::default(), 20);
+    let beside = hero.position.x;
+    go(&mut world, &mut hero, walk(-1.0), 6);
+    assert!((beside - hero.position.x - 0.1).abs() < 0.01, "he is free of it");
+}
+
+/// Ladders and dashes by moves of his own.
+#[test]
+fn a_hero_moves_by_rules_of_his_own() {
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let block = world.add_body(RigidBody::fixed().position((3.0, 1.0)).shape(square(1.0))).unwrap();
+    let mut hero = hero(&mut world, (0.0, 0.91));
+    go(&mut world, &mut hero, MoverInput::default(), 5);
+    for _ in 0..60 {
+        world.step(DT);
+        let made = hero.move_by(&world, (0.0, 3.0 * DT));
+        assert!((made - Vec2::new(0.0, 0.05)).length() < 1e-6);
+        hero.lead_body(&mut world);
+    }
+    assert!((hero.position.y - 3.91).abs() < 0.01 && hero.ground().is_none());
+    assert_eq!(world.body(hero.body.unwrap()).unwrap().position_f64(), hero.position);
+    assert!((hero.interpolated_position(0.5).y - (hero.position.y - 0.025)).abs() < 1e-6);
+    // Down to the ground, which stops him and carries him.
+    let made = hero.move_by(&world, (0.0, -9.0));
+    assert!((made.y + 3.0).abs() < 0.01 && hero.ground().is_some());
+    // A dash runs against the block and along it.
+    let made = hero.move_by(&world, (9.0, 0.1));
+    assert!((made.x - 1.7).abs() < 0.02, "{made:?}");
+    assert!(hero.hits().iter().any(|hit| hit.body == block));
+    assert_eq!(hero.move_by(&world, (f32::NAN, 0.0)), Vec2::ZERO);
+}
+
+#[test]
+fn a_hero_ducks_and_gets_up_where_there_is_room() {
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let ceiling = Shape::rect(2.0, 0.5).unwrap();
+    world.add_body(RigidBody::fixed().position((4.0, 1.7)).shape(ceiling)).unwrap();
+    let mut hero = hero(&mut world, (0.0, 0.91));
+    go(&mut world, &mut hero, walk(3.0), 60);
+    assert!(hero.position.x < 2.0, "too tall");
+    assert!(hero.resize(&world, 1.0, 0.3));
+    assert!((hero.position.y - 0.51).abs() < 1e-3, "the foot stays");
+    go(&mut world, &mut hero, walk(3.0), 40);
+    assert!(hero.position.x > 3.0 && !hero.resize(&world, 1.8, 0.3), "no room to get up");
+    let form = world.body(hero.body.unwrap()).unwrap().shapes().next().unwrap();
+    let Shape::Capsule { a, b, .. } = *world.shape(form).unwrap().shape() else { panic!() };
+    assert!(((b - a).length() - 0.4).abs() < 1e-5, "his body ducks, too");
+    go(&mut world, &mut hero, walk(3.0), 60);
+    assert!(hero.resize(&world, 1.8, 0.3) && hero.fits(&world));
+    for bad in [f32::NAN, f32::INFINITY, -1.0] {
+        assert!(!hero.resize(&world, 1.8, bad));
+    }
+    assert!(!hero.resize(&world, f32::NAN, 0.3));
+}
+
+/// A gap 2 % wider than himself, from above, from below and along.
+#[test]
+fn a_hero_passes_gaps_a_fiftieth_wider_than_himself() {
+    for off in [-0.004, 0.0, 0.004] {
+        let mut world = World::new((0.0, -10.0));
+        ground(&mut world);
+        for side in [-1.0, 1.0] {
+            let wall = Shape::rect(1.0, 3.0).unwrap();
+            let place = (side * (1.0 + 0.306), 5.0);
+            world.add_body(RigidBody::fixed().position(place).shape(wall)).unwrap();
+        }
+        let mut hero = hero(&mut world, (off, 9.5));
+        go(&mut world, &mut hero, MoverInput::default(), 150);
+        assert!((hero.position.y - 0.91).abs() < 0.01, "down, {off}: {:?}", hero.position);
+        hero.position.x = off;
+        go(&mut world, &mut hero, MoverInput { jump: 14.0, ..walk(0.0) }, 1);
+        go(&mut world, &mut hero, MoverInput::default(), 70);
+        assert!(hero.position.y > 8.0, "up, {off}: {:?}", hero.position);
+    }
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let lid = Shape::rect(3.0, 1.0).unwrap();
+    world.add_body(RigidBody::fixed().position((5.0, 1.0 + 1.8 * 1.02)).shape(lid)).unwrap();
+    let mut hero = hero(&mut world, (0.0, 0.91));
+    go(&mut world, &mut hero, walk(3.0), 240);
+    assert!(hero.position.x > 11.5, "along: {:?}", hero.position);
+}
+
+#[test]
+fn a_ledge_goes_as_one_or_not_at_all() {
+    let mut world = World::new((0.0, -10.0));
+    let floor = world.add_body(RigidBody::fixed()).unwrap();
+    let ledge = world.add_chain(floor, &ChainDef::heights(1.0, &[1.0; 9])).unwrap();
+    let load = RigidBody::dynamic()
+        .position((4.0, 1.3))
+        .shape(square(0.3))
+        .shape(ShapeDef::new(square(0.3)).offset((0.6, 0.0)));
+    let load = world.add_body(load).unwrap();
+    steps(&mut world, 300);
+    assert!(!world.body(load).unwrap().is_awake());
+    let (half, mass) =
+        (world.body(load).unwrap().shapes().next().unwrap(), world.body(load).unwrap().mass());
+    let ice = |friction| Material { friction, ..Material::default() };
+    let frictions = |world: &World| -> Vec<f32> {
+        ledge.iter().filter_map(|id| Some(world.shape(*id)?.material().friction)).collect()
+    };
+    ledge.set_material(&mut world, ice(0.1)).unwrap();
+    assert!(ledge.set_material(&mut world, ice(f32::NAN)).is_err());
+    assert_eq!(frictions(&world), [0.1; 8]);
+    assert!(world.body(load).unwrap().is_awake(), "the ground has changed");
+    world.remove_shape(ledge[0]).unwrap();
+    assert!(ledge.set_material(&mut world, ice(0.2)).is_err());
+    assert_eq!(frictions(&world), [0.1; 7], "one is gone");
+    assert!(ledge.clone().remove(&mut world).is_err(), "one is gone");
+    assert_eq!(world.shape_count(), 9);
+    // Shapes of two bodies, one of them named twice.
+    let gone = [&ledge[1..], &[half, half]].concat();
+    world.remove_shapes(&gone).unwrap();
+    assert_eq!((world.shape_count(), world.body(load).unwrap().mass()), (1, 0.5 * mass));
+    world.validate().unwrap();
+    steps(&mut world, 60);
+    assert!(world.body(load).unwrap().position().y < -1.0, "it woke and fell");
+    world.remove_shapes(&[]).unwrap();
+}
