@@ -6,7 +6,7 @@ use common::sources::{Source, sources};
 use std::collections::BTreeMap;
 
 /// Lines of the engine without blanks, comments and tests. Lower it where code has gone; the goal is 16,000.
-const MOST_LINES: usize = 25_400;
+const MOST_LINES: usize = 25_230;
 
 /// Lines of a file. One subject needs no more.
 const MOST_LINES_OF_A_FILE: usize = 600;
@@ -95,4 +95,31 @@ fn functions_are_measured_by_their_braces() {
     let code = "fn one() {}\ntrait T {\n fn none(x: [u8; 2]);\n}\nfn three() {\n if x { y }\n}\n";
     let source = Source::new("a.rs", code);
     assert_eq!(functions(&source.code), [(1, "one".to_owned()), (3, "three".to_owned())]);
+}
+
+/// Lines of the reading path through the core, and how far off what the page says of its parts may be.
+const MOST_LINES_OF_AN_EVENING: usize = 6_200;
+const ROUGHLY: usize = 40;
+
+#[test]
+fn the_core_in_an_evening_is_as_long_as_it_says() {
+    let page =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../ARCHITECTURE.md"))
+            .expect("the page");
+    let path = page.split("## The core in an evening").nth(1).expect("the reading path");
+    let files: BTreeMap<String, usize> =
+        sources().iter().map(|s| (s.path.clone(), lines(s))).collect();
+    let mut total = 0;
+    for row in
+        path.split("\n## ").next().unwrap_or_default().lines().filter(|line| line.contains(".rs`"))
+    {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        let Some(told) = cells.get(3).and_then(|cell| cell.parse::<usize>().ok()) else { continue };
+        let named = cells[2].split('`').filter(|name| name.ends_with(".rs"));
+        let found: usize = named.map(|name| files[name]).sum();
+        assert!(found.abs_diff(told) <= ROUGHLY, "{}: {found} lines, not {told}", cells[1]);
+        total += found;
+    }
+    println!("{total} lines in an evening");
+    assert!((5_000..=MOST_LINES_OF_AN_EVENING).contains(&total), "{total} lines in an evening");
 }

@@ -97,4 +97,21 @@ macro_rules! described_enum {
     };
 }
 
-pub(crate) use {described, described_enum};
+/// Declares the fields that a record keeps just as they were described: what both call alike is copied, both ways.
+macro_rules! kept_as_described {
+    ($record:ident of $described:ident { $($field:ident),* $(,)? }) => {
+        impl $record {
+            /// Takes over what is kept as it was described.
+            pub(crate) fn take_over(self, described: &$described) -> Self {
+                Self { $($field: described.$field,)* ..self }
+            }
+
+            /// Tells it again.
+            pub(crate) fn tell(&self, described: $described) -> $described {
+                $described { $($field: self.$field,)* ..described }
+            }
+        }
+    };
+}
+
+pub(crate) use {described, described_enum, kept_as_described};

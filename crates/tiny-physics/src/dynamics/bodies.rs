@@ -1,8 +1,8 @@
 //! Bodies: hot rows for the solver, poses, and everything else.
 
 use super::pace::{JOINTED, PLAIN};
-use crate::codec::{Data, Generations, Reader, Sink, record, store};
-use crate::describe::{BodyKind, Locks};
+use crate::codec::{Data, Generations, Reader, Sink, kept_as_described, record, store};
+use crate::describe::{BodyKind, Locks, RigidBody};
 use crate::error::Error;
 use crate::math::{DVec2, Pose, Rot, Vec2};
 use crate::simd::Row;
@@ -87,6 +87,10 @@ record! {
         pub(crate) user_data: u64 = 0,
     }
 }
+
+kept_as_described!(BodyInfo of RigidBody {
+    kind, enabled, bullet, can_sleep, locks, gravity_scale, linear_damping, angular_damping, sleep_speed, user_data,
+});
 
 const _: () = assert!(core::mem::offset_of!(BodyInfo, local_center) <= 64);
 const _: () = assert!(size_of::<BodyInfo>() == 128);

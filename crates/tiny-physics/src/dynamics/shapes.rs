@@ -2,8 +2,8 @@
 
 use super::bodies::NULL;
 use crate::broad_phase::ProxyId;
-use crate::codec::{Generations, record, store};
-use crate::describe::{ChainLink, Filter, Material};
+use crate::codec::{Generations, kept_as_described, record, store};
+use crate::describe::{ChainLink, Filter, Material, ShapeDef};
 use crate::geometry::Shape;
 use crate::geometry::manifold::ShapeClass;
 use crate::math::{Aabb, Transform, Vec2};
@@ -15,33 +15,37 @@ record! {
     #[derive(Clone, Copy, PartialEq, Debug)]
     #[repr(C, align(64))]
     pub(crate) struct ShapeRecord {
-        pub(crate) body: u32,
+        pub(crate) body: u32 = NULL,
         /// Next shape of the body.
-        pub(crate) next: u32,
+        pub(crate) next: u32 = NULL,
         /// Leaf in the broad phase; NULL while the body is disabled.
-        pub(crate) proxy: u32,
-        pub(crate) class: ShapeClass,
-        pub(crate) alive: bool,
-        pub(crate) sensor: bool,
-        pub(crate) sees_sensors: bool,
-        pub(crate) contact_events: bool,
-        pub(crate) hit_events: bool,
-        pub(crate) filter: Filter,
-        pub(crate) generation: u32 as apart,
-        pub(crate) material: Material,
+        pub(crate) proxy: u32 = NULL,
+        pub(crate) class: ShapeClass = ShapeClass::Circle,
+        pub(crate) alive: bool = false,
+        pub(crate) sensor: bool = false,
+        pub(crate) sees_sensors: bool = false,
+        pub(crate) contact_events: bool = false,
+        pub(crate) hit_events: bool = false,
+        pub(crate) filter: Filter = Filter::default(),
+        pub(crate) generation: u32 as apart = 0,
+        pub(crate) material: Material = Material::default(),
         /// Shape's frame in the body's frame.
-        pub(crate) local: Transform,
+        pub(crate) local: Transform = Transform::IDENTITY,
         /// Shape's frame in the frame of the body's centre of mass.
-        pub(crate) central: Transform,
+        pub(crate) central: Transform = Transform::IDENTITY,
         /// Frame of the shape as a rounded box (see [`Shapes::rows`]) in the shape's frame.
-        pub(crate) box_frame: Transform,
-        pub(crate) one_way: Option<Vec2>,
-        pub(crate) link: Option<ChainLink>,
-        pub(crate) user_data: u64,
+        pub(crate) box_frame: Transform = Transform::IDENTITY,
+        pub(crate) one_way: Option<Vec2> = None,
+        pub(crate) link: Option<ChainLink> = None,
+        pub(crate) user_data: u64 = 0,
         /// Geometry in the shape's frame.
-        pub(crate) shape: Shape,
+        pub(crate) shape: Shape = Shape::Circle { radius: 0.0 },
     }
 }
+
+kept_as_described!(ShapeRecord of ShapeDef {
+    shape, material, filter, sensor, sees_sensors, one_way, link, contact_events, hit_events, user_data,
+});
 
 const _: () = assert!(core::mem::offset_of!(ShapeRecord, material) <= 64);
 

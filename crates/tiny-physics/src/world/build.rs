@@ -25,21 +25,11 @@ impl World {
         let moving = body.kind != BodyKind::Static && body.enabled;
         let rotation = Rot::from_angle(body.angle);
         let info = BodyInfo {
-            kind: body.kind,
-            enabled: body.enabled,
-            bullet: body.bullet,
-            can_sleep: body.can_sleep,
-            locks: body.locks,
             fixed_mass: Given::new(body.mass),
             fixed_center: body.center,
             fixed_inertia: Given::new(body.inertia),
-            gravity_scale: body.gravity_scale,
-            linear_damping: body.linear_damping,
-            angular_damping: body.angular_damping,
-            sleep_speed: body.sleep_speed,
-            user_data: body.user_data,
             awake: moving && body.awake,
-            ..BodyInfo::default()
+            ..BodyInfo::default().take_over(&body)
         };
         let index = self.state.bodies.insert(info, Pose::new(body.position, rotation));
         self.state.shapes.records.reserve(body.shapes.len());
@@ -190,25 +180,11 @@ impl World {
     fn insert_shape(&mut self, body: u32, def: &ShapeDef) -> u32 {
         let info = &mut self.state.bodies.infos[body as usize];
         let record = ShapeRecord {
-            alive: true,
-            generation: 0,
             body,
-            class: ShapeClass::of(&def.shape),
-            shape: def.shape,
-            local: Transform::from_angle(def.offset, def.angle),
-            central: Transform::IDENTITY,
-            box_frame: Transform::IDENTITY,
-            material: def.material,
-            filter: def.filter,
-            sensor: def.sensor,
-            sees_sensors: def.sees_sensors,
-            one_way: def.one_way,
-            link: def.link,
-            contact_events: def.contact_events,
-            hit_events: def.hit_events,
-            user_data: def.user_data,
-            proxy: NULL,
             next: info.first_shape,
+            class: ShapeClass::of(&def.shape),
+            local: Transform::from_angle(def.offset, def.angle),
+            ..ShapeRecord::default().take_over(def)
         };
         let index = self.state.shapes.insert(record);
         if def.sensor {

@@ -54,27 +54,18 @@ impl Body<'_> {
     pub fn describe(&self) -> RigidBody {
         let info = self.info();
         let shapes = self.shapes().filter_map(|id| self.world.shape(id));
-        RigidBody {
-            kind: info.kind,
+        info.tell(RigidBody {
             position: self.position_f64(),
             angle: self.angle(),
             velocity: self.velocity(),
             angular_velocity: self.angular_velocity(),
-            linear_damping: info.linear_damping,
-            angular_damping: info.angular_damping,
-            gravity_scale: info.gravity_scale,
-            locks: info.locks,
             shapes: shapes.map(|shape| shape.describe()).collect(),
             mass: info.fixed_mass.get(),
             center: info.fixed_center,
             inertia: info.fixed_inertia.get(),
-            can_sleep: info.can_sleep,
             awake: info.awake || info.kind == BodyKind::Static,
-            sleep_speed: info.sleep_speed,
-            bullet: info.bullet,
-            enabled: info.enabled,
-            user_data: info.user_data,
-        }
+            ..RigidBody::default()
+        })
     }
 }
 
@@ -92,23 +83,11 @@ impl fmt::Debug for Body<'_> {
     }
 }
 
-impl fmt::Debug for BodyMut<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.as_ref().fmt(f)
-    }
-}
-
 impl fmt::Debug for ShapeRef<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut out = f.debug_struct("Shape");
         out.field("id", &self.id()).field("body", &self.body()).field("shape", self.shape());
         out.field("sensor", &self.is_sensor()).finish_non_exhaustive()
-    }
-}
-
-impl fmt::Debug for ShapeMut<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.as_ref().fmt(f)
     }
 }
 
@@ -120,12 +99,6 @@ impl fmt::Debug for JointRef<'_> {
     }
 }
 
-impl fmt::Debug for JointMut<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.as_ref().fmt(f)
-    }
-}
-
 /// What a body, shape or joint tells is told by one that may be changed, too.
 macro_rules! told_by_both {
     ($type:ident { $($(#[doc = $doc:literal])+ $name:ident: $out:ty;)+ }) => {
@@ -134,6 +107,12 @@ macro_rules! told_by_both {
             pub fn $name(&self) -> $out {
                 self.as_ref().$name()
             })+
+        }
+
+        impl fmt::Debug for $type<'_> {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                self.as_ref().fmt(f)
+            }
         }
     };
 }

@@ -72,21 +72,9 @@ impl<'a> ShapeRef<'a> {
 
     /// The shape as it is now, as a description.
     pub fn describe(&self) -> ShapeDef {
-        let record = self.record;
-        ShapeDef {
-            shape: record.shape,
-            offset: record.local.p,
-            angle: record.local.q.angle(),
-            material: record.material,
-            filter: record.filter,
-            sensor: record.sensor,
-            sees_sensors: record.sees_sensors,
-            one_way: record.one_way,
-            link: record.link,
-            contact_events: record.contact_events,
-            hit_events: record.hit_events,
-            user_data: record.user_data,
-        }
+        let Transform { p: offset, q } = self.record.local;
+        let def = ShapeDef::new(self.record.shape);
+        self.record.tell(ShapeDef { offset, angle: q.angle(), ..def })
     }
 
     /// The user's number.

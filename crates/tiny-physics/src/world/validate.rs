@@ -33,29 +33,24 @@ impl World {
     /// What is no part of a frame, because it follows from the rest.
     fn validate_derived(&self) -> Result<(), String> {
         let State { bodies, contacts, .. } = &self.state;
-        if !bodies.knows_awake_places() {
-            return Err("a body is elsewhere in the list of those that are awake".into());
-        }
+        let places = "a body is elsewhere in the list of those that are awake";
+        ensure(bodies.knows_awake_places(), || places.to_owned())?;
         let alive = || contacts.records.iter().zip(0..).filter(|(contact, _)| contact.alive);
         let known = alive().all(|(contact, index)| {
             contacts.pairs.get(contact.shape_a, contact.shape_b) == Some(index)
         });
-        if !known || contacts.pairs.len() != alive().count() {
-            return Err("the pair table is not that of the contacts".into());
-        }
-        Ok(())
+        let same = known && contacts.pairs.len() == alive().count();
+        ensure(same, || "the pair table is not that of the contacts".to_owned())
     }
 
     fn validate_bodies(&self) -> Result<(), String> {
         let bodies = &self.state.bodies;
-        if bodies.rows[0] != [0.0; 8] {
-            return Err("row 0 has been written".into());
-        }
+        ensure(bodies.rows[0] == [0.0; 8], || "row 0 has been written".to_owned())?;
         for index in bodies.indices() {
             let i = index as usize;
-            if !bodies.poses[i].is_finite() || bodies.rows[i].iter().any(|v| !v.is_finite()) {
-                return Err(format!("body {index} is not finite"));
-            }
+            let finite =
+                bodies.poses[i].is_finite() && bodies.rows[i].iter().all(|v| v.is_finite());
+            ensure(finite, || format!("body {index} is not finite"))?;
         }
         Ok(())
     }
@@ -68,23 +63,16 @@ impl World {
             self.state.contacts.records.iter().enumerate().filter(|(_, c)| c.alive)
         {
             let awake = pairs::is_awake(&self.state.bodies, contact);
-            match contact.place {
-                Place::Asleep if awake => {
-                    return Err(format!("contact {index} is awake without a lane"));
-                }
-                Place::Graph { .. } if !awake => {
-                    return Err(format!("contact {index} sleeps in a lane"));
-                }
-                Place::Graph { colour, .. } => {
-                    if contact.touching && (asleep(contact.body_a) || asleep(contact.body_b)) {
-                        return Err(format!("contact {index} pushes a body that sleeps"));
-                    }
-                    if contact.touching != (usize::from(colour) != IDLE) {
-                        return Err(format!("contact {index}: touching does not match its colour"));
-                    }
-                }
-                Place::Asleep => {}
-            }
+            let placed = awake == (contact.place != Place::Asleep);
+            ensure(placed, || {
+                format!("contact {index} is awake without a lane, or sleeps in one")
+            })?;
+            let Place::Graph { colour, .. } = contact.place else { continue };
+            let pushes = contact.touching && (asleep(contact.body_a) || asleep(contact.body_b));
+            ensure(!pushes, || format!("contact {index} pushes a body that sleeps"))?;
+            let solved = usize::from(colour) != IDLE;
+            let told = || format!("contact {index}: touching does not match its colour");
+            ensure(contact.touching == solved, told)?;
         }
         Ok(())
     }
@@ -111,10 +99,7 @@ impl World {
                 lost = Some((a, b));
             }
         });
-        match lost {
-            Some((a, b)) => Err(format!("shapes {a} and {b} will not meet")),
-            None => Ok(()),
-        }
+        lost.map_or(Ok(()), |(a, b)| Err(format!("shapes {a} and {b} will not meet")))
     }
 
     /// For each shape, the pairs with a higher one whose fat boxes overlap, less those that have a contact. No pair has
@@ -143,16 +128,13 @@ impl World {
             let tight = shapes.tight[shape as usize];
             let now = boxes::shape_box(shapes, shape, bodies.poses[body]);
             let room = 1.0e-5 * (1.0 + now.center().length() + now.half_extents().length());
-            if !tight.grown(room).contains(&now) || !now.grown(room).contains(&tight) {
-                return Err(format!("shape {shape} is not where its box is"));
-            }
-            let proxy = shapes.proxy(shape);
-            if broad_phase.kind(proxy) != Some(proxy_kind(bodies.infos[body].kind)) {
-                return Err(format!("shape {shape} is in the tree of another kind"));
-            }
-            if !broad_phase.has_box(proxy, shapes.fat[shape as usize]) {
-                return Err(format!("shape {shape} has another fat box than its proxy"));
-            }
+            let there = tight.grown(room).contains(&now) && now.grown(room).contains(&tight);
+            ensure(there, || format!("shape {shape} is not where its box is"))?;
+            let (proxy, fat) = (shapes.proxy(shape), shapes.fat[shape as usize]);
+            let same_kind = broad_phase.kind(proxy) == Some(proxy_kind(bodies.infos[body].kind));
+            ensure(same_kind, || format!("shape {shape} is in the tree of another kind"))?;
+            let same_box = broad_phase.has_box(proxy, fat);
+            ensure(same_box, || format!("shape {shape} has another fat box than its proxy"))?;
         }
         Ok(())
     }
@@ -171,12 +153,10 @@ impl World {
             let asleep = |&body: &u32| {
                 self.state.bodies.is_dynamic(body) && !self.state.bodies.infos[body as usize].awake
             };
-            if awake != (joint.place != JointPlace::Asleep) {
-                return Err(format!("joint {index} is awake without a lane, or sleeps in one"));
-            }
-            if awake && ends.iter().any(asleep) {
-                return Err(format!("joint {index} pulls at a body that sleeps"));
-            }
+            let placed = awake == (joint.place != JointPlace::Asleep);
+            ensure(placed, || format!("joint {index} is awake without a lane, or sleeps in one"))?;
+            let pulls = awake && ends.iter().any(asleep);
+            ensure(!pulls, || format!("joint {index} pulls at a body that sleeps"))?;
         }
         Ok(())
     }
@@ -193,18 +173,20 @@ impl World {
             let lanes =
                 bucket.manifolds.iter().flat_map(|block| block.body_a.iter().chain(&block.body_b));
             for &body in lanes.filter(|&&i| colour < COLOURS && is_dynamic[i as usize]) {
-                if used[body as usize] >> colour & 1 != 0 {
-                    return Err(format!("body {body} occurs twice in colour {colour}"));
-                }
+                let once = used[body as usize] >> colour & 1 == 0;
+                ensure(once, || format!("body {body} occurs twice in colour {colour}"))?;
                 used[body as usize] |= 1 << colour;
             }
         }
         for index in self.state.bodies.indices().filter(|&i| self.state.bodies.is_dynamic(i)) {
-            let info = &self.state.bodies.infos[index as usize];
-            if info.contact_colours != used[index as usize] {
-                return Err(format!("body {index} does not know its colours"));
-            }
+            let known = infos[index as usize].contact_colours == used[index as usize];
+            ensure(known, || format!("body {index} does not know its colours"))?;
         }
         Ok(())
     }
+}
+
+/// What is wrong, unless the condition holds.
+fn ensure(condition: bool, wrong: impl FnOnce() -> String) -> Result<(), String> {
+    if condition { Ok(()) } else { Err(wrong()) }
 }

@@ -2,7 +2,6 @@
 
 use super::{DT, circle, ground, square, steps};
 use tiny_physics::prelude::*;
-use tiny_physics::*;
 
 fn walk(walk: f32) -> MoverInput {
     MoverInput { walk, ..MoverInput::default() }

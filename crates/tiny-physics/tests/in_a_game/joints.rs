@@ -1,6 +1,6 @@
 //! Joints: where they are, how fast, what they bear, and changing them.
 
-use super::{DT, circle, square, steps};
+use super::{DT, square, steps};
 use tiny_physics::prelude::*;
 use tiny_physics::*;
 

@@ -7,7 +7,6 @@ mod joints;
 mod queries;
 
 use tiny_physics::prelude::*;
-use tiny_physics::*;
 
 const DT: f32 = 1.0 / 60.0;
 

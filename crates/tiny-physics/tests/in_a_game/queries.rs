@@ -2,7 +2,6 @@
 
 use super::{circle, square};
 use tiny_physics::prelude::*;
-use tiny_physics::*;
 
 #[test]
 fn solid_rays_hit_what_they_begin_in() {
