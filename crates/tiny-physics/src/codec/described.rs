@@ -114,4 +114,20 @@ macro_rules! kept_as_described {
     };
 }
 
-pub(crate) use {described, described_enum, kept_as_described};
+/// Declares functions that build upon a description: each takes it, sets fields, and gives it back.
+macro_rules! setters {
+    ($type:ident $(<$life:lifetime>)? {
+        $($(#[doc = $doc:literal])+ $name:ident($($given:ident: $given_type:ty),*):
+            $($($field:ident).+ = $value:expr),+;)+
+    }) => {
+        impl $(<$life>)? $type $(<$life>)? {
+            $($(#[doc = $doc])+
+            pub fn $name(mut self, $($given: $given_type),*) -> Self {
+                $(self.$($field).+ = $value;)+
+                self
+            })+
+        }
+    };
+}
+
+pub(crate) use {described, described_enum, kept_as_described, setters};

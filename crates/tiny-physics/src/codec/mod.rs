@@ -16,7 +16,7 @@ pub(crate) mod packed;
 mod store;
 
 pub(crate) use bytes::{Reader, Sink};
-pub(crate) use described::{described, described_enum, kept_as_described};
+pub(crate) use described::{described, described_enum, kept_as_described, setters};
 pub(crate) use hash::hash_bytes;
 pub(crate) use store::{Generations, clone_by_field, data, data_enum, field, holds, record, store};
 

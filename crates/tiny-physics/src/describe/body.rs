@@ -1,7 +1,7 @@
 //! A body as described by the user.
 
 use super::{ChainDef, ShapeDef};
-use crate::codec::{described, described_enum};
+use crate::codec::{described, described_enum, setters};
 use crate::error::Error;
 use crate::geometry::Shape;
 use crate::math::{DVec2, Vec2};
@@ -119,31 +119,6 @@ impl RigidBody {
         Self { kind: BodyKind::Kinematic, ..Self::default() }
     }
 
-    /// Sets [`RigidBody::position`]; takes [`Vec2`] or [`DVec2`].
-    pub fn position(mut self, position: impl Into<DVec2>) -> Self {
-        self.position = position.into();
-        self
-    }
-
-    /// Sets [`RigidBody::angle`].
-    pub fn angle(mut self, radians: f32) -> Self {
-        self.angle = radians;
-        self
-    }
-
-    /// Sets [`RigidBody::velocity`].
-    pub fn velocity(mut self, velocity: impl Into<Vec2>) -> Self {
-        let velocity = velocity.into();
-        self.velocity = velocity;
-        self
-    }
-
-    /// Sets [`RigidBody::angular_velocity`].
-    pub fn angular_velocity(mut self, radians_per_second: f32) -> Self {
-        self.angular_velocity = radians_per_second;
-        self
-    }
-
     /// Adds a shape.
     pub fn shape(mut self, shape: impl Into<ShapeDef>) -> Self {
         self.shapes.push(shape.into());
@@ -159,24 +134,6 @@ impl RigidBody {
         Ok(self)
     }
 
-    /// Sets [`RigidBody::mass`].
-    pub fn mass(mut self, kilograms: f32) -> Self {
-        self.mass = Some(kilograms);
-        self
-    }
-
-    /// Sets [`RigidBody::center`]: a boat or a doll that rights itself has it low.
-    pub fn center(mut self, center: impl Into<Vec2>) -> Self {
-        self.center = Some(center.into());
-        self
-    }
-
-    /// Sets [`RigidBody::inertia`]: what has much is slow to turn.
-    pub fn inertia(mut self, inertia: f32) -> Self {
-        self.inertia = Some(inertia);
-        self
-    }
-
     /// Sets the friction of all shapes so far.
     pub fn friction(mut self, friction: f32) -> Self {
         self.shapes.iter_mut().for_each(|s| s.material.friction = friction);
@@ -188,53 +145,39 @@ impl RigidBody {
         self.shapes.iter_mut().for_each(|s| s.material.restitution = restitution);
         self
     }
+}
 
-    /// Sets [`RigidBody::linear_damping`] and [`RigidBody::angular_damping`].
-    pub fn damping(mut self, linear: f32, angular: f32) -> Self {
-        self.linear_damping = linear;
-        self.angular_damping = angular;
-        self
-    }
-
-    /// Sets [`RigidBody::gravity_scale`].
-    pub fn gravity_scale(mut self, scale: f32) -> Self {
-        self.gravity_scale = scale;
-        self
-    }
-
-    /// Sets [`RigidBody::locks`].
-    pub fn locks(mut self, locks: Locks) -> Self {
-        self.locks = locks;
-        self
-    }
-
-    /// Keeps it from turning.
-    pub fn lock_rotation(mut self) -> Self {
-        self.locks.rotation = true;
-        self
-    }
-
-    /// Makes it a bullet: see [`RigidBody::bullet`].
-    pub fn bullet(mut self) -> Self {
-        self.bullet = true;
-        self
-    }
-
-    /// Starts it asleep.
-    pub fn asleep(mut self) -> Self {
-        self.awake = false;
-        self
-    }
-
-    /// Sets [`RigidBody::can_sleep`].
-    pub fn can_sleep(mut self, can_sleep: bool) -> Self {
-        self.can_sleep = can_sleep;
-        self
-    }
-
-    /// Sets [`RigidBody::user_data`].
-    pub fn user_data(mut self, data: u64) -> Self {
-        self.user_data = data;
-        self
+setters! {
+    RigidBody {
+        /// Sets [`RigidBody::position`]; takes [`Vec2`] or [`DVec2`].
+        position(position: impl Into<DVec2>): position = position.into();
+        /// Sets [`RigidBody::angle`].
+        angle(radians: f32): angle = radians;
+        /// Sets [`RigidBody::velocity`].
+        velocity(velocity: impl Into<Vec2>): velocity = velocity.into();
+        /// Sets [`RigidBody::angular_velocity`].
+        angular_velocity(radians_per_second: f32): angular_velocity = radians_per_second;
+        /// Sets [`RigidBody::mass`].
+        mass(kilograms: f32): mass = Some(kilograms);
+        /// Sets [`RigidBody::center`]: a boat or a doll that rights itself has it low.
+        center(center: impl Into<Vec2>): center = Some(center.into());
+        /// Sets [`RigidBody::inertia`]: what has much is slow to turn.
+        inertia(inertia: f32): inertia = Some(inertia);
+        /// Sets [`RigidBody::linear_damping`] and [`RigidBody::angular_damping`].
+        damping(linear: f32, angular: f32): linear_damping = linear, angular_damping = angular;
+        /// Sets [`RigidBody::gravity_scale`].
+        gravity_scale(scale: f32): gravity_scale = scale;
+        /// Sets [`RigidBody::locks`].
+        locks(locks: Locks): locks = locks;
+        /// Keeps it from turning.
+        lock_rotation(): locks.rotation = true;
+        /// Makes it a bullet: see [`RigidBody::bullet`].
+        bullet(): bullet = true;
+        /// Starts it asleep.
+        asleep(): awake = false;
+        /// Sets [`RigidBody::can_sleep`].
+        can_sleep(can_sleep: bool): can_sleep = can_sleep;
+        /// Sets [`RigidBody::user_data`].
+        user_data(data: u64): user_data = data;
     }
 }

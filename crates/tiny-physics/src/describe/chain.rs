@@ -1,7 +1,7 @@
 //! Chains of segments: ground drawn as a line.
 
 use super::{ChainLink, Filter, Material, ShapeDef};
-use crate::codec::described;
+use crate::codec::{described, setters};
 use crate::error::Error;
 use crate::geometry::Shape;
 use crate::math::Vec2;
@@ -75,24 +75,12 @@ impl ChainDef {
         Self::open(&[point - way, point + way])
     }
 
-    /// Sets one material for all segments.
-    pub fn material(mut self, material: Material) -> Self {
-        self.materials = vec![material];
-        self
-    }
-
     /// Sets the friction of all segments.
     pub fn friction(mut self, friction: f32) -> Self {
         if self.materials.is_empty() {
             self.materials.push(Material::default());
         }
         self.materials.iter_mut().for_each(|material| material.friction = friction);
-        self
-    }
-
-    /// Sets [`ChainDef::filter`].
-    pub fn filter(mut self, filter: Filter) -> Self {
-        self.filter = filter;
         self
     }
 
@@ -134,6 +122,15 @@ impl ChainDef {
         }
         def.link = Some(link);
         Ok(def)
+    }
+}
+
+setters! {
+    ChainDef {
+        /// Sets one material for all segments.
+        material(material: Material): materials = vec![material];
+        /// Sets [`ChainDef::filter`].
+        filter(filter: Filter): filter = filter;
     }
 }
 

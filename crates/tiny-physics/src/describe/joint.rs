@@ -1,6 +1,6 @@
 //! A joint as described by the user.
 
-use crate::codec::{described, described_enum};
+use crate::codec::{described, described_enum, setters};
 use crate::error::Error;
 use crate::math::{DVec2, Vec2};
 
@@ -300,14 +300,27 @@ impl JointDef {
     }
 }
 
+setters! {
+    JointDef {
+        /// Sets both anchors, each in its body's frame.
+        anchors(anchor_a: impl Into<Vec2>, anchor_b: impl Into<Vec2>): anchor_a = anchor_a.into(), anchor_b = anchor_b.into();
+        /// Puts the anchors at two points of the world, metres: see [`JointDef::anchor_at`].
+        anchors_at(anchor_a: impl Into<DVec2>, anchor_b: impl Into<DVec2>): anchors_at = Some([anchor_a.into(), anchor_b.into()]);
+        /// Sets [`JointDef::angle_a`] and [`JointDef::angle_b`].
+        angles(angle_a: f32, angle_b: f32): angle_a = angle_a, angle_b = angle_b;
+        /// Sets [`JointDef::collide_connected`].
+        collide_connected(): collide_connected = true;
+        /// Sets [`JointDef::softness`].
+        softness(hertz: f32, damping_ratio: f32): softness = Some(Spring { hertz, damping_ratio });
+        /// Sets [`JointDef::break_at`].
+        break_at(force: f32, torque: f32): break_at = Some(Break { force, torque });
+        /// Sets [`JointDef::user_data`].
+        user_data(data: u64): user_data = data;
+    }
+}
+
 /// Builder methods. One that a kind has no use for changes nothing.
 impl JointDef {
-    /// Sets both anchors, each in its body's frame.
-    pub fn anchors(mut self, anchor_a: impl Into<Vec2>, anchor_b: impl Into<Vec2>) -> Self {
-        (self.anchor_a, self.anchor_b) = (anchor_a.into(), anchor_b.into());
-        self
-    }
-
     /// Puts both anchors at a point of the world, metres, and takes the bodies' angles at the moment of adding as the
     /// zero of the joint's angle: see [`JointDef::anchors_at`].
     ///
@@ -328,19 +341,6 @@ impl JointDef {
     pub fn anchor_at(self, point: impl Into<DVec2>) -> Self {
         let point = point.into();
         self.anchors_at(point, point)
-    }
-
-    /// Puts the anchors at two points of the world, metres: see [`JointDef::anchor_at`].
-    pub fn anchors_at(mut self, anchor_a: impl Into<DVec2>, anchor_b: impl Into<DVec2>) -> Self {
-        self.anchors_at = Some([anchor_a.into(), anchor_b.into()]);
-        self
-    }
-
-    /// Sets [`JointDef::angle_a`] and [`JointDef::angle_b`].
-    pub fn angles(mut self, angle_a: f32, angle_b: f32) -> Self {
-        self.angle_a = angle_a;
-        self.angle_b = angle_b;
-        self
     }
 
     /// Sets both angles of the joint's frame to that of a direction.
@@ -374,30 +374,6 @@ impl JointDef {
         if let JointKind::Pulley { ratio, .. } | JointKind::Gear { ratio, .. } = &mut self.kind {
             *ratio = value;
         }
-        self
-    }
-
-    /// Sets [`JointDef::collide_connected`].
-    pub fn collide_connected(mut self) -> Self {
-        self.collide_connected = true;
-        self
-    }
-
-    /// Sets [`JointDef::softness`].
-    pub fn softness(mut self, hertz: f32, damping_ratio: f32) -> Self {
-        self.softness = Some(Spring { hertz, damping_ratio });
-        self
-    }
-
-    /// Sets [`JointDef::break_at`].
-    pub fn break_at(mut self, force: f32, torque: f32) -> Self {
-        self.break_at = Some(Break { force, torque });
-        self
-    }
-
-    /// Sets [`JointDef::user_data`].
-    pub fn user_data(mut self, data: u64) -> Self {
-        self.user_data = data;
         self
     }
 }

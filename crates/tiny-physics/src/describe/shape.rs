@@ -1,7 +1,7 @@
 //! A shape on a body: geometry, place, material, filter.
 
 use super::{Filter, Mix};
-use crate::codec::described;
+use crate::codec::{described, setters};
 use crate::geometry::Shape;
 use crate::math::Vec2;
 
@@ -87,90 +87,39 @@ impl ShapeDef {
     pub fn new(shape: impl Into<Shape>) -> Self {
         Self::of_shape(shape.into())
     }
+}
 
-    /// Sets [`ShapeDef::offset`].
-    pub fn offset(mut self, offset: impl Into<Vec2>) -> Self {
-        self.offset = offset.into();
-        self
-    }
-
-    /// Sets [`ShapeDef::angle`].
-    pub fn angle(mut self, radians: f32) -> Self {
-        self.angle = radians;
-        self
-    }
-
-    /// Sets [`Material::density`].
-    pub fn density(mut self, density: f32) -> Self {
-        self.material.density = density;
-        self
-    }
-
-    /// Sets [`Material::friction`].
-    pub fn friction(mut self, friction: f32) -> Self {
-        self.material.friction = friction;
-        self
-    }
-
-    /// Sets [`Material::restitution`].
-    pub fn restitution(mut self, restitution: f32) -> Self {
-        self.material.restitution = restitution;
-        self
-    }
-
-    /// Sets [`Material::rolling_resistance`].
-    pub fn rolling_resistance(mut self, resistance: f32) -> Self {
-        self.material.rolling_resistance = resistance;
-        self
-    }
-
-    /// Sets [`Material::tangent_speed`].
-    pub fn tangent_speed(mut self, speed: f32) -> Self {
-        self.material.tangent_speed = speed;
-        self
-    }
-
-    /// Sets [`Material::friction_mix`] and [`Material::restitution_mix`].
-    pub fn mix(mut self, friction: Option<Mix>, restitution: Option<Mix>) -> Self {
-        (self.material.friction_mix, self.material.restitution_mix) = (friction, restitution);
-        self
-    }
-
-    /// Sets [`ShapeDef::filter`].
-    pub fn filter(mut self, filter: Filter) -> Self {
-        self.filter = filter;
-        self
-    }
-
-    /// Makes it a sensor.
-    pub fn sensor(mut self) -> Self {
-        self.sensor = true;
-        self
-    }
-
-    /// Makes it a sensor that sees other sensors too: a blade that meets a zone where one is hurt.
-    pub fn sensor_of_sensors(mut self) -> Self {
-        (self.sensor, self.sees_sensors) = (true, true);
-        self
-    }
-
-    /// Sets [`ShapeDef::one_way`].
-    pub fn one_way(mut self, direction: impl Into<Vec2>) -> Self {
-        self.one_way = Some(direction.into());
-        self
-    }
-
-    /// Switches contact and hit events on.
-    pub fn events(mut self) -> Self {
-        self.contact_events = true;
-        self.hit_events = true;
-        self
-    }
-
-    /// Sets [`ShapeDef::user_data`].
-    pub fn user_data(mut self, data: u64) -> Self {
-        self.user_data = data;
-        self
+setters! {
+    ShapeDef {
+        /// Sets [`ShapeDef::offset`].
+        offset(offset: impl Into<Vec2>): offset = offset.into();
+        /// Sets [`ShapeDef::angle`].
+        angle(radians: f32): angle = radians;
+        /// Sets [`Material::density`].
+        density(density: f32): material.density = density;
+        /// Sets [`Material::friction`].
+        friction(friction: f32): material.friction = friction;
+        /// Sets [`Material::restitution`].
+        restitution(restitution: f32): material.restitution = restitution;
+        /// Sets [`Material::rolling_resistance`].
+        rolling_resistance(resistance: f32): material.rolling_resistance = resistance;
+        /// Sets [`Material::tangent_speed`].
+        tangent_speed(speed: f32): material.tangent_speed = speed;
+        /// Sets [`Material::friction_mix`] and [`Material::restitution_mix`].
+        mix(friction: Option<Mix>, restitution: Option<Mix>):
+            material.friction_mix = friction, material.restitution_mix = restitution;
+        /// Sets [`ShapeDef::filter`].
+        filter(filter: Filter): filter = filter;
+        /// Makes it a sensor.
+        sensor(): sensor = true;
+        /// Makes it a sensor that sees other sensors too: a blade that meets a zone where one is hurt.
+        sensor_of_sensors(): sensor = true, sees_sensors = true;
+        /// Sets [`ShapeDef::one_way`].
+        one_way(direction: impl Into<Vec2>): one_way = Some(direction.into());
+        /// Switches contact and hit events on.
+        events(): contact_events = true, hit_events = true;
+        /// Sets [`ShapeDef::user_data`].
+        user_data(data: u64): user_data = data;
     }
 }
 

@@ -5,7 +5,7 @@
 //! lies over many cells has two points, and an edit touches one block only.
 
 use super::{Filter, Material, RigidBody, ShapeDef};
-use crate::codec::{data, described, described_enum};
+use crate::codec::{data, described, described_enum, setters};
 use crate::error::Error;
 use crate::geometry::Shape;
 use crate::geometry::{MAX_EXTENT, MIN_EXTENT};
@@ -76,19 +76,6 @@ impl Tile {
         self
     }
 
-    /// Sets the friction.
-    pub fn friction(mut self, friction: f32) -> Self {
-        self.material.friction = friction;
-        self
-    }
-
-    /// Sets [`Tile::one_way`].
-    pub fn one_way(mut self, direction: impl Into<Vec2>) -> Self {
-        let direction = direction.into();
-        self.one_way = Some(direction);
-        self
-    }
-
     /// May equal neighbours grow together along (x, y)?
     fn merges(self) -> (bool, bool) {
         match self.form {
@@ -112,6 +99,15 @@ impl Tile {
         let mirror = |on: bool, value: f32| if on { 1.0 - value } else { value };
         let place = |&(x, y)| Vec2::new(mirror(self.mirror_x, x), mirror(self.mirror_y, y));
         corners.iter().map(place).collect()
+    }
+}
+
+setters! {
+    Tile {
+        /// Sets the friction.
+        friction(friction: f32): material.friction = friction;
+        /// Sets [`Tile::one_way`].
+        one_way(direction: impl Into<Vec2>): one_way = Some(direction.into());
     }
 }
 
@@ -171,12 +167,6 @@ impl TileGrid {
             }
         }
         grid.validate().map(|()| grid)
-    }
-
-    /// Sets [`TileGrid::position`].
-    pub fn position(mut self, position: impl Into<DVec2>) -> Self {
-        self.position = position.into();
-        self
     }
 
     /// Sets the friction of the whole palette.
@@ -344,6 +334,13 @@ impl TileGrid {
             }
         }
         pieces
+    }
+}
+
+setters! {
+    TileGrid {
+        /// Sets [`TileGrid::position`].
+        position(position: impl Into<DVec2>): position = position.into();
     }
 }
 

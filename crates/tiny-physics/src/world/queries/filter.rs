@@ -1,5 +1,6 @@
 //! What a query sees.
 
+use crate::codec::setters;
 use crate::describe::Filter;
 use crate::world::{BodyId, ShapeId};
 use core::fmt;
@@ -44,42 +45,6 @@ impl<'a> QueryFilter<'a> {
         Self { filter, exclude_body: None, sensors: false, solid: false, predicate: None }
     }
 
-    /// Sets what the query is, as bits: shapes whose mask has none of them are not seen.
-    pub fn category(mut self, category: u64) -> Self {
-        self.filter.category = category;
-        self
-    }
-
-    /// Sets what the query sees, as bits of the shapes' categories.
-    pub fn mask(mut self, mask: u64) -> Self {
-        self.filter.mask = mask;
-        self
-    }
-
-    /// Sets the group, as in [`Filter::group`].
-    pub fn group(mut self, group: i32) -> Self {
-        self.filter.group = group;
-        self
-    }
-
-    /// Hides a body.
-    pub fn exclude(mut self, body: BodyId) -> Self {
-        self.exclude_body = Some(body);
-        self
-    }
-
-    /// Shows sensors too.
-    pub fn sensors(mut self) -> Self {
-        self.sensors = true;
-        self
-    }
-
-    /// Lets rays hit what they begin in: see [`QueryFilter::solid`].
-    pub fn solid(mut self) -> Self {
-        self.solid = true;
-        self
-    }
-
     /// Sets [`QueryFilter::predicate`].
     pub fn predicate(mut self, predicate: &'a (dyn Fn(ShapeId) -> bool + Sync)) -> Self {
         self.predicate = Some(predicate);
@@ -89,6 +54,23 @@ impl<'a> QueryFilter<'a> {
     /// Category bits that the broad phase may skip the rest of.
     pub(crate) fn tree_mask(&self) -> u64 {
         self.filter.reach().1
+    }
+}
+
+setters! {
+    QueryFilter<'a> {
+        /// Sets what the query is, as bits: shapes whose mask has none of them are not seen.
+        category(category: u64): filter.category = category;
+        /// Sets what the query sees, as bits of the shapes' categories.
+        mask(mask: u64): filter.mask = mask;
+        /// Sets the group, as in [`Filter::group`].
+        group(group: i32): filter.group = group;
+        /// Hides a body.
+        exclude(body: BodyId): exclude_body = Some(body);
+        /// Shows sensors too.
+        sensors(): sensors = true;
+        /// Lets rays hit what they begin in: see [`QueryFilter::solid`].
+        solid(): solid = true;
     }
 }
 
