@@ -303,9 +303,11 @@ impl JointDef {
 setters! {
     JointDef {
         /// Sets both anchors, each in its body's frame.
-        anchors(anchor_a: impl Into<Vec2>, anchor_b: impl Into<Vec2>): anchor_a = anchor_a.into(), anchor_b = anchor_b.into();
+        anchors(anchor_a: impl Into<Vec2>, anchor_b: impl Into<Vec2>):
+            anchor_a = anchor_a.into(), anchor_b = anchor_b.into();
         /// Puts the anchors at two points of the world, metres: see [`JointDef::anchor_at`].
-        anchors_at(anchor_a: impl Into<DVec2>, anchor_b: impl Into<DVec2>): anchors_at = Some([anchor_a.into(), anchor_b.into()]);
+        anchors_at(anchor_a: impl Into<DVec2>, anchor_b: impl Into<DVec2>):
+            anchors_at = Some([anchor_a.into(), anchor_b.into()]);
         /// Sets [`JointDef::angle_a`] and [`JointDef::angle_b`].
         angles(angle_a: f32, angle_b: f32): angle_a = angle_a, angle_b = angle_b;
         /// Sets [`JointDef::collide_connected`].

@@ -30,91 +30,10 @@ impl<'a> Body<'a> {
         self.world
     }
 
-    /// Its handle.
-    pub fn id(&self) -> BodyId {
-        self.world.body_id(self.index)
-    }
-
-    /// Origin of its frame: world, metres.
-    pub fn position(&self) -> Vec2 {
-        self.position_f64().to_vec2()
-    }
-
-    /// Origin of its frame in 64 bits: world, metres.
-    pub fn position_f64(&self) -> DVec2 {
-        self.pose().p
-    }
-
-    /// Frame of the body in the world.
-    pub fn pose(&self) -> Pose {
-        self.world.state.bodies.origin_pose(self.index)
-    }
-
-    /// Rotation of its frame.
-    pub fn rotation(&self) -> Rot {
-        self.pose().q
-    }
-
-    /// Angle of its frame, radians in [-pi, pi].
-    pub fn angle(&self) -> f32 {
-        self.rotation().angle()
-    }
-
-    /// Centre of mass: world, metres.
-    pub fn center(&self) -> DVec2 {
-        self.world.state.bodies.poses[self.index as usize].p
-    }
-
-    /// Centre of mass in the body's frame, metres.
-    pub fn local_center(&self) -> Vec2 {
-        self.info().local_center
-    }
-
-    /// Velocity of the centre of mass, metres a second.
-    pub fn velocity(&self) -> Vec2 {
-        self.world.state.bodies.velocity(self.index)
-    }
-
     /// Velocity of a point of the body, metres a second.
     pub fn velocity_at(&self, point: impl Into<DVec2>) -> Vec2 {
         let arm = point.into().relative_to(self.center());
         self.velocity() + arm.perp() * self.angular_velocity()
-    }
-
-    /// Radians a second, anticlockwise.
-    pub fn angular_velocity(&self) -> f32 {
-        self.world.state.bodies.angular_velocity(self.index)
-    }
-
-    /// Kilograms; 0 for bodies that are not dynamic.
-    pub fn mass(&self) -> f32 {
-        self.info().mass
-    }
-
-    /// Moment of inertia about the centre of mass, kilogram square metres; 0 for bodies that are not
-    /// dynamic.
-    pub fn inertia(&self) -> f32 {
-        self.info().inertia
-    }
-
-    /// What moves it.
-    pub fn kind(&self) -> BodyKind {
-        self.info().kind
-    }
-
-    /// Is it simulated at the moment? Static bodies never are.
-    pub fn is_awake(&self) -> bool {
-        self.info().awake
-    }
-
-    /// Is it swept against moving bodies too?
-    pub fn is_bullet(&self) -> bool {
-        self.info().bullet
-    }
-
-    /// The user's number.
-    pub fn user_data(&self) -> u64 {
-        self.info().user_data
     }
 
     /// Its contacts that touch (or are about to) as of the last step, the newest first; none while it sleeps.

@@ -10,11 +10,6 @@ use crate::error::Error;
 use crate::math::{Pose, Vec2};
 
 impl<'a> Body<'a> {
-    /// Does it take part?
-    pub fn is_enabled(&self) -> bool {
-        self.info().enabled
-    }
-
     /// Directions in which it cannot move.
     pub fn locks(&self) -> Locks {
         self.info().locks

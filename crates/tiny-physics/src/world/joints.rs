@@ -12,24 +12,14 @@ use crate::stages::joint_solver;
 /// A joint of the world, to read.
 #[derive(Clone, Copy)]
 pub struct JointRef<'a> {
-    world: &'a World,
-    record: &'a JointRecord,
-    index: u32,
+    pub(super) world: &'a World,
+    pub(super) record: &'a JointRecord,
+    pub(super) index: u32,
 }
 
 impl<'a> JointRef<'a> {
     pub(super) fn new(world: &'a World, index: u32) -> Self {
         Self { world, record: &world.state.joints.records[index as usize], index }
-    }
-
-    /// Its handle.
-    pub fn id(&self) -> JointId {
-        self.world.joint_id(self.index)
-    }
-
-    /// Its bodies A and B.
-    pub fn bodies(&self) -> (BodyId, BodyId) {
-        (self.world.body_id(self.record.body_a), self.world.body_id(self.record.body_b))
     }
 
     /// What it does.
@@ -43,11 +33,6 @@ impl<'a> JointRef<'a> {
         let (a, b) = (self.record.body_a, self.record.body_b);
         let def = &self.record.def;
         (bodies.origin_pose(a).apply(def.anchor_a), bodies.origin_pose(b).apply(def.anchor_b))
-    }
-
-    /// Does it do anything?
-    pub fn is_enabled(&self) -> bool {
-        self.record.def.enabled
     }
 
     /// B's angle against A's as the joint counts it, radians in [-pi, pi]: see [`JointDef::angle_a`].
@@ -136,11 +121,6 @@ impl<'a> JointRef<'a> {
     fn load(&self) -> crate::dynamics::JointLoad {
         let (graph, joints) = (&self.world.state.joint_graph, &self.world.state.joints);
         joint_solver::load(graph, joints, self.index, self.world.state.inv_h)
-    }
-
-    /// The user's number.
-    pub fn user_data(&self) -> u64 {
-        self.record.def.user_data
     }
 }
 

@@ -99,17 +99,33 @@ impl fmt::Debug for JointRef<'_> {
     }
 }
 
-/// What a body, shape or joint tells is told by one that may be changed, too.
+/// What a body, shape or joint tells is told by one that may be changed, too: here what is read from the world, then under
+/// `also` what has a function of its own.
 macro_rules! told_by_both {
-    ($type:ident { $($(#[doc = $doc:literal])+ $name:ident: $out:ty;)+ }) => {
-        impl $type<'_> {
+    (
+        $view:ident $changed:ident ($this:ident) { $($(#[doc = $doc:literal])+ $name:ident: $out:ty = $told:expr;)+ }
+        also { $($(#[doc = $own_doc:literal])+ $own:ident: $own_out:ty;)* }
+    ) => {
+        impl $view<'_> {
+            $($(#[doc = $doc])+
+            pub fn $name(&self) -> $out {
+                let $this = self;
+                $told
+            })+
+        }
+
+        impl $changed<'_> {
             $($(#[doc = $doc])+
             pub fn $name(&self) -> $out {
                 self.as_ref().$name()
             })+
+            $($(#[doc = $own_doc])+
+            pub fn $own(&self) -> $own_out {
+                self.as_ref().$own()
+            })*
         }
 
-        impl fmt::Debug for $type<'_> {
+        impl fmt::Debug for $changed<'_> {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 self.as_ref().fmt(f)
             }
@@ -118,77 +134,85 @@ macro_rules! told_by_both {
 }
 
 told_by_both! {
-    BodyMut {
+    Body BodyMut (body) {
         /// Its handle.
-        id: super::BodyId;
+        id: super::BodyId = body.world.body_id(body.index);
         /// Origin of its frame: world, metres.
-        position: crate::math::Vec2;
+        position: crate::math::Vec2 = body.position_f64().to_vec2();
         /// Origin of its frame in 64 bits: world, metres.
-        position_f64: crate::math::DVec2;
+        position_f64: crate::math::DVec2 = body.pose().p;
         /// Frame of the body in the world.
-        pose: crate::math::Pose;
+        pose: crate::math::Pose = body.world.state.bodies.origin_pose(body.index);
         /// Rotation of its frame.
-        rotation: crate::math::Rot;
+        rotation: crate::math::Rot = body.pose().q;
         /// Angle of its frame, radians in [-pi, pi].
-        angle: f32;
+        angle: f32 = body.rotation().angle();
         /// Centre of mass: world, metres.
-        center: crate::math::DVec2;
+        center: crate::math::DVec2 = body.world.state.bodies.poses[body.index as usize].p;
         /// Centre of mass in the body's frame, metres.
-        local_center: crate::math::Vec2;
+        local_center: crate::math::Vec2 = body.info().local_center;
         /// Velocity of the centre of mass, metres a second.
-        velocity: crate::math::Vec2;
+        velocity: crate::math::Vec2 = body.world.state.bodies.velocity(body.index);
         /// Radians a second, anticlockwise.
-        angular_velocity: f32;
+        angular_velocity: f32 = body.world.state.bodies.angular_velocity(body.index);
         /// Kilograms; 0 for bodies that are not dynamic.
-        mass: f32;
-        /// Moment of inertia about the centre of mass, kilogram square metres; 0 for bodies that are not dynamic.
-        inertia: f32;
+        mass: f32 = body.info().mass;
+        /// Moment of inertia about the centre of mass, kilogram square metres; 0 for bodies that are not
+        /// dynamic.
+        inertia: f32 = body.info().inertia;
         /// What moves it.
-        kind: BodyKind;
-        /// Is it simulated at the moment?
-        is_awake: bool;
+        kind: BodyKind = body.info().kind;
+        /// Is it simulated at the moment? Static bodies never are.
+        is_awake: bool = body.info().awake;
         /// Is it swept against moving bodies too?
-        is_bullet: bool;
+        is_bullet: bool = body.info().bullet;
         /// Does it take part?
-        is_enabled: bool;
+        is_enabled: bool = body.info().enabled;
         /// The user's number.
-        user_data: u64;
+        user_data: u64 = body.info().user_data;
     }
+    also {}
 }
 
 told_by_both! {
-    ShapeMut {
+    ShapeRef ShapeMut (shape) {
         /// Its handle.
-        id: super::ShapeId;
+        id: super::ShapeId = shape.world.shape_id(shape.index);
         /// The body it hangs on.
-        body: super::BodyId;
+        body: super::BodyId = shape.world.body_id(shape.record.body);
+        /// Surface and stuff.
+        material: crate::describe::Material = shape.record.material;
+        /// What it collides with.
+        filter: crate::describe::Filter = shape.record.filter;
+        /// Is it a sensor?
+        is_sensor: bool = shape.record.sensor;
+        /// Its frame in the world.
+        pose: crate::math::Pose = shape.world.state.bodies.poses[shape.record.body as usize].compose(shape.record.central);
+        /// The user's number.
+        user_data: u64 = shape.record.user_data;
+    }
+    also {
         /// Geometry in the shape's frame.
         shape: &crate::geometry::Shape;
-        /// Surface and stuff.
-        material: crate::describe::Material;
-        /// What it collides with.
-        filter: crate::describe::Filter;
-        /// Is it a sensor?
-        is_sensor: bool;
-        /// Its frame in the world.
-        pose: crate::math::Pose;
-        /// The user's number.
-        user_data: u64;
     }
 }
 
 told_by_both! {
-    JointMut {
+    JointRef JointMut (joint) {
         /// Its handle.
-        id: super::JointId;
+        id: super::JointId = joint.world.joint_id(joint.index);
         /// Its bodies A and B.
-        bodies: (super::BodyId, super::BodyId);
+        bodies: (super::BodyId, super::BodyId) = (joint.world.body_id(joint.record.body_a), joint.world.body_id(joint.record.body_b));
+        /// Does it do anything?
+        is_enabled: bool = joint.record.def.enabled;
+        /// The user's number.
+        user_data: u64 = joint.record.def.user_data;
+    }
+    also {
         /// What it does.
         def: &crate::describe::JointDef;
         /// Its anchors on A and B: world, metres.
         anchors: (crate::math::DVec2, crate::math::DVec2);
-        /// Does it do anything?
-        is_enabled: bool;
         /// B's angle against A's as the joint counts it, radians in [-pi, pi].
         angle: f32;
         /// How fast its angle grows, radians a second.
@@ -199,7 +223,5 @@ told_by_both! {
         speed: f32;
         /// Force or torque that the motor exerted in the last step, newtons or newton metres.
         motor_load: f32;
-        /// The user's number.
-        user_data: u64;
     }
 }
