@@ -2,7 +2,7 @@
 
 use super::World;
 use super::bodies::{Body, BodyMut};
-use super::descriptions::{check_center, check_inertia};
+use super::descriptions::{check_center, check_given};
 use super::ids::{BodyId, JointId};
 use crate::describe::{BodyKind, Locks};
 use crate::dynamics::{Given, NULL};
@@ -10,31 +10,6 @@ use crate::error::Error;
 use crate::math::{Pose, Vec2};
 
 impl<'a> Body<'a> {
-    /// Directions in which it cannot move.
-    pub fn locks(&self) -> Locks {
-        self.info().locks
-    }
-
-    /// May its island fall asleep?
-    pub fn can_sleep(&self) -> bool {
-        self.info().can_sleep
-    }
-
-    /// Speed below which it counts as at rest, metres a second.
-    pub fn sleep_speed(&self) -> f32 {
-        self.info().sleep_speed
-    }
-
-    /// Factor on the world's gravity.
-    pub fn gravity_scale(&self) -> f32 {
-        self.info().gravity_scale
-    }
-
-    /// Linear and angular damping, 1/s.
-    pub fn damping(&self) -> (f32, f32) {
-        (self.info().linear_damping, self.info().angular_damping)
-    }
-
     /// Handles of its joints, the newest first.
     pub fn joints(&self) -> impl Iterator<Item = JointId> + use<'a> {
         let world = self.world;
@@ -120,11 +95,9 @@ impl BodyMut<'_> {
     /// densities of the shapes. Wakes it.
     ///
     /// # Errors
-    /// The mass is not finite or not above 0.
+    /// The mass is not finite, or outside of 1e-9 to 1e12.
     pub fn set_mass(&mut self, mass: Option<f32>) -> Result<(), Error> {
-        if let Some(mass) = mass {
-            Error::check_positive("mass", mass)?;
-        }
+        check_given("mass", mass)?;
         self.accept(&[]);
         self.info().fixed_mass = Given::new(mass);
         self.world.update_mass(self.index);
@@ -150,7 +123,7 @@ impl BodyMut<'_> {
     /// # Errors
     /// It is not finite, or outside of 1e-9 to 1e12.
     pub fn set_inertia(&mut self, inertia: Option<f32>) -> Result<(), Error> {
-        check_inertia(inertia)?;
+        check_given("inertia", inertia)?;
         self.accept(&[]);
         self.info().fixed_inertia = Given::new(inertia);
         self.world.update_mass(self.index);

@@ -26,12 +26,9 @@ pub(super) fn check_body(body: &RigidBody) -> Result<(), Error> {
     Error::check_not_negative("angular_damping", body.angular_damping)?;
     Error::check_finite("gravity_scale", body.gravity_scale)?;
     Error::check_not_negative("sleep_speed", body.sleep_speed)?;
-    if let Some(mass) = body.mass {
-        Error::check_positive("mass", mass)?;
-        check_range("mass", mass)?;
-    }
+    check_given("mass", body.mass)?;
     check_center(body.center)?;
-    check_inertia(body.inertia)?;
+    check_given("inertia", body.inertia)?;
     body.shapes.iter().try_for_each(check_shape)
 }
 
@@ -39,10 +36,11 @@ pub(super) fn check_center(center: Option<Vec2>) -> Result<(), Error> {
     center.map_or(Ok(()), |center| check_point("center", center))
 }
 
-pub(super) fn check_inertia(inertia: Option<f32>) -> Result<(), Error> {
-    inertia.map_or(Ok(()), |inertia| {
-        Error::check_positive("inertia", inertia)?;
-        check_range("inertia", inertia)
+/// Is a mass or moment of inertia acceptable, where one is given?
+pub(super) fn check_given(name: &'static str, given: Option<f32>) -> Result<(), Error> {
+    given.map_or(Ok(()), |value| {
+        Error::check_positive(name, value)?;
+        check_range(name, value)
     })
 }
 

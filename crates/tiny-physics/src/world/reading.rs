@@ -1,7 +1,11 @@
 //! Going through all that a world holds, and printing it.
 
-use super::{Body, BodyMut, JointMut, JointRef, ShapeMut, ShapeRef, World};
-use crate::describe::{BodyKind, RigidBody};
+use super::{
+    Body, BodyId, BodyMut, JointId, JointMut, JointRef, ShapeId, ShapeMut, ShapeRef, World,
+};
+use crate::describe::{BodyKind, Filter, JointDef, Locks, Material, RigidBody};
+use crate::geometry::Shape;
+use crate::math::{DVec2, Pose, Rot, Vec2};
 use core::fmt;
 
 impl World {
@@ -136,23 +140,23 @@ macro_rules! told_by_both {
 told_by_both! {
     Body BodyMut (body) {
         /// Its handle.
-        id: super::BodyId = body.world.body_id(body.index);
+        id: BodyId = body.world.body_id(body.index);
         /// Origin of its frame: world, metres.
-        position: crate::math::Vec2 = body.position_f64().to_vec2();
+        position: Vec2 = body.position_f64().to_vec2();
         /// Origin of its frame in 64 bits: world, metres.
-        position_f64: crate::math::DVec2 = body.pose().p;
+        position_f64: DVec2 = body.pose().p;
         /// Frame of the body in the world.
-        pose: crate::math::Pose = body.world.state.bodies.origin_pose(body.index);
+        pose: Pose = body.world.state.bodies.origin_pose(body.index);
         /// Rotation of its frame.
-        rotation: crate::math::Rot = body.pose().q;
+        rotation: Rot = body.pose().q;
         /// Angle of its frame, radians in [-pi, pi].
         angle: f32 = body.rotation().angle();
         /// Centre of mass: world, metres.
-        center: crate::math::DVec2 = body.world.state.bodies.poses[body.index as usize].p;
+        center: DVec2 = body.world.state.bodies.poses[body.index as usize].p;
         /// Centre of mass in the body's frame, metres.
-        local_center: crate::math::Vec2 = body.info().local_center;
+        local_center: Vec2 = body.info().local_center;
         /// Velocity of the centre of mass, metres a second.
-        velocity: crate::math::Vec2 = body.world.state.bodies.velocity(body.index);
+        velocity: Vec2 = body.world.state.bodies.velocity(body.index);
         /// Radians a second, anticlockwise.
         angular_velocity: f32 = body.world.state.bodies.angular_velocity(body.index);
         /// Kilograms; 0 for bodies that are not dynamic.
@@ -164,6 +168,16 @@ told_by_both! {
         kind: BodyKind = body.info().kind;
         /// Is it simulated at the moment? Static bodies never are.
         is_awake: bool = body.info().awake;
+        /// Directions in which it cannot move.
+        locks: Locks = body.info().locks;
+        /// May its island fall asleep?
+        can_sleep: bool = body.info().can_sleep;
+        /// Speed below which it counts as at rest, metres a second.
+        sleep_speed: f32 = body.info().sleep_speed;
+        /// Factor on the world's gravity.
+        gravity_scale: f32 = body.info().gravity_scale;
+        /// Linear and angular damping, 1/s.
+        damping: (f32, f32) = (body.info().linear_damping, body.info().angular_damping);
         /// Is it swept against moving bodies too?
         is_bullet: bool = body.info().bullet;
         /// Does it take part?
@@ -177,32 +191,32 @@ told_by_both! {
 told_by_both! {
     ShapeRef ShapeMut (shape) {
         /// Its handle.
-        id: super::ShapeId = shape.world.shape_id(shape.index);
+        id: ShapeId = shape.world.shape_id(shape.index);
         /// The body it hangs on.
-        body: super::BodyId = shape.world.body_id(shape.record.body);
+        body: BodyId = shape.world.body_id(shape.record.body);
         /// Surface and stuff.
-        material: crate::describe::Material = shape.record.material;
+        material: Material = shape.record.material;
         /// What it collides with.
-        filter: crate::describe::Filter = shape.record.filter;
+        filter: Filter = shape.record.filter;
         /// Is it a sensor?
         is_sensor: bool = shape.record.sensor;
         /// Its frame in the world.
-        pose: crate::math::Pose = shape.world.state.bodies.poses[shape.record.body as usize].compose(shape.record.central);
+        pose: Pose = shape.world.state.bodies.poses[shape.record.body as usize].compose(shape.record.central);
         /// The user's number.
         user_data: u64 = shape.record.user_data;
     }
     also {
         /// Geometry in the shape's frame.
-        shape: &crate::geometry::Shape;
+        shape: &Shape;
     }
 }
 
 told_by_both! {
     JointRef JointMut (joint) {
         /// Its handle.
-        id: super::JointId = joint.world.joint_id(joint.index);
+        id: JointId = joint.world.joint_id(joint.index);
         /// Its bodies A and B.
-        bodies: (super::BodyId, super::BodyId) = (joint.world.body_id(joint.record.body_a), joint.world.body_id(joint.record.body_b));
+        bodies: (BodyId, BodyId) = (joint.world.body_id(joint.record.body_a), joint.world.body_id(joint.record.body_b));
         /// Does it do anything?
         is_enabled: bool = joint.record.def.enabled;
         /// The user's number.
@@ -210,9 +224,9 @@ told_by_both! {
     }
     also {
         /// What it does.
-        def: &crate::describe::JointDef;
+        def: &JointDef;
         /// Its anchors on A and B: world, metres.
-        anchors: (crate::math::DVec2, crate::math::DVec2);
+        anchors: (DVec2, DVec2);
         /// B's angle against A's as the joint counts it, radians in [-pi, pi].
         angle: f32;
         /// How fast its angle grows, radians a second.
