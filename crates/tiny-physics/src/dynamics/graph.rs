@@ -5,8 +5,8 @@
 //! kind.
 
 use super::blocks::{
-    BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, SurfaceBlock, flags, load_lanes,
-    move_lane, save_lanes,
+    BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags,
+    load_lanes, move_lane, save_lanes,
 };
 use super::bodies::Bodies;
 use super::coloured::{Bucketful, Coloured, IDLE, give_colour_back, place_of, take_colour};
@@ -314,6 +314,17 @@ impl Graph {
     /// Contacts in the graph, touching or not.
     pub(crate) fn len(&self) -> usize {
         self.buckets.list().iter().map(|bucket| bucket.contacts.len()).sum()
+    }
+
+    /// Forgets what the next narrow phase finds anew for every contact, whatever comes before it.
+    pub(crate) fn forget_geometry(&mut self) {
+        for block in self.buckets.list_mut().iter_mut().flat_map(|bucket| &mut bucket.constraints) {
+            (block.normal_x, block.normal_y) = Default::default();
+            for point in &mut block.points {
+                let PointLanes { normal_impulse, tangent_impulse, load, .. } = *point;
+                *point = PointLanes { normal_impulse, tangent_impulse, load, ..PointLanes::NULL };
+            }
+        }
     }
 
     /// Memory of the constraints alone: what every pass of the solver goes through.

@@ -109,7 +109,7 @@ impl SimdLevel {
             #[cfg(target_arch = "aarch64")]
             Self::Neon => best.as_neon().map(Level::Neon),
             #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
-            Self::Simd128 => best.as_wasm_simd128().map(Level::WasmSimd128),
+            Self::Simd128 | Self::Scalar => best.as_wasm_simd128().map(Level::WasmSimd128),
             _ => None,
         }
     }
@@ -172,8 +172,8 @@ pub(crate) fn dispatch_narrow<K: LaneKernel>(level: SimdLevel, kernel: K) -> K::
     dispatch_baseline(level, kernel)
 }
 
-/// Runs a kernel on the lanes that every machine of this platform has. On 64-bit x86 those are four for
-/// [`SimdLevel::Scalar`], too, but in the engine's own tests.
+/// Runs a kernel on the lanes that every machine of this platform has. In wasm that was built with simd128, and on 64-bit
+/// x86 but for the engine's own tests, those are four for [`SimdLevel::Scalar`], too.
 #[inline]
 #[allow(unused_variables, reason = "each platform has its own part of the levels")]
 pub(crate) fn dispatch_baseline<K: LaneKernel>(level: SimdLevel, kernel: K) -> K::Output {

@@ -32,6 +32,14 @@ impl World {
         bytes
     }
 
+    /// The bytes of a world that is this one again after the next step, but not before: what that step finds anew whatever
+    /// comes first is left out. It takes about two thirds of the memory where much touches.
+    pub(crate) fn to_bytes_of_next(&self) -> Vec<u8> {
+        let mut next = self.clone();
+        next.state.graph.forget_geometry();
+        next.to_bytes()
+    }
+
     /// The world of [`World::to_bytes`]: it goes on bit for bit as the original does, and handles of the
     /// original are valid in it. One thread, the best SIMD level of this machine.
     ///

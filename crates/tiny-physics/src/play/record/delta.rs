@@ -71,7 +71,9 @@ pub(super) fn encode(old: &[u8], new: &[u8]) -> Vec<u8> {
         if moved.is_none() {
             at = end_of_change(old, new, at, shift);
         }
-        write_number(&mut out, zigzag(shift - before));
+        // Small numbers of either sign as small numbers.
+        let by = shift - before;
+        write_number(&mut out, (by << 1 ^ by >> 63) as u64);
         write_number(&mut out, same as u64);
         let end = if at < new.len() { at } else { new.len() };
         write_words(&mut out, old, &new[..end], from, shift);
@@ -92,7 +94,8 @@ pub(super) fn decode(old: &[u8], mut delta: &[u8]) -> Result<Vec<u8>, Error> {
     let mut new = Vec::with_capacity(length + WORD);
     let mut shift = 0_i64;
     while new.len() < length {
-        shift = shift.wrapping_add(unzigzag(read_number(&mut delta)?));
+        let by = read_number(&mut delta)?;
+        shift = shift.wrapping_add((by >> 1) as i64 ^ -((by & 1) as i64));
         let same = read_number(&mut delta)?;
         let count = read_number(&mut delta)?;
         let room = ((length - new.len()).div_ceil(WORD)) as u64;
@@ -124,6 +127,9 @@ fn write_words(out: &mut Vec<u8>, old: &[u8], new: &[u8], from: usize, shift: i6
     let change = |at: usize| word(new, at) ^ predicted(old, at, shift);
     let places = || (from..new.len()).step_by(WORD);
     write_number(out, places().count() as u64);
+    // Bit k: byte k is not zero.
+    let mask =
+        |word: u32| (0..WORD).fold(0, |mask, k| mask | u8::from(word >> (8 * k) & 255 != 0) << k);
     let mut masks = places().map(|at| mask(change(at)));
     while let Some(low) = masks.next() {
         out.push(low | masks.next().unwrap_or(0) << 4);
@@ -156,28 +162,16 @@ fn read_words(
     Ok(())
 }
 
-/// Bit k: byte k is not zero.
-fn mask(word: u32) -> u8 {
-    let bytes = word.to_le_bytes();
-    (0..WORD).fold(0, |mask, k| mask | u8::from(bytes[k] != 0) << k)
-}
-
 /// The word at a place; zeros past the end.
 fn word(bytes: &[u8], at: usize) -> u32 {
-    match bytes.get(at..at + WORD) {
-        Some(word) => u32::from_le_bytes([word[0], word[1], word[2], word[3]]),
-        None => (0..WORD).fold(0, |word, k| {
-            word | u32::from(bytes.get(at + k).copied().unwrap_or(0)) << (8 * k)
-        }),
-    }
+    let rest = bytes.get(at..).unwrap_or_default();
+    let short = || rest.iter().rev().fold(0, |word, byte| word << 8 | u32::from(*byte));
+    rest.first_chunk().map_or_else(short, |word| u32::from_le_bytes(*word))
 }
 
 /// The word of the old frame that is expected at a place of the new one.
 fn predicted(old: &[u8], at: usize, shift: i64) -> u32 {
-    match usize::try_from((at as i64).wrapping_add(shift)) {
-        Ok(from) if from < old.len() => word(old, from),
-        _ => 0,
-    }
+    usize::try_from((at as i64).wrapping_add(shift)).map_or(0, |from| word(old, from))
 }
 
 /// Where blocks lie in a frame: those that occur once.
@@ -254,15 +248,6 @@ fn read_number(bytes: &mut &[u8]) -> Result<u64, Error> {
         }
     }
     Err(DAMAGED)
-}
-
-/// Small numbers of either sign as small numbers.
-fn zigzag(value: i64) -> u64 {
-    (value << 1 ^ value >> 63) as u64
-}
-
-fn unzigzag(value: u64) -> i64 {
-    (value >> 1) as i64 ^ -((value & 1) as i64)
 }
 
 #[cfg(test)]

@@ -37,6 +37,8 @@ pub struct History {
     frames: Frames,
     /// Steps from the beginning to the world.
     at: usize,
+    /// Up to here the run has been seen to repeat itself.
+    seen: usize,
     /// What has been done to the world since.
     commands: Vec<Command>,
 }
@@ -46,7 +48,7 @@ impl History {
     pub fn new(world: World, budget: usize) -> Self {
         let recording = Recording { first: world.to_bytes(), steps: Vec::new() };
         let frames = Frames::new(budget);
-        Self { world, recording, frames, at: 0, commands: Vec::new() }
+        Self { world, recording, frames, at: 0, seen: 0, commands: Vec::new() }
     }
 
     /// Opens a recording at its beginning; going forward in it fills in frames.
@@ -56,7 +58,7 @@ impl History {
     pub fn open(recording: Recording, budget: usize) -> Result<Self, Error> {
         let world = World::from_bytes(&recording.first)?;
         let frames = Frames::new(budget);
-        Ok(Self { world, recording, frames, at: 0, commands: Vec::new() })
+        Ok(Self { world, recording, frames, at: 0, seen: 0, commands: Vec::new() })
     }
 
     /// The world as of the current step, to read.
@@ -109,6 +111,7 @@ impl History {
     pub fn forget_later(&mut self) {
         self.recording.steps.truncate(self.at);
         self.frames.forget_after(self.at);
+        self.seen = self.seen.min(self.at);
     }
 
     /// Moves the world on by `dt` seconds. What came after the current step is forgotten; to see it again, go to it.
@@ -118,6 +121,7 @@ impl History {
         let commands = core::mem::take(&mut self.commands);
         self.recording.steps.push(Step { commands, dt, hash: self.world.state_hash() });
         self.arrive();
+        self.seen = self.at;
     }
 
     /// Goes to the state after so many steps, at most to the end. What was done since the last step is undone.
@@ -138,11 +142,14 @@ impl History {
             self.commands.clear();
         }
         while self.at < step {
-            let same = self.recording.steps[self.at].play(&mut self.world)?;
+            // On the way to a place, what has been seen once is not looked at again.
+            let looked_at = self.at >= self.seen || self.at + 1 == step;
+            let same = self.recording.steps[self.at].play(&mut self.world, looked_at)?;
             self.arrive();
             if !same {
                 return Err(Error::Differs { step: self.at });
             }
+            self.seen = self.seen.max(self.at);
         }
         Ok(())
     }
@@ -154,7 +161,7 @@ impl History {
         let moved = 1 + self.world.awake_body_count() + self.world.contact_count();
         self.frames.work += moved as u64 * u64::from(settings.substeps);
         if self.at >= self.frames.due {
-            self.frames.keep(self.at, self.world.to_bytes(), self.taken());
+            self.frames.keep(self.at, self.world.to_bytes_of_next(), self.taken());
         }
     }
 }
@@ -192,9 +199,12 @@ impl Frames {
     fn keep(&mut self, step: usize, frame: Vec<u8>, taken: usize) {
         self.due = step + INTERVAL + frame.len() / BYTES_A_STEP;
         let mut delta = delta::encode(&self.whole, &frame);
-        // Where a difference saves little, later ones will save less.
-        let last_whole = self.kept.iter().rfind(|kept| kept.whole);
-        let whole = last_whole.is_none_or(|last| 2 * delta.len() > last.delta.len());
+        // Differences grow with their distance. A new whole frame pays once the next difference costs more than the frames
+        // since the last whole one, that included, do on average. Where all differ about as much as the first, it never does.
+        let group = &self.kept[self.kept.iter().rposition(|kept| kept.whole).unwrap_or(0)..];
+        let sum: usize = group.iter().map(|kept| kept.delta.len()).sum();
+        let first = group.get(1).map_or(0, |first| first.delta.len());
+        let whole = delta.len() * group.len() >= sum && 2 * delta.len() >= 3 * first;
         if whole {
             delta = delta::encode(&[], &frame);
             self.whole = frame;
@@ -240,9 +250,9 @@ impl Frames {
             .unwrap_or_default();
     }
 
-    /// The last step up to one of which there is a frame.
+    /// The last step before one of which there is a frame: that is whole again a step later.
     fn last_before(&self, step: usize) -> usize {
-        let count = self.kept.partition_point(|kept| kept.step <= step);
+        let count = self.kept.partition_point(|kept| kept.step < step);
         self.kept[..count].last().map_or(0, |kept| kept.step)
     }
 

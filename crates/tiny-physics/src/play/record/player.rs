@@ -55,7 +55,7 @@ impl<'a> Player<'a> {
     pub fn step(&mut self) -> Result<bool, Error> {
         let Some(step) = self.recording.steps.get(self.at) else { return Ok(false) };
         self.at += 1;
-        if step.play(&mut self.world)? { Ok(true) } else { Err(Error::Differs { step: self.at }) }
+        step.play(&mut self.world, true)?.then_some(true).ok_or(Error::Differs { step: self.at })
     }
 
     /// Goes to the state after that many steps, at most to the end. Going back starts from the first frame.
