@@ -53,8 +53,9 @@ pub enum Error {
 
 impl Error {
     /// `Ok` where the value is finite.
-    pub(crate) fn check_finite(name: &'static str, value: f32) -> Result<(), Self> {
-        if value.is_finite() { Ok(()) } else { Err(Self::NotFinite { name, value: value.into() }) }
+    pub(crate) fn check_finite(name: &'static str, value: impl Into<f64>) -> Result<(), Self> {
+        let value = value.into();
+        if value.is_finite() { Ok(()) } else { Err(Self::NotFinite { name, value }) }
     }
 
     /// `Ok` where both parts are finite.
@@ -63,24 +64,35 @@ impl Error {
         Self::check_finite(name, v.y)
     }
 
+    /// `Ok` where both coordinates are finite.
+    pub(crate) fn check_finite_point(
+        name: &'static str,
+        point: crate::math::DVec2,
+    ) -> Result<(), Self> {
+        Self::check_finite(name, point.x)?;
+        Self::check_finite(name, point.y)
+    }
+
+    /// `Ok` where the value is finite and what `allowed` says of it holds.
+    pub(crate) fn check(
+        name: &'static str,
+        value: impl Into<f64>,
+        holds: bool,
+        allowed: &'static str,
+    ) -> Result<(), Self> {
+        let value = value.into();
+        Self::check_finite(name, value)?;
+        if holds { Ok(()) } else { Err(Self::OutOfRange { name, value, allowed }) }
+    }
+
     /// `Ok` where the value is finite and above zero.
     pub(crate) fn check_positive(name: &'static str, value: f32) -> Result<(), Self> {
-        Self::check_finite(name, value)?;
-        if value > 0.0 {
-            Ok(())
-        } else {
-            Err(Self::OutOfRange { name, value: value.into(), allowed: "above 0" })
-        }
+        Self::check(name, value, value > 0.0, "above 0")
     }
 
     /// `Ok` where the value is finite and not below zero.
     pub(crate) fn check_not_negative(name: &'static str, value: f32) -> Result<(), Self> {
-        Self::check_finite(name, value)?;
-        if value >= 0.0 {
-            Ok(())
-        } else {
-            Err(Self::OutOfRange { name, value: value.into(), allowed: "0 or above" })
-        }
+        Self::check(name, value, value >= 0.0, "0 or above")
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::codec::{described, described_enum, setters};
 use crate::error::Error;
+use crate::geometry::check_point;
 use crate::math::{DVec2, Vec2};
 
 described! {
@@ -386,12 +387,12 @@ impl JointDef {
     /// # Errors
     /// [`Error::NotFinite`] and [`Error::OutOfRange`] name the first field that does not.
     pub fn validate(&self) -> Result<(), Error> {
-        check_anchor("anchor_a", self.anchor_a)?;
-        check_anchor("anchor_b", self.anchor_b)?;
+        check_point("anchor_a", self.anchor_a)?;
+        check_point("anchor_b", self.anchor_b)?;
         Error::check_finite("angle_a", self.angle_a)?;
         Error::check_finite("angle_b", self.angle_b)?;
         for point in self.anchors_at.iter().flatten() {
-            check_point("anchors_at", *point)?;
+            Error::check_finite_point("anchors_at", *point)?;
         }
         check_spring("softness", self.softness)?;
         if let Some(limit) = self.break_at {
@@ -518,22 +519,19 @@ impl JointKind {
                 check_spring("angular_spring", angular_spring)
             }
             Self::Mouse { target, spring, max_force } => {
-                check_point("target", target)?;
+                Error::check_finite_point("target", target)?;
                 check_spring("spring", Some(spring))?;
                 Error::check_not_negative("max_force", max_force)
             }
             Self::Filter => Ok(()),
             Self::Pulley { ground_a, ground_b, length, ratio } => {
-                check_point("ground_a", ground_a)?;
-                check_point("ground_b", ground_b)?;
+                Error::check_finite_point("ground_a", ground_a)?;
+                Error::check_finite_point("ground_b", ground_b)?;
                 Error::check_positive("length", length)?;
                 Error::check_positive("ratio", ratio)
             }
             Self::Gear { ratio, slide_a, slide_b } => {
-                Error::check_finite("ratio", ratio)?;
-                if ratio == 0.0 {
-                    return Err(Error::OutOfRange { name: "ratio", value: 0.0, allowed: "not 0" });
-                }
+                Error::check("ratio", ratio, ratio != 0.0, "not 0")?;
                 check_direction("slide_a", slide_a)?;
                 check_direction("slide_b", slide_b)
             }
@@ -547,17 +545,6 @@ fn enabled() -> bool {
     true
 }
 
-/// Anchors lie where points of shapes can lie.
-fn check_anchor(name: &'static str, anchor: Vec2) -> Result<(), Error> {
-    Error::check_finite_vec(name, anchor)?;
-    for value in [anchor.x, anchor.y] {
-        if value.abs() > crate::geometry::MAX_EXTENT {
-            return Err(Error::OutOfRange { name, value: value.into(), allowed: "within 1e6" });
-        }
-    }
-    Ok(())
-}
-
 fn check_axis(
     spring: Option<Spring>,
     target: f32,
@@ -568,15 +555,7 @@ fn check_axis(
     Error::check_finite("target", target)?;
     if let Some(Limits { lower, upper }) = limits {
         Error::check_finite("limits.lower", lower)?;
-        Error::check_finite("limits.upper", upper)?;
-        if upper < lower {
-            let value = upper.into();
-            return Err(Error::OutOfRange {
-                name: "limits.upper",
-                value,
-                allowed: "not below lower",
-            });
-        }
+        Error::check("limits.upper", upper, upper >= lower, "not below lower")?;
     }
     if let Some(Motor { speed, max }) = motor {
         Error::check_finite("motor.speed", speed)?;
@@ -586,14 +565,10 @@ fn check_axis(
 }
 
 fn check_less_than_a_turn(limits: Option<Limits>) -> Result<(), Error> {
-    match limits {
-        Some(Limits { lower, upper }) if upper - lower >= core::f32::consts::TAU => {
-            let value = upper.into();
-            let allowed = "less than a whole turn above lower";
-            Err(Error::OutOfRange { name: "limits.upper", value, allowed })
-        }
-        _ => Ok(()),
-    }
+    limits.map_or(Ok(()), |Limits { lower, upper }| {
+        let is_less = upper - lower < core::f32::consts::TAU;
+        Error::check("limits.upper", upper, is_less, "less than a whole turn above lower")
+    })
 }
 
 fn check_spring(name: &'static str, spring: Option<Spring>) -> Result<(), Error> {
@@ -601,15 +576,6 @@ fn check_spring(name: &'static str, spring: Option<Spring>) -> Result<(), Error>
         Error::check_positive(name, spring.hertz)?;
         Error::check_not_negative(name, spring.damping_ratio)
     })
-}
-
-fn check_point(name: &'static str, point: DVec2) -> Result<(), Error> {
-    for value in [point.x, point.y] {
-        if !value.is_finite() {
-            return Err(Error::NotFinite { name, value });
-        }
-    }
-    Ok(())
 }
 
 fn check_direction(name: &'static str, direction: Option<Vec2>) -> Result<(), Error> {

@@ -102,9 +102,7 @@ impl Settings {
     /// Names the first number that is not finite or out of range.
     pub fn validate(&self) -> Result<(), Error> {
         for (name, value) in [("substeps", self.substeps), ("iterations", self.iterations)] {
-            if !(1..=1000).contains(&value) {
-                return Err(Error::OutOfRange { name, value: value.into(), allowed: "1 to 1000" });
-            }
+            Error::check(name, value, (1..=1000).contains(&value), "1 to 1000")?;
         }
         Error::check_positive("length_unit", self.length_unit)?;
         Error::check_not_negative("contact_hertz", self.contact_hertz)?;

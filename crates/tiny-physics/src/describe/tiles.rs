@@ -194,10 +194,8 @@ impl TileGrid {
             let reason = "the cell is outside of the tile grid";
             return Err(Error::Unsupported { reason });
         }
-        if usize::from(value) > self.palette.len() {
-            let allowed = "0 to the length of the palette";
-            return Err(Error::OutOfRange { name: "tile", value: value.into(), allowed });
-        }
+        let is_known = usize::from(value) <= self.palette.len();
+        Error::check("tile", value, is_known, "0 to the length of the palette")?;
         let index = self.index(x, y);
         self.cells[index] = value;
         Ok(())
@@ -222,22 +220,13 @@ impl TileGrid {
     /// A number is out of range, the cells are not width times height, or one of them is not in the
     /// palette.
     pub fn validate(&self) -> Result<(), Error> {
-        Error::check_positive("cell_size", self.cell_size)?;
         Error::check_finite("angle", self.angle)?;
-        if !self.position.is_finite() {
-            return Err(Error::NotFinite { name: "position", value: f64::NAN });
-        }
+        Error::check_finite_point("position", self.position)?;
         let size = f64::from(self.cell_size);
-        if !(f64::from(MIN_EXTENT) * 10.0..f64::from(MAX_EXTENT) / 32.0).contains(&size) {
-            let allowed = "1e-4 to 3e4";
-            return Err(Error::OutOfRange { name: "cell_size", value: size, allowed });
-        }
-        let sides = [("width", self.width), ("height", self.height)];
-        for (name, value) in sides {
-            if !(1..=MAX_CELLS).contains(&value) {
-                let allowed = "1 to 1048576";
-                return Err(Error::OutOfRange { name, value: value.into(), allowed });
-            }
+        let is_right = (f64::from(MIN_EXTENT) * 10.0..f64::from(MAX_EXTENT) / 32.0).contains(&size);
+        Error::check("cell_size", size, is_right, "1e-4 to 3e4")?;
+        for (name, value) in [("width", self.width), ("height", self.height)] {
+            Error::check(name, value, (1..=MAX_CELLS).contains(&value), "1 to 1048576")?;
         }
         if self.cells.len() != self.width as usize * self.height as usize {
             return Err(Error::Unsupported { reason: "a tile grid needs width * height cells" });

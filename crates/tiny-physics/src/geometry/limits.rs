@@ -11,21 +11,12 @@ pub const MAX_EXTENT: f32 = 1.0e6;
 
 /// `Ok` where a radius or half extent is in range.
 pub(super) fn check_size(name: &'static str, value: f32) -> Result<(), Error> {
-    Error::check_finite(name, value)?;
-    if (MIN_EXTENT..=MAX_EXTENT).contains(&value) {
-        Ok(())
-    } else {
-        Err(Error::OutOfRange { name, value: value.into(), allowed: "1e-5 to 1e6" })
-    }
+    Error::check(name, value, (MIN_EXTENT..=MAX_EXTENT).contains(&value), "1e-5 to 1e6")
 }
 
 /// `Ok` where both coordinates of a point are in range.
 pub(crate) fn check_point(name: &'static str, point: Vec2) -> Result<(), Error> {
-    Error::check_finite_vec(name, point)?;
-    for value in [point.x, point.y] {
-        if value.abs() > MAX_EXTENT {
-            return Err(Error::OutOfRange { name, value: value.into(), allowed: "-1e6 to 1e6" });
-        }
-    }
-    Ok(())
+    let check = |value: f32| Error::check(name, value, value.abs() <= MAX_EXTENT, "-1e6 to 1e6");
+    check(point.x)?;
+    check(point.y)
 }

@@ -94,10 +94,8 @@ impl Polygon {
     /// A count outside 3 to 8, a radius (from the centre to the corners) that is not finite or out of range.
     pub fn regular(count: usize, radius: f32) -> Result<Self, Error> {
         check_size("radius", radius)?;
-        if !(3..=MAX_VERTICES).contains(&count) {
-            let value = count as f64;
-            return Err(Error::OutOfRange { name: "vertex count", value, allowed: "3 to 8" });
-        }
+        let is_right = (3..=MAX_VERTICES).contains(&count);
+        Error::check("vertex count", count as f64, is_right, "3 to 8")?;
         let mut vertices = [Vec2::ZERO; MAX_VERTICES];
         let step = core::f32::consts::TAU / count as f32;
         for (i, vertex) in vertices[..count].iter_mut().enumerate() {
@@ -112,11 +110,7 @@ impl Polygon {
     /// # Errors
     /// A radius that is not finite, below 0 or above [`MAX_EXTENT`].
     pub fn rounded(mut self, radius: f32) -> Result<Self, Error> {
-        Error::check_not_negative("corner radius", radius)?;
-        if radius > MAX_EXTENT {
-            let value = radius.into();
-            return Err(Error::OutOfRange { name: "corner radius", value, allowed: "0 to 1e6" });
-        }
+        Error::check("corner radius", radius, (0.0..=MAX_EXTENT).contains(&radius), "0 to 1e6")?;
         self.radius = radius;
         Ok(self)
     }

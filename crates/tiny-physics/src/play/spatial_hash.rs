@@ -88,11 +88,8 @@ impl SpatialHash {
     /// [`Error::NotFinite`] or [`Error::OutOfRange`] where the size is not a finite number between
     /// 1e-18 and 1e18.
     pub fn new(cell_size: f32) -> Result<Self, Error> {
-        Error::check_positive("cell_size", cell_size)?;
-        if !(1.0e-18..=1.0e18).contains(&cell_size) {
-            let (value, allowed) = (cell_size.into(), "1e-18 to 1e18");
-            return Err(Error::OutOfRange { name: "cell_size", value, allowed });
-        }
+        let is_right = (1.0e-18..=1.0e18).contains(&cell_size);
+        Error::check("cell_size", cell_size, is_right, "1e-18 to 1e18")?;
         Ok(Self {
             cell_size,
             per_metre: 1.0 / cell_size,

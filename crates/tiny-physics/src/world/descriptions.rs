@@ -12,12 +12,8 @@ const MASSES: core::ops::RangeInclusive<f32> = 1.0e-9..=1.0e12;
 
 pub(super) fn check_body(body: &RigidBody) -> Result<(), Error> {
     for (name, value) in [("position.x", body.position.x), ("position.y", body.position.y)] {
-        if !value.is_finite() {
-            return Err(Error::NotFinite { name, value });
-        }
-        if value.abs() > MAX_COORDINATE {
-            return Err(Error::OutOfRange { name, value, allowed: "within 1e12 of the origin" });
-        }
+        let is_near = value.abs() <= MAX_COORDINATE;
+        Error::check(name, value, is_near, "within 1e12 of the origin")?;
     }
     Error::check_finite("angle", body.angle)?;
     Error::check_finite_vec("velocity", body.velocity)?;
@@ -68,8 +64,5 @@ pub(super) fn check_shape(shape: &ShapeDef) -> Result<(), Error> {
 }
 
 fn check_range(name: &'static str, value: f32) -> Result<(), Error> {
-    if MASSES.contains(&value) {
-        return Ok(());
-    }
-    Err(Error::OutOfRange { name, value: value.into(), allowed: "1e-9 to 1e12" })
+    Error::check(name, value, MASSES.contains(&value), "1e-9 to 1e12")
 }
