@@ -108,8 +108,7 @@ impl BodyMut<'_> {
     pub fn set_pose(&mut self, pose: Pose) {
         let (x, y) = (pose.p.x.abs(), pose.p.y.abs());
         if !pose.is_finite() || x > MAX_COORDINATE || y > MAX_COORDINATE {
-            self.world.refuse();
-            return;
+            return self.world.refuse();
         }
         let (world, index) = (&mut *self.world, self.index);
         world.wake_index(index);

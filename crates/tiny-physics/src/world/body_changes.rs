@@ -150,8 +150,7 @@ impl BodyMut<'_> {
     pub fn set_target(&mut self, target: impl Into<Pose>, dt: f32) {
         let target: Pose = target.into();
         if !target.is_finite() || !dt.is_finite() || dt <= 0.0 {
-            self.world.stats.refused_numbers += 1;
-            return;
+            return self.world.refuse();
         }
         let body = self.as_ref();
         let rotation = target.q.normalized();

@@ -67,11 +67,9 @@ impl World {
         let bodies = &self.state.bodies;
         let count = bodies.infos.len();
         let lengths = [bodies.rows.len(), bodies.poses.len(), bodies.previous.len()];
-        ensure(count > 0 && lengths.iter().all(|&length| length == count), "bodies are missing")?;
-        ensure(
-            !bodies.infos[0].alive && bodies.infos[0].kind == BodyKind::Static,
-            "body 0 is alive",
-        )?;
+        ensure(count > 0 && lengths == [count; 3], "bodies are missing")?;
+        let null = &bodies.infos[0];
+        ensure(!null.alive && null.kind == BodyKind::Static, "body 0 is alive")?;
         ensure(
             bodies.infos.iter().filter(|info| info.alive).count() == bodies.count,
             "bodies are miscounted",
@@ -111,11 +109,9 @@ impl World {
     fn check_shapes(&self) -> Check {
         let shapes = &self.state.shapes;
         let count = shapes.records.len();
-        ensure(
-            shapes.rows.len() == count && shapes.fat.len() == count && shapes.guards.len() == count,
-            "shapes are missing",
-        )?;
-        ensure(shapes.tight.len() == count, "shapes are missing")?;
+        let lengths =
+            [shapes.rows.len(), shapes.fat.len(), shapes.guards.len(), shapes.tight.len()];
+        ensure(lengths == [count; 4], "shapes are missing")?;
         ensure(
             shapes.records.iter().filter(|r| r.alive).count() == shapes.count,
             "shapes are miscounted",
