@@ -16,7 +16,7 @@ import { Renderer } from "./renderer.js";
 import { TOOLS, tools } from "./tools.js";
 import { transport } from "./transport.js";
 
-const FIRST = "pyramid";
+const FIRST = "fair";
 const OVERLAYS = [
   ["joints", "Joints", "link"],
   ["contacts", "Contact points", "dot"],
@@ -232,6 +232,18 @@ async function main() {
     openEntry(catalogue.find(({ name }) => name === FIRST));
   }
   addEventListener("hashchange", fromAddress);
+
+  // Who is here for the first time is told what to try, until they try something.
+  if (!localStorage.getItem("known")) {
+    const hint = $("#hint");
+    hint.textContent = matchMedia("(pointer: coarse)").matches ? "Drag anything. The slider goes back in time." : "Drag anything. The slider goes back in time. E shows the scene as text, G has more.";
+    hint.hidden = false;
+    const tried = () => {
+      hint.hidden = true;
+      localStorage.setItem("known", "yes");
+    };
+    for (const event of ["pointerdown", "keydown"]) addEventListener(event, tried, { once: true });
+  }
 
   room();
   await fromAddress();

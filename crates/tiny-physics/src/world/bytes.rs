@@ -33,7 +33,7 @@ impl World {
     }
 
     /// The bytes of a world that is this one again after the next step, but not before: what that step finds anew whatever
-    /// comes first is left out. It takes about two thirds of the memory where much touches.
+    /// comes first is left out, which saves an eighth of what they take as differences where much touches.
     pub(crate) fn to_bytes_of_next(&self) -> Vec<u8> {
         let mut next = self.clone();
         next.state.graph.forget_geometry();
