@@ -5,12 +5,14 @@ use crate::session::Session;
 use crate::with;
 use tiny_physics::record::Command;
 use tiny_physics::{
-    Aabb, Body, BodyKind, Color, DVec2, DebugDraw, DebugDrawOptions, Palette, Polygon, Pose, Rot,
-    Shape, ShapeRef, Transform, Vec2, Water, World,
+    Aabb, Body, BodyKind, Color, DVec2, DebugDraw, DebugDrawOptions, ForceZone, Palette, Polygon,
+    Pose, Rot, Shape, ShapeRef, Transform, Vec2, Water, World,
 };
 
 /// Numbers of a row.
 const CORNERS: usize = 8;
+/// Numbers of a water.
+const WATER: usize = 8;
 /// Of a style: what bodies go through.
 const SENSOR: u8 = 8;
 /// The index of no body.
@@ -111,6 +113,9 @@ impl Picture {
                 let Some(body) = world.body(shape.body()) else { continue };
                 if (body.kind() == BodyKind::Static) == fixed {
                     let frame = frame(body.interpolated_pose(alpha), camera);
+                    if shape.is_sensor() && self.is_water(&shape, frame) {
+                        continue;
+                    }
                     let style = style(&shape, body.kind(), body.is_awake());
                     let frame = frame.compose(shape.local());
                     self.shape(shape.shape(), frame, style, body.id().index());
@@ -157,13 +162,19 @@ impl Picture {
         for place in places {
             match place {
                 Command::ApplyWater(water, ..) => self.water(world, water, camera),
-                Command::ApplyZone(zone, ..) => {
+                Command::ApplyZone(zone, ..) if !is_shown(world, zone) => {
                     let frame = frame(zone.pose, camera);
                     self.shape(&zone.shape, frame, f32::from(SENSOR), NOBODY);
                 }
                 _ => {}
             }
         }
+    }
+
+    /// Does a sensor stand for water, which is seen already?
+    fn is_water(&self, shape: &ShapeRef<'_>, frame: Transform) -> bool {
+        let top = shape.shape().aabb(frame.compose(shape.local())).max.y;
+        self.waters.chunks_exact(WATER).any(|water| (water[0] - top).abs() < 0.01)
     }
 
     fn water(&mut self, world: &World, water: &Water, camera: DVec2) {
@@ -346,6 +357,15 @@ impl DebugDraw for Picture {
         self.line(p, p, size, color);
     }
     fn text(&mut self, _: Vec2, _: &str, _: Color) {}
+}
+
+/// Does a sensor of the world stand for an area of force?
+fn is_shown(world: &World, zone: &ForceZone) -> bool {
+    let stands_for = |shape: ShapeRef<'_>| {
+        let off = shape.pose().p.relative_to(zone.pose.p).length();
+        shape.is_sensor() && *shape.shape() == zone.shape && off < 0.01
+    };
+    world.shapes().any(stands_for)
 }
 
 fn is_static(world: &World, shape: &ShapeRef<'_>) -> bool {
