@@ -66,15 +66,13 @@ pub(super) fn encode(old: &[u8], new: &[u8]) -> Vec<u8> {
             at += WORD;
         }
         let moved = if at < new.len() { index.shift_near(old, new, at, shift) } else { None };
-        let same = (at - start) / WORD;
         let from = at;
         if moved.is_none() {
             at = end_of_change(old, new, at, shift);
         }
         // Small numbers of either sign as small numbers.
-        let by = shift - before;
-        write_number(&mut out, (by << 1 ^ by >> 63) as u64);
-        write_number(&mut out, same as u64);
+        write_number(&mut out, ((shift - before) << 1 ^ (shift - before) >> 63) as u64);
+        write_number(&mut out, ((from - start) / WORD) as u64);
         let end = if at < new.len() { at } else { new.len() };
         write_words(&mut out, old, &new[..end], from, shift);
         before = shift;

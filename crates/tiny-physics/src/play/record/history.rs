@@ -111,7 +111,6 @@ impl History {
     pub fn forget_later(&mut self) {
         self.recording.steps.truncate(self.at);
         self.frames.forget_after(self.at);
-        self.seen = self.seen.min(self.at);
     }
 
     /// Moves the world on by `dt` seconds. What came after the current step is forgotten; to see it again, go to it.
@@ -252,8 +251,7 @@ impl Frames {
 
     /// The last step before one of which there is a frame: that is whole again a step later.
     fn last_before(&self, step: usize) -> usize {
-        let count = self.kept.partition_point(|kept| kept.step < step);
-        self.kept[..count].last().map_or(0, |kept| kept.step)
+        self.kept.iter().rfind(|kept| kept.step < step).map_or(0, |kept| kept.step)
     }
 
     /// Counted work up to a step that is kept, or the beginning.
