@@ -105,6 +105,11 @@ pub struct Trial {
 }
 
 /// Mass, centre and moment of inertia of a dynamic body; nothing of others, which no force moves.
+/// Are two shapes solid for each other?
+fn are_solid(a: &ShapeDef, b: &ShapeDef) -> bool {
+    !a.sensor && !b.sensor && a.filter.collides(&b.filter)
+}
+
 fn mass_of(body: &RigidBody) -> MassProperties {
     if body.kind != BodyKind::Dynamic {
         return MassProperties::default();
@@ -311,9 +316,18 @@ impl Trial {
             let manifold = collide(&def_a.shape, &def_b.shape, between, 0.0);
             manifold.deepest().map_or(0.0, |point| -f64::from(point.separation))
         };
+        greatest(self.solid_pairs(a, b).map(|(a, b)| depth(a, b)))
+    }
+
+    /// The shapes of two bodies that are solid for each other.
+    pub(crate) fn solid_pairs(
+        &self,
+        a: usize,
+        b: usize,
+    ) -> impl Iterator<Item = (&ShapeDef, &ShapeDef)> {
         let (shapes_a, shapes_b) = (&self.scene.bodies[a].shapes, &self.scene.bodies[b].shapes);
         let pairs = shapes_a.iter().flat_map(|a| shapes_b.iter().map(move |b| (a, b)));
-        greatest(pairs.map(|(a, b)| depth(a, b)))
+        pairs.filter(|(a, b)| are_solid(a, b))
     }
 
     /// Do their kinds, filters and joints let two bodies collide?
@@ -322,16 +336,8 @@ impl Trial {
             [(a, b), (b, a)].contains(&(joint.a, joint.b)) && !joint.def.collide_connected
         };
         let (body_a, body_b) = (&self.scene.bodies[a], &self.scene.bodies[b]);
-        let solid = |def_a: &ShapeDef, def_b: &ShapeDef| {
-            !def_a.sensor && !def_b.sensor && def_a.filter.collides(&def_b.filter)
-        };
         let moves = [body_a, body_b].iter().any(|body| body.kind == BodyKind::Dynamic);
-        moves
-            && body_a
-                .shapes
-                .iter()
-                .any(|def_a| body_b.shapes.iter().any(|def_b| solid(def_a, def_b)))
-            && !self.scene.joints.iter().any(joined)
+        moves && self.solid_pairs(a, b).next().is_some() && !self.scene.joints.iter().any(joined)
     }
 
     /// How deep any two bodies overlap that collide, metres.

@@ -90,14 +90,14 @@ fn goes_into(
     if trial.scene().bodies[a].kind == BodyKind::Static {
         return false;
     }
-    let solid = |def: &&ShapeDef| !def.sensor;
-    let targets: Vec<&ShapeDef> = trial.scene().bodies[b].shapes.iter().filter(solid).collect();
-    trial.scene().bodies[a].shapes.iter().filter(solid).flat_map(spine).any(|point| {
-        let seen = |i: usize| {
-            let share = i as f64 / PARTS as f64;
-            local(between(b0, b1, share), world(between(a0, a1, share), point))
-        };
-        (0..PARTS).any(|i| targets.iter().any(|def| crosses(def, seen(i), seen(i + 1))))
+    trial.solid_pairs(a, b).any(|(own, other)| {
+        spine(own).into_iter().any(|point| {
+            let seen = |i: usize| {
+                let share = i as f64 / PARTS as f64;
+                local(between(b0, b1, share), world(between(a0, a1, share), point))
+            };
+            (0..PARTS).any(|i| crosses(other, seen(i), seen(i + 1)))
+        })
     })
 }
 

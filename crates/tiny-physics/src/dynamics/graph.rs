@@ -291,7 +291,8 @@ impl Graph {
         &self.buckets.list()[self.range_of_pace(pace)]
     }
 
-    fn range_of_pace(&self, pace: usize) -> Range<usize> {
+    /// Where in the list those are.
+    pub(crate) fn range_of_pace(&self, pace: usize) -> Range<usize> {
         let [start, end] = [pace, pace + 1].map(|pace| key(place_of(pace, 0), PairClass::ALL[0]));
         self.buckets.range(start..end)
     }
@@ -371,6 +372,13 @@ impl Graph {
             self.fresh.push((place as u8, contact.class as u8, slot / BLOCK as u32));
         }
         (place, slot)
+    }
+
+    /// What the narrow phase, or [`Self::mark_touching`], said last.
+    pub(crate) fn touches(&self, contact: &Contact) -> bool {
+        let Place::Graph { colour, slot } = contact.place else { return false };
+        let head = &self.bucket(colour.into(), contact.class).heads[slot as usize / BLOCK];
+        head.touching >> (slot as usize % BLOCK) & 1 != 0
     }
 
     /// Says that a contact touches or not, whatever the narrow phase said: its block is fresh.

@@ -33,7 +33,7 @@ pub(crate) use coloured::{COLOURS, IDLE, colour_at, is_overflow, pace_at};
 pub(crate) use contacts::{Contact, Contacts, Place, SavedPoint};
 pub(crate) use disjoint_sets::DisjointSets;
 pub(crate) use edges::next_edge;
-pub(crate) use graph::{Blocks, Bucket, Graph};
+pub(crate) use graph::{BlockAddress, Blocks, Bucket, Graph};
 pub(crate) use joint_blocks::*;
 pub(crate) use joint_forest::{JointTree, TreeAxis, TreeLink, TreeNode, TreeRow};
 pub(crate) use joint_graph::{

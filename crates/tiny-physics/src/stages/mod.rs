@@ -22,3 +22,4 @@ pub(crate) mod sleep;
 pub(crate) mod solve;
 pub(crate) mod surfaces;
 pub(crate) mod touching;
+pub(crate) mod tree_contacts;

@@ -19,8 +19,10 @@ pub(crate) struct Context<'a> {
     pub(crate) speculative_distance: f32,
     /// For contacts with guarded shapes.
     pub(crate) surroundings: Surroundings<'a>,
-    /// Length of the step in seconds where contacts that close in fast are to be named, else 0.
+    /// Length of the step in seconds where anything is fast, else 0.
     pub(crate) ahead: f32,
+    /// Are contacts that close in fast to be named?
+    pub(crate) naming: bool,
 }
 
 impl<'a> Context<'a> {
@@ -31,7 +33,7 @@ impl<'a> Context<'a> {
         broad_phase: &'a BroadPhase,
         (level, speculative_distance, length_unit): (SimdLevel, f32, f32),
         jointed: bool,
-        ahead: f32,
+        (ahead, naming): (f32, bool),
     ) -> Self {
         Self {
             level,
@@ -43,6 +45,7 @@ impl<'a> Context<'a> {
             speculative_distance,
             surroundings: Surroundings { guards: &shapes.guards, broad_phase, length_unit },
             ahead,
+            naming,
         }
     }
 }

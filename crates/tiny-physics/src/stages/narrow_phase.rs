@@ -116,12 +116,11 @@ impl PairKernel for General {
         block: &ManifoldBlock,
         at: usize,
         pair: &LanePair<L>,
-        _: L,
+        reach: L,
     ) -> LaneManifold<L> {
-        let mut frames = [[0.0; BLOCK]; 4];
-        for (frame, lanes) in frames.iter_mut().zip([pair.p[0], pair.p[1], pair.q[0], pair.q[1]]) {
-            lanes.store(frame);
-        }
+        let mut frames = [[0.0; BLOCK]; 5];
+        let of_lanes = [pair.p[0], pair.p[1], pair.q[0], pair.q[1], reach];
+        frames.iter_mut().zip(of_lanes).for_each(|(frame, lanes)| lanes.store(frame));
         let mut out = [[0.0; BLOCK]; 10];
         for i in 0..L::WIDTH {
             let b_in_a = Transform::new(
@@ -130,7 +129,9 @@ impl PairKernel for General {
             );
             let shapes = [block.shape_a[at + i], block.shape_b[at + i]];
             let empty = block.body_a[at + i] == block.body_b[at + i];
-            let values = if empty { NO_POINTS } else { general_lane(context, shapes, b_in_a) };
+            let reach = frames[4][i];
+            let values =
+                if empty { NO_POINTS } else { general_lane(context, shapes, b_in_a, reach) };
             for (lane, value) in out.iter_mut().zip(values) {
                 lane[i] = value;
             }
@@ -146,14 +147,19 @@ impl PairKernel for General {
 }
 
 /// One manifold as ten floats: normal, two points, separations, ids.
-fn general_lane(context: &Context<'_>, [a, b]: [u32; 2], b_in_a: Transform) -> [f32; 10] {
+fn general_lane(
+    context: &Context<'_>,
+    [a, b]: [u32; 2],
+    b_in_a: Transform,
+    reach: f32,
+) -> [f32; 10] {
     let (Some(a), Some(b)) = (context.shapes.get(a as usize), context.shapes.get(b as usize))
     else {
         return NO_POINTS;
     };
     // The kernels' frame of B is that of its rounded box; A, a general polygon, has no other frame.
     let b_in_a = b_in_a.compose(b.box_frame.inverse());
-    let m = manifold::collide_general(&a.shape, &b.shape, b_in_a, context.speculative_distance);
+    let m = manifold::collide_general(&a.shape, &b.shape, b_in_a, reach);
     let mut out = NO_POINTS;
     out[0] = m.normal.x;
     out[1] = m.normal.y;
@@ -196,7 +202,7 @@ impl<K: PairKernel> LaneKernel for Update<'_, K> {
                 let mut geometry =
                     Geometry::<L>::compute::<K>(token, &context, &blocks.manifolds[index], at);
                 if constrained && !predictions.is_empty() {
-                    geometry.foresee(token, &context, predictions, &contacts[at..]);
+                    geometry.foresee(token, predictions, &contacts[at..]);
                 }
                 if constrained {
                     write_constraint::<L, K>(token, &context, &geometry, &mut blocks, index, at);
@@ -208,7 +214,7 @@ impl<K: PairKernel> LaneKernel for Update<'_, K> {
             }
             let valid = if lanes == BLOCK { u16::MAX } else { (1 << lanes) - 1 };
             blocks.heads[index].touching = touching as u16 & valid;
-            blocks.heads[index].closing = closing as u16 & valid;
+            blocks.heads[index].closing = if context.naming { closing as u16 & valid } else { 0 };
             note_joints(&context, &blocks.manifolds[index], &mut blocks.heads[index], lanes);
         }
     }
@@ -233,6 +239,8 @@ struct Geometry<L: Lanes> {
     points: [[L; 2]; 2],
     separation: [L; 2],
     id: [L; 2],
+    /// Points up to this far apart count, metres.
+    most: L,
     valid: [L::Mask; 2],
     /// From the centre of mass of A to that of B.
     between: [L; 2],
@@ -276,7 +284,10 @@ impl<L: Lanes> Geometry<L> {
         if guarded != 0 {
             correct_lanes::<L>(token, context, block, at, guarded, &pair, &mut m);
         }
-        let valid = [m.separation[0].le(limit), m.separation[1].le(limit)];
+        // The other point of what touches may come down within the step.
+        let near = L::or(m.separation[0].le(limit), m.separation[1].le(limit));
+        let most = L::select(near, reach, limit);
+        let valid = [m.separation[0].le(most), m.separation[1].le(most)];
         let to_world = |point: [L; 2]| {
             let turned = rotate(frame_a, point);
             [turned[0] + place_a[0], turned[1] + place_a[1]]
@@ -288,6 +299,7 @@ impl<L: Lanes> Geometry<L> {
             points: [to_world(m.points[0]), to_world(m.points[1])],
             separation: m.separation,
             id: m.id,
+            most,
             valid,
             between,
             touching,
@@ -301,16 +313,9 @@ impl<L: Lanes> Geometry<L> {
 
     /// Puts predicted contacts in the place of what the lanes have now.
     #[inline(always)]
-    fn foresee(
-        &mut self,
-        token: L::Token,
-        context: &Context<'_>,
-        predictions: &Predictions,
-        contacts: &[u32],
-    ) {
+    fn foresee(&mut self, token: L::Token, predictions: &Predictions, contacts: &[u32]) {
         let mut lanes = [[0.0; BLOCK]; 13];
         self.store(&mut lanes);
-        lanes[12] = [context.speculative_distance; BLOCK];
         let mut any = false;
         for (i, &contact) in contacts.iter().enumerate().take(L::WIDTH) {
             let Some(ahead) = predictions.of(contact) else { continue };
@@ -339,11 +344,12 @@ impl<L: Lanes> Geometry<L> {
             self.id[k].store(&mut lanes[8 + k]);
             self.between[k].store(&mut lanes[10 + k]);
         }
+        self.most.store(&mut lanes[12]);
     }
 
     #[inline(always)]
     fn load(&mut self, token: L::Token, lanes: &[[f32; BLOCK]; 13]) {
-        let limit = L::load(token, &lanes[12]);
+        self.most = L::load(token, &lanes[12]);
         for k in 0..2 {
             self.normal[k] = L::load(token, &lanes[k]);
             self.points[0][k] = L::load(token, &lanes[2 + k]);
@@ -351,7 +357,7 @@ impl<L: Lanes> Geometry<L> {
             self.separation[k] = L::load(token, &lanes[6 + k]);
             self.id[k] = L::load(token, &lanes[8 + k]);
             self.between[k] = L::load(token, &lanes[10 + k]);
-            self.valid[k] = self.separation[k].le(limit);
+            self.valid[k] = self.separation[k].le(self.most);
         }
         self.touching = L::bits(L::or(self.valid[0], self.valid[1]));
     }

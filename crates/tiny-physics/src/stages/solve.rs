@@ -6,14 +6,15 @@
 use super::contact_solver::{self, BounceMemory, Parameters, Pass, Softness};
 use super::islands::Stores;
 use super::joint_solver::Substep;
-use super::{integrate, joint_solver, paces, passivity};
+use super::{integrate, joint_solver, paces, passivity, tree_contacts};
 use crate::describe::Settings;
 use crate::dynamics::{
-    JOINTED, JointBlocks, JointLoad, JointPlaces, PACES, PLAIN, REFINEMENT, ROUNDS, Schedule,
+    BlockAddress, JOINTED, JointBlocks, JointLoad, JointPlaces, PACES, PLAIN, Place, REFINEMENT,
+    ROUNDS, Schedule, pace_at,
 };
 use crate::footprint::footprint;
 use crate::math::Vec2;
-use crate::simd::SimdLevel;
+use crate::simd::{BLOCK, SimdLevel};
 use crate::threads::{SharedRows, Team};
 
 /// Contacts against static bodies are this much stiffer.
@@ -27,6 +28,9 @@ const CONTACT_RATE_FRACTION: f32 = 0.22;
 const FAST_APPROACH: f32 = 10.0;
 /// What is deeper in than its load accounts for is pushed out at this rate, 1 / second.
 const PUSH_RATE: f32 = 20.0;
+/// Times more that the contacts of squeezed bodies are solved in a pass. In 400 random worlds 4 took the sum of the
+/// deepest overlaps from 14.3 m to 13.1, 12 and 32 no further.
+const HARD_ROUNDS: usize = 4;
 
 /// How a step is divided.
 #[derive(Clone, Copy, Debug)]
@@ -111,6 +115,10 @@ impl Rules<'_> {
 #[derive(Debug, Default)]
 pub(crate) struct Solver {
     schedule: Schedule,
+    /// Blocks with contacts of squeezed bodies, sorted, and those of the pace at hand.
+    hard: Vec<BlockAddress>,
+    hard_schedule: Schedule,
+    tree_contacts: tree_contacts::TreeContacts,
     bounces: BounceMemory,
     pub(crate) passivity: passivity::Memory,
     listed: Vec<u32>,
@@ -118,16 +126,32 @@ pub(crate) struct Solver {
     pub(crate) broken: Vec<(u32, JointLoad)>,
 }
 
-footprint!(Solver { schedule, bounces, passivity, listed, broken });
+footprint!(Solver {
+    schedule,
+    hard,
+    hard_schedule,
+    tree_contacts,
+    bounces,
+    passivity,
+    listed,
+    broken
+});
 
 impl Solver {
-    /// Solves the islands pace by pace, the plain one last.
-    pub(crate) fn run(&mut self, team: &Team, stores: &mut Stores<'_>, rules: Rules<'_>) {
+    /// Solves the islands pace by pace, the plain one last. `squeezed` are light bodies that heavy ones hit.
+    pub(crate) fn run(
+        &mut self,
+        team: &Team,
+        stores: &mut Stores<'_>,
+        rules: Rules<'_>,
+        squeezed: &[u32],
+    ) {
         self.broken.clear();
         self.passivity.withheld = 0.0;
         if stores.bodies.awake.is_empty() {
             return;
         }
+        self.find_hard(stores, squeezed);
         stores.joint_graph.grow_forest(stores.bodies, stores.joints);
         let h = rules.lengths.h;
         joint_solver::describe(stores.joint_graph, stores.joints, &stores.bodies.infos, h);
@@ -151,6 +175,22 @@ impl Solver {
         self.broken.sort_unstable_by_key(|&(index, _)| index);
     }
 
+    /// Lists the blocks in which squeezed bodies have contacts.
+    fn find_hard(&mut self, stores: &Stores<'_>, squeezed: &[u32]) {
+        self.hard.clear();
+        for &body in squeezed {
+            let first = stores.bodies.infos[body as usize].first_contact;
+            for (index, _) in stores.contacts.of_body(first) {
+                let contact = &stores.contacts.records[index as usize];
+                if let (true, Place::Graph { colour, slot }) = (contact.touching, contact.place) {
+                    self.hard.push((colour, contact.class as u8, slot / BLOCK as u32));
+                }
+            }
+        }
+        self.hard.sort_unstable();
+        self.hard.dedup();
+    }
+
     /// The substeps of a pace, of these bodies.
     fn solve_pace(
         &mut self,
@@ -160,12 +200,18 @@ impl Solver {
         pace: usize,
         listed: &[u32],
     ) {
-        let Self { schedule, bounces, passivity, broken, .. } = self;
+        let Self {
+            schedule, bounces, passivity, broken, hard, hard_schedule, tree_contacts, ..
+        } = self;
         let Rules { settings, gravity, level, lengths } = rules;
         let h = lengths.h;
         let joint_substep = Substep::new(h, settings.length_unit);
         let parameters = rules.contact_parameters();
         schedule.fill_pace(stores.graph, pace, contact_solver::CHUNK);
+        let at = |pace| hard.partition_point(|at| pace_at(at.0.into()) < pace);
+        let hard = &hard[at(pace)..at(pace + 1)];
+        hard_schedule.fill_with(stores.graph, hard, contact_solver::CHUNK);
+        let hard_rounds = if hard.is_empty() { 0 } else { HARD_ROUNDS };
         integrate::prepare(team, listed, stores.bodies, gravity, h);
         let places = stores.joint_graph.places_of(pace);
         prepare_joints(team, stores, level, pace, &places, joint_substep);
@@ -181,9 +227,15 @@ impl Solver {
         let joints = |stores: &mut Stores<'_>, pass| {
             run_joints(team, stores, level, pace, &places, pass, joint_substep)
         };
-        let contacts = |stores: &mut Stores<'_>, pass| {
+        tree_contacts.take(pace, stores);
+        let in_lanes = |stores: &mut Stores<'_>, pass, schedule: &Schedule| {
             let rows = SharedRows::new(&mut stores.bodies.rows);
             contact_solver::run(team, level, pass, &parameters, rows, stores.graph, schedule);
+        };
+        let mut contacts = |stores: &mut Stores<'_>, pass| {
+            let trees = &mut stores.joint_graph.forest.trees;
+            tree_contacts.run(level, pass, &parameters, &mut stores.bodies.rows, trees);
+            in_lanes(stores, pass, schedule);
         };
         for substep in 0..lengths.substeps {
             let first = substep == 0;
@@ -197,11 +249,17 @@ impl Solver {
             for _ in 0..lengths.iterations {
                 joints(stores, joint_solver::Pass::Solve);
                 contacts(stores, Pass::Solve);
+                for _ in 0..hard_rounds {
+                    in_lanes(stores, Pass::Solve, hard_schedule);
+                }
             }
             integrate::positions(team, listed, stores.bodies, h, max_speed);
             for round in 1..=lengths.relaxations {
                 let last = round == lengths.relaxations;
                 joints(stores, joint_solver::Pass::Relax);
+                for _ in 0..hard_rounds {
+                    in_lanes(stores, Pass::Relax, hard_schedule);
+                }
                 contacts(stores, if last { Pass::RelaxLast } else { Pass::Relax });
             }
             if watched {
@@ -210,6 +268,7 @@ impl Solver {
             joint_solver::note_broken(stores.joint_graph, stores.joints, pace, inv_h_plain, broken);
         }
         joints(stores, joint_solver::Pass::Finish);
+        tree_contacts.give_back(stores);
         integrate::bound(team, listed, stores.bodies, max_speed);
     }
 }

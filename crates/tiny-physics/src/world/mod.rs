@@ -256,22 +256,23 @@ impl World {
     fn update_manifolds(&mut self, team: &Team, lengths: Lengths) {
         self.scratch.predictions.clear();
         self.scratch.schedule.fill(&self.state.graph, narrow_phase::CHUNK);
-        let anything_fast = !self.scratch.ways.of_shapes.is_empty();
-        self.run_narrow_phase(team, if anything_fast { lengths.dt } else { 0.0 });
-        if anything_fast {
+        self.run_narrow_phase(team, lengths, true);
+        if !self.scratch.ways.of_shapes.is_empty() {
             self.state.graph.take_closing(&mut self.scratch.predictions.candidates);
         }
     }
 
     /// The same for the blocks that have got other contacts since, or predicted ones.
-    fn update_fresh_manifolds(&mut self, team: &Team) {
+    fn update_fresh_manifolds(&mut self, team: &Team, lengths: Lengths) {
         self.state.graph.sort_fresh();
         let graph = &self.state.graph;
         self.scratch.schedule.fill_with(graph, graph.fresh(), narrow_phase::CHUNK);
-        self.run_narrow_phase(team, 0.0);
+        self.run_narrow_phase(team, lengths, false);
     }
 
-    fn run_narrow_phase(&mut self, team: &Team, ahead: f32) {
+    fn run_narrow_phase(&mut self, team: &Team, lengths: Lengths, naming: bool) {
+        let anything_fast = !self.scratch.ways.of_shapes.is_empty();
+        let ahead = (if anything_fast { lengths.dt } else { 0.0 }, naming);
         let settings = (self.level, self.contact_reach(), self.settings.length_unit);
         let State { bodies, shapes, broad_phase, joint_graph, graph, .. } = &mut self.state;
         let jointed = joint_graph.count() > 0;
@@ -289,8 +290,14 @@ impl World {
             let State { bodies, shapes, contacts, joints, broad_phase, graph, .. } =
                 &mut self.state;
             let Scratch { predictions, search, ways, .. } = &mut self.scratch;
-            let narrow_phase =
-                narrow_context::Context::new(bodies, shapes, broad_phase, settings, false, 0.0);
+            let narrow_phase = narrow_context::Context::new(
+                bodies,
+                shapes,
+                broad_phase,
+                settings,
+                false,
+                (0.0, false),
+            );
             let scene =
                 ahead::Scene { bodies, shapes, contacts, graph, narrow_phase, dt: lengths.dt };
             if !predictions.round(team, scene) {
@@ -300,7 +307,7 @@ impl World {
             let (custom, reach, ways) = (self.hooks.pair_filter(), settings.1, &ways.of_shapes);
             let partners =
                 pairs::Partners { shapes, bodies, contacts, joints, custom, reach, ways };
-            predictions.look_again(team, broad_phase, &partners, &mut search.pairs);
+            predictions.look_again(team, (broad_phase, graph), &partners, &mut search.pairs);
             self.add_candidates(team);
         }
         let Self { state: State { contacts, graph, .. }, scratch, .. } = self;
@@ -375,7 +382,7 @@ impl World {
         for &contact in &self.scratch.predictions.fresh {
             self.state.graph.watch(&self.state.contacts.records[contact as usize]);
         }
-        self.update_fresh_manifolds(team);
+        self.update_fresh_manifolds(team, lengths);
     }
 
     /// Chooses which islands are solved more finely than others.
@@ -391,7 +398,8 @@ impl World {
         self.state.inv_h = 1.0 / lengths.h;
         let Self { settings, gravity, level, .. } = *self;
         let rules = solve::Rules { settings: &settings, gravity, level, lengths };
-        self.scratch.solver.run(team, &mut self.state.solved(), rules);
+        let Scratch { solver, predictions, .. } = &mut self.scratch;
+        solver.run(team, &mut self.state.solved(), rules, &predictions.squeezed);
         self.stats.withheld_energy = self.scratch.solver.passivity.withheld;
         self.collect_hits();
         self.break_joints();

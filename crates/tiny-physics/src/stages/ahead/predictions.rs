@@ -22,6 +22,8 @@ const ROUNDS: usize = 6;
 const CHUNK: usize = 32;
 /// What touches already is looked at again only if its body was taken further off its way than this, in half thicknesses.
 const HARD_HIT: f32 = 0.5;
+/// What is hit by something so many times its mass may be squeezed.
+const HEAVIER: f32 = 4.0;
 /// Points whose separations differ by less than this are hit together, metres; multiplied by the length unit.
 const NEAR: f32 = 0.02;
 /// So many bodies that were taken off their ways may be looked at again in a step, and one in [`SHARE`] of all: those
@@ -95,6 +97,8 @@ pub(crate) struct Predictions {
     course_places: Vec<u32>,
     /// What the last round took off its way.
     struck: Vec<Struck>,
+    /// Light bodies that were hit by heavy ones.
+    pub(crate) squeezed: Vec<u32>,
     rounds: usize,
     /// Bodies that may still be looked at again in this step.
     budget: usize,
@@ -104,7 +108,7 @@ pub(crate) struct Predictions {
 }
 
 footprint!(Again { candidates, pairs });
-footprint!(Predictions { candidates, contacts, fresh, list, places, courses, course_places, struck, reached } each { found, looks } none {
+footprint!(Predictions { candidates, contacts, fresh, list, places, courses, course_places, struck, squeezed, reached } each { found, looks } none {
     rounds, budget
 });
 
@@ -128,6 +132,7 @@ impl Predictions {
         self.contacts.drain(..).for_each(|contact| self.places[contact as usize] = 0);
         self.list.clear();
         self.fresh.clear();
+        self.squeezed.clear();
         (self.rounds, self.budget) = (0, 0);
         let courses = self.courses.drain(..);
         courses.for_each(|course| self.course_places[course.body as usize] = 0);
@@ -200,14 +205,15 @@ impl Predictions {
     pub(crate) fn look_again(
         &mut self,
         team: &Team,
-        broad_phase: &BroadPhase,
+        (broad_phase, graph): (&BroadPhase, &Graph),
         partners: &Partners<'_>,
         pairs: &mut Vec<(u32, u32)>,
     ) {
         let mut looks = core::mem::take(&mut self.looks);
         let chunks = team.map_chunks(self.struck.len(), CHUNK, &mut looks, |range, look| {
             look.clear();
-            self.struck[range].iter().for_each(|&struck| look.add(struck, broad_phase, partners));
+            let struck = self.struck[range].iter();
+            struck.for_each(|&struck| look.add(struck, (broad_phase, graph), partners));
         });
         pairs.clear();
         for look in chunks.iter() {
@@ -230,6 +236,10 @@ impl Predictions {
         }
         let contact = &scene.contacts.records[hit.contact as usize];
         let bodies = [contact.body_a, contact.body_b];
+        let [a, b] = bodies.map(|body| scene.bodies.rows[body as usize][Slot::INV_MASS]);
+        if a.max(b) > HEAVIER * a.min(b) && a.min(b) > 0.0 {
+            self.squeezed.push(if a > b { contact.body_a } else { contact.body_b });
+        }
         // What bounces is reflected at the start of the step.
         let fraction = if contact.restitution > 0.0 { 0.0 } else { hit.fraction };
         let rest = (1.0 - fraction) * scene.dt;
@@ -325,13 +335,19 @@ impl Again {
     }
 
     /// Adds what a body may meet on its new way.
-    fn add(&mut self, struck: Struck, broad_phase: &BroadPhase, partners: &Partners<'_>) {
+    fn add(
+        &mut self,
+        struck: Struck,
+        (broad_phase, graph): (&BroadPhase, &Graph),
+        partners: &Partners<'_>,
+    ) {
         let Partners { bodies, shapes, contacts, .. } = *partners;
         let info = &bodies.infos[struck.body as usize];
         let meets = |&(index, _): &(u32, _)| {
             let contact = &contacts.records[index as usize];
             let near = || partners.come_near(contact.shape_a, contact.shape_b);
-            if contact.touching { struck.astray > HARD_HIT } else { near() }
+            // What touched a step ago may be apart by now.
+            if graph.touches(contact) { struck.astray > HARD_HIT } else { near() }
         };
         self.candidates.extend(contacts.of_body(info.first_contact).filter(meets).map(|of| of.0));
         for shape in shapes.of_body(info.first_shape) {
@@ -391,7 +407,7 @@ impl Look<'_> {
         }
         let bucket = self.scene.graph.bucket(colour.into(), contact.class);
         let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
-        let touches = bucket.heads[block].touching >> lane & 1 != 0;
+        let touches = self.scene.graph.touches(contact);
         if touches && let Some(constraint) = bucket.constraints.get(block) {
             return Some(touching_hit(index, constraint, lane));
         }

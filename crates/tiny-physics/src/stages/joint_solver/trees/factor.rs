@@ -135,10 +135,24 @@ fn factor_link<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
 /// Solves for the right sides of the links: changes of impulses in the links, of velocities in the nodes.
 #[inline(always)]
 pub(super) fn solve<S: Simd>(simd: S, tree: &mut JointTree) {
-    let JointTree { nodes, dynamic, links, .. } = tree;
-    for node in &mut nodes[..*dynamic] {
-        node.g = [0.0; 4];
-    }
+    let moving = &mut tree.nodes[..tree.dynamic];
+    moving.iter_mut().for_each(|node| node.g = [0.0; 4]);
+    sweep(simd, tree);
+}
+
+/// Changes of velocities of all nodes for an impulse of one on a node: along x, y, or about.
+#[inline(always)]
+pub(super) fn answer<S: Simd>(simd: S, tree: &mut JointTree, node: u32, k: usize) {
+    let moving = &mut tree.nodes[..tree.dynamic];
+    moving.iter_mut().for_each(|node| node.g = [0.0; 4]);
+    moving[node as usize].g[k] = 1.0;
+    tree.links.iter_mut().for_each(|link| link.rhs = [0.0; 4]);
+    sweep(simd, tree);
+}
+
+#[inline(always)]
+fn sweep<S: Simd>(simd: S, tree: &mut JointTree) {
+    let JointTree { nodes, links, .. } = tree;
     for link in links.iter_mut().rev() {
         gather(simd, nodes, link);
     }

@@ -101,6 +101,38 @@ impl DoubleKernel for RunPass<'_> {
     }
 }
 
+/// How all bodies of a tree answer impulses on some of its nodes: for each of these, for each body, the changes of velocity per
+/// impulse along x, y and about.
+pub(crate) fn answer(
+    level: SimdLevel,
+    tree: &mut JointTree,
+    touched: &[u32],
+    columns: &mut Vec<[[f32; 3]; 3]>,
+) {
+    dispatch_doubles(level, Answer(tree, touched, columns));
+}
+
+struct Answer<'a>(&'a mut JointTree, &'a [u32], &'a mut Vec<[[f32; 3]; 3]>);
+
+impl DoubleKernel for Answer<'_> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self(tree, touched, columns) = self;
+        factor::factor(simd, tree);
+        for &node in touched {
+            let first = columns.len();
+            columns.resize(first + tree.dynamic, [[0.0; 3]; 3]);
+            for k in 0..3 {
+                factor::answer(simd, tree, node, k);
+                let all = columns[first..].iter_mut().zip(&tree.nodes);
+                all.for_each(|(columns, node)| {
+                    columns[k] = [0, 1, 2].map(|k: usize| node.dv[k] as f32)
+                });
+            }
+        }
+    }
+}
+
 /// The trees of a pace; those without links are none.
 fn of_pace(trees: &mut [JointTree], pace: usize) -> impl Iterator<Item = &mut JointTree> {
     trees.iter_mut().filter(move |tree| tree.pace == pace && !tree.links.is_empty())

@@ -1,0 +1,488 @@
+//! Contacts of trees of joints: what touches one body of a tree feels all of it.
+//!
+//! Contacts and trees in turns agree slowly where something heavy lies on a light plank of a bridge: a contact that
+//! sees the plank alone is content with a small impulse, and the next solve of the tree pulls the plank back against
+//! the load. Here the impulse of a contact goes through the tree at once. With the masses M, Jacobians J and compliance
+//! S of the tree, its answer to impulses is
+//!
+//! ```text
+//! P = M^-1 - M^-1 J^T (J M^-1 J^T + S)^-1 J M^-1
+//! ```
+//!
+//! of which the columns of the bodies that are touched come out of the elimination, three solves of the tree each. A
+//! contact with Jacobian c has the effective mass `1 / (c P c^T)`, the part of what is no tree's added, and its impulse
+//! dl changes velocities by `P c^T dl`: Gauss-Seidel on the true masses, which leaves the joints as they are.
+//!
+//! These contacts are taken out of their lanes for the length of the substeps, and put back with their impulses.
+
+use super::contact_solver::{Parameters, Pass};
+use super::islands::Stores;
+use super::joint_solver::trees;
+use crate::dynamics::{Bodies, ConstraintBlock, JointTree, NULL, Slot, SurfaceBlock, flags};
+use crate::simd::{BLOCK, Row, SimdLevel};
+
+/// Numbers that the answers of a tree may have: touched bodies times bodies. Others stay with the lanes.
+const MOST_ANSWERS: usize = 1024;
+/// Times that the points of a contact are gone through in a pass.
+const TURNS: usize = 2;
+/// A contact counts as no heavier than so many times its two bodies alone. Along a taut rope a tree hardly gives way; with the
+/// true mass there, old impulses on arms that have turned hurl it about. In 231 random worlds with joints the deepest overlaps
+/// add up to 6.0 m with 5, 6.2 with 2.5, joints' gaps to 3.8, 3.9, and 5.2 with 50; but a chain over an edge then swings at
+/// 44 mm/s with friction in its hinges, with 2.5 at 30.
+const HEAVIEST: f32 = 2.5;
+
+type Three = [f32; 3];
+
+/// An angular impulse, on A and on B.
+const ABOUT: [Three; 2] = [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]];
+
+/// The answers of a tree to impulses on its touched bodies.
+#[derive(Debug, Default)]
+struct Answers {
+    tree: u32,
+    bodies: Vec<u32>,
+    /// Nodes that something touches.
+    touched: Vec<u32>,
+    /// For each of them, for each body: changes of velocity per impulse along x, y and about the middle.
+    columns: Vec<[Three; 3]>,
+    /// The limits that held then.
+    limits: Vec<i8>,
+}
+
+/// One of the two bodies of a contact.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    body: u32,
+    /// Which answers are of its tree, and its place among the nodes and the touched ones; NULL for a body of no tree.
+    answers: u32,
+    node: u32,
+    touched: u32,
+    /// Later substeps warm start it here.
+    jointed: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Point {
+    there: bool,
+    separation: f32,
+    /// Cross products of anchors with normal and tangent, on A and on B.
+    arms: [f32; 2],
+    tangent_arms: [f32; 2],
+    /// Of the two bodies alone, and with all that hangs on them.
+    alone: [f32; 2],
+    mass: f32,
+    tangent_mass: f32,
+    impulse: f32,
+    rub: f32,
+    load: f32,
+    total: f32,
+}
+
+/// A contact with a body of a tree.
+#[derive(Clone, Copy, Debug)]
+struct Touch {
+    /// Bucket in the graph's list, and slot in it.
+    bucket: usize,
+    slot: usize,
+    sides: [Side; 2],
+    normal: [f32; 2],
+    friction: f32,
+    belt: f32,
+    rolling: f32,
+    rolling_impulse: f32,
+    hit: bool,
+    points: [Point; 2],
+}
+
+/// The contacts of trees of a pace. Found anew each step; kept for its memory.
+#[derive(Debug, Default)]
+pub(crate) struct TreeContacts {
+    /// By body: tree and node, sorted.
+    nodes: Vec<(u32, u32, u32)>,
+    answers: Vec<Answers>,
+    used: usize,
+    touches: Vec<Touch>,
+}
+
+crate::footprint::footprint!(Answers { bodies, touched, columns, limits } none { tree });
+crate::footprint::footprint!(TreeContacts { nodes, touches } each { answers } none { used });
+
+impl TreeContacts {
+    /// Takes the contacts of trees out of the lanes of a pace.
+    pub(crate) fn take(&mut self, pace: usize, stores: &mut Stores<'_>) {
+        self.touches.clear();
+        self.list_trees(pace, &stores.joint_graph.forest.trees);
+        if self.nodes.is_empty() {
+            return;
+        }
+        let range = stores.graph.range_of_pace(pace);
+        self.note_touched(stores, range.clone());
+        let Stores { bodies, graph, .. } = stores;
+        for at in range {
+            let bucket = &mut graph.buckets.list_mut()[at];
+            for slot in 0..bucket.contacts.len() {
+                let (a, b) = bucket.bodies(slot);
+                let sides = [self.side(bodies, a), self.side(bodies, b)];
+                if sides.iter().all(|side| side.answers == NULL) {
+                    continue;
+                }
+                let (block, lane) = (slot / BLOCK, slot % BLOCK);
+                let flags = bucket.heads[block].flags;
+                let (constraint, surface) =
+                    (&mut bucket.constraints[block], &bucket.surfaces[block]);
+                let touch = Touch::read((at, slot), sides, (constraint, surface, flags), lane);
+                (constraint.body_a[lane], constraint.body_b[lane]) = (0, 0);
+                self.touches.push(touch);
+            }
+        }
+    }
+
+    fn list_trees(&mut self, pace: usize, trees: &[JointTree]) {
+        self.nodes.clear();
+        self.used = 0;
+        for (index, tree) in trees.iter().enumerate() {
+            if tree.pace != pace || tree.links.is_empty() {
+                continue;
+            }
+            let at = self.used as u32;
+            if self.used == self.answers.len() {
+                self.answers.push(Answers::default());
+            }
+            let answers = &mut self.answers[self.used];
+            self.used += 1;
+            answers.tree = index as u32;
+            answers.touched.clear();
+            answers.limits.clear();
+            answers.bodies.clear();
+            answers.bodies.extend(tree.nodes[..tree.dynamic].iter().map(|node| node.body));
+            let nodes = answers.bodies.iter().enumerate();
+            self.nodes.extend(nodes.map(|(node, &body)| (body, at, node as u32)));
+        }
+        self.nodes.sort_unstable();
+    }
+
+    fn find(&self, body: u32) -> Option<(u32, u32)> {
+        let at = self.nodes.binary_search_by_key(&body, |node| node.0).ok()?;
+        Some((self.nodes[at].1, self.nodes[at].2))
+    }
+
+    /// Notes which nodes are touched; trees with too many are forgotten.
+    fn note_touched(&mut self, stores: &Stores<'_>, range: core::ops::Range<usize>) {
+        for bucket in &stores.graph.buckets.list()[range] {
+            for slot in 0..bucket.contacts.len() {
+                let (a, b) = bucket.bodies(slot);
+                for (answers, node) in [self.find(a), self.find(b)].into_iter().flatten() {
+                    self.answers[answers as usize].touched.push(node);
+                }
+            }
+        }
+        for answers in &mut self.answers[..self.used] {
+            answers.touched.sort_unstable();
+            answers.touched.dedup();
+            if answers.touched.len() * answers.bodies.len() > MOST_ANSWERS {
+                answers.touched.clear();
+            }
+        }
+    }
+
+    fn side(&self, bodies: &Bodies, body: u32) -> Side {
+        let jointed = bodies.infos[body as usize].first_joint != NULL;
+        let none = Side { body, answers: NULL, node: NULL, touched: NULL, jointed };
+        let Some((answers, node)) = self.find(body) else { return none };
+        match self.answers[answers as usize].touched.binary_search(&node) {
+            Ok(touched) => Side { answers, node, touched: touched as u32, ..none },
+            Err(_) => none,
+        }
+    }
+
+    /// Puts the contacts back into their lanes.
+    pub(crate) fn give_back(&self, stores: &mut Stores<'_>) {
+        for touch in &self.touches {
+            let bucket = &mut stores.graph.buckets.list_mut()[touch.bucket];
+            let (block, lane) = (touch.slot / BLOCK, touch.slot % BLOCK);
+            touch.write(&mut bucket.constraints[block], &mut bucket.surfaces[block], lane);
+        }
+    }
+
+    /// Brings the answers of all trees up to date with the limits that hold.
+    fn update(&mut self, level: SimdLevel, rows: &[Row], forest: &mut [JointTree]) {
+        let mut any = false;
+        for answers in &mut self.answers[..self.used] {
+            let tree = &mut forest[answers.tree as usize];
+            let limits = || tree.links.iter().map(|link| link.limit as i8);
+            let known = !answers.limits.is_empty() && answers.limits.iter().copied().eq(limits());
+            if answers.touched.is_empty() || known {
+                continue;
+            }
+            answers.limits.clear();
+            answers.limits.extend(limits());
+            answers.columns.clear();
+            trees::answer(level, tree, &answers.touched, &mut answers.columns);
+            any = true;
+        }
+        if any {
+            let Self { answers, touches, .. } = self;
+            touches.iter_mut().for_each(|touch| touch.weigh(answers, rows));
+        }
+    }
+
+    /// Runs a pass.
+    pub(crate) fn run(
+        &mut self,
+        level: SimdLevel,
+        pass: Pass,
+        parameters: &Parameters,
+        rows: &mut [Row],
+        forest: &mut [JointTree],
+    ) {
+        if self.touches.is_empty() {
+            return;
+        }
+        if pass == Pass::Solve {
+            self.update(level, rows, forest);
+        }
+        let Self { answers, touches, .. } = self;
+        for touch in touches {
+            match pass {
+                Pass::WarmStart => touch.warm_start(rows, true),
+                Pass::WarmStartJointed => touch.warm_start(rows, false),
+                Pass::Solve => {
+                    for _ in 0..TURNS {
+                        touch.solve::<true>(parameters, answers, rows);
+                    }
+                }
+                Pass::Relax | Pass::RelaxLast => {
+                    touch.rub(answers, rows);
+                    for _ in 0..TURNS {
+                        touch.solve::<false>(parameters, answers, rows);
+                    }
+                    for point in &mut touch.points {
+                        point.load = point.impulse;
+                        if touch.hit && pass == Pass::RelaxLast {
+                            point.total += point.impulse;
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Touch {
+    fn read(
+        (bucket, slot): (usize, usize),
+        sides: [Side; 2],
+        (constraint, surface, flags): (&ConstraintBlock, &SurfaceBlock, u8),
+        lane: usize,
+    ) -> Self {
+        let totals = [surface.total_1[lane], surface.total_2[lane]];
+        let mut points = [Point::default(); 2];
+        for ((point, lanes), total) in points.iter_mut().zip(&constraint.points).zip(totals) {
+            *point = Point {
+                there: lanes.normal_mass[lane] > 0.0,
+                separation: lanes.separation[lane],
+                arms: [lanes.normal_arm_a[lane], lanes.normal_arm_b[lane]],
+                tangent_arms: [lanes.tangent_arm_a[lane], lanes.tangent_arm_b[lane]],
+                alone: [lanes.normal_mass[lane], lanes.tangent_mass[lane]],
+                mass: lanes.normal_mass[lane],
+                tangent_mass: lanes.tangent_mass[lane],
+                impulse: lanes.normal_impulse[lane],
+                rub: lanes.tangent_impulse[lane],
+                load: lanes.load[lane],
+                total,
+            };
+        }
+        let asked = |flag: u8, value: f32| if flags & flag != 0 { value } else { 0.0 };
+        Self {
+            bucket,
+            slot,
+            sides,
+            normal: [constraint.normal_x[lane], constraint.normal_y[lane]],
+            friction: constraint.friction[lane],
+            belt: asked(flags::TANGENT_SPEED, surface.tangent_speed[lane]),
+            rolling: asked(flags::ROLLING, surface.rolling_resistance[lane]),
+            rolling_impulse: asked(flags::ROLLING, surface.rolling_impulse[lane]),
+            hit: flags & flags::HIT != 0,
+            points,
+        }
+    }
+
+    fn write(&self, constraint: &mut ConstraintBlock, surface: &mut SurfaceBlock, lane: usize) {
+        constraint.body_a[lane] = self.sides[0].body;
+        constraint.body_b[lane] = self.sides[1].body;
+        for (point, lanes) in self.points.iter().zip(&mut constraint.points) {
+            lanes.normal_impulse[lane] = point.impulse;
+            lanes.tangent_impulse[lane] = point.rub;
+            lanes.load[lane] = point.load;
+        }
+        surface.rolling_impulse[lane] = self.rolling_impulse;
+        (surface.total_1[lane], surface.total_2[lane]) =
+            (self.points[0].total, self.points[1].total);
+    }
+
+    /// Directions of impulses along the normal, the tangent or about: on A and on B.
+    fn along(direction: [f32; 2], arms: [f32; 2]) -> [Three; 2] {
+        let [x, y] = direction;
+        [[-x, -y, -arms[0]], [x, y, arms[1]]]
+    }
+
+    fn tangent(&self) -> [f32; 2] {
+        [self.normal[1], -self.normal[0]]
+    }
+
+    /// Works out the effective masses.
+    fn weigh(&mut self, answers: &[Answers], rows: &[Row]) {
+        let (normal, tangent) = (self.normal, self.tangent());
+        let sides = self.sides;
+        let mass = |on: [Three; 2], alone: f32| {
+            let (give, most) = (give(&sides, on, answers, rows), HEAVIEST * alone);
+            if give * most > 1.0 { 1.0 / give } else { most }
+        };
+        for point in self.points.iter_mut().filter(|point| point.there) {
+            point.mass = mass(Self::along(normal, point.arms), point.alone[0]);
+            point.tangent_mass = mass(Self::along(tangent, point.tangent_arms), point.alone[1]);
+        }
+    }
+
+    /// Applies the impulses of the substep before to the two bodies alone: the tree is solved next.
+    fn warm_start(&mut self, rows: &mut [Row], first: bool) {
+        let (normal, tangent) = (self.normal, self.tangent());
+        for (k, side) in self.sides.iter().enumerate().filter(|(_, side)| first || side.jointed) {
+            let row = &mut rows[side.body as usize];
+            for point in &self.points {
+                push_body(row, Self::along(normal, point.arms)[k], point.impulse);
+                push_body(row, Self::along(tangent, point.tangent_arms)[k], point.rub);
+            }
+            push_body(row, ABOUT[k], self.rolling_impulse);
+        }
+        if first {
+            self.points.iter_mut().for_each(|point| point.load = point.impulse);
+        }
+    }
+
+    /// Normal impulses; see the kernels of [`super::contact_solver`].
+    fn solve<const BIAS: bool>(
+        &mut self,
+        parameters: &Parameters,
+        answers: &[Answers],
+        rows: &mut [Row],
+    ) {
+        let Self { sides, normal, points, .. } = self;
+        let fixed = sides.iter().any(|side| rows[side.body as usize][Slot::INV_MASS] == 0.0);
+        let soft = if fixed { parameters.static_soft } else { parameters.soft };
+        for point in points.iter_mut().filter(|point| point.there) {
+            let on = Self::along(*normal, point.arms);
+            let s = point.separation + read(sides, on, rows, Slot::DX);
+            let velocity = read(sides, on, rows, Slot::VX);
+            let (apart, mass, old) = (s > 0.0, point.mass, point.impulse);
+            let impulse = if apart {
+                old - mass * (velocity + s * parameters.inv_h)
+            } else if BIAS {
+                let rigid = velocity < -parameters.fast_approach;
+                let velocity = if rigid { velocity } else { soft.mass_scale * velocity };
+                let decay = soft.impulse_scale * old;
+                let bound = (parameters.push_rate * s).max(-parameters.push_speed);
+                let push = mass * (soft.bias_rate * soft.mass_scale * s);
+                old - mass * velocity - push.max(mass * bound - decay) - decay
+            } else {
+                old - mass * velocity
+            };
+            point.impulse = impulse.max(0.0);
+            push(sides, on, point.impulse - old, answers, rows);
+        }
+    }
+
+    /// Friction and rolling resistance.
+    fn rub(&mut self, answers: &[Answers], rows: &mut [Row]) {
+        let tangent = self.tangent();
+        for point in self.points.iter_mut().filter(|point| point.there) {
+            let on = Self::along(tangent, point.tangent_arms);
+            let velocity = read(&self.sides, on, rows, Slot::VX) + self.belt;
+            let limit = self.friction * point.load;
+            let old = point.rub;
+            point.rub = (old - point.tangent_mass * velocity).max(-limit).min(limit);
+            push(&self.sides, on, point.rub - old, answers, rows);
+        }
+        if self.rolling > 0.0 {
+            let limit = self.rolling * (self.points[0].load + self.points[1].load);
+            let inverse = |k: usize| rows[self.sides[k].body as usize][Slot::INV_INERTIA];
+            let (give, old) = (inverse(0) + inverse(1), self.rolling_impulse);
+            let mass = if give > 0.0 { 1.0 / give } else { 0.0 };
+            let wanted = old - mass * read(&self.sides, ABOUT, rows, Slot::VX);
+            self.rolling_impulse = wanted.max(-limit).min(limit);
+            push(&self.sides, ABOUT, self.rolling_impulse - old, answers, rows);
+        }
+    }
+}
+
+/// What a direction reads of three numbers of the rows of both bodies.
+fn read(sides: &[Side; 2], on: [Three; 2], rows: &[Row], first: usize) -> f32 {
+    let [a, b] = [0, 1].map(|k: usize| {
+        let row = &rows[sides[k].body as usize];
+        on[k][0] * row[first] + on[k][1] * row[first + 1] + on[k][2] * row[first + 2]
+    });
+    a + b
+}
+
+/// Velocity along a direction per impulse along it.
+fn give(sides: &[Side; 2], on: [Three; 2], answers: &[Answers], rows: &[Row]) -> f32 {
+    let own = [0, 1].map(|k: usize| {
+        let side = sides[k];
+        if side.answers == NULL {
+            let row = &rows[side.body as usize];
+            let [x, y, turn] = on[k];
+            return row[Slot::INV_MASS] * (x * x + y * y) + row[Slot::INV_INERTIA] * turn * turn;
+        }
+        let answers = &answers[side.answers as usize];
+        dot(on[k], answers.change(side.touched, side.node, on[k]))
+    });
+    let both = if sides[0].answers != NULL && sides[0].answers == sides[1].answers {
+        let answers = &answers[sides[0].answers as usize];
+        2.0 * dot(on[0], answers.change(sides[1].touched, sides[0].node, on[1]))
+    } else {
+        0.0
+    };
+    own[0] + own[1] + both
+}
+
+fn dot(a: Three, b: Three) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn push_body(row: &mut Row, on: Three, impulse: f32) {
+    row[Slot::VX] += row[Slot::INV_MASS] * (on[0] * impulse);
+    row[Slot::VY] += row[Slot::INV_MASS] * (on[1] * impulse);
+    row[Slot::W] += row[Slot::INV_INERTIA] * (on[2] * impulse);
+}
+
+/// Applies an impulse to both bodies, and to the trees that they are of.
+fn push(sides: &[Side; 2], on: [Three; 2], impulse: f32, answers: &[Answers], rows: &mut [Row]) {
+    if impulse == 0.0 {
+        return;
+    }
+    for (side, on) in sides.iter().zip(on) {
+        if side.answers == NULL {
+            push_body(&mut rows[side.body as usize], on, impulse);
+            continue;
+        }
+        let answers = &answers[side.answers as usize];
+        let force = on.map(|x| x * impulse);
+        for (node, &body) in answers.bodies.iter().enumerate() {
+            let change = answers.change(side.touched, node as u32, force);
+            let row = &mut rows[body as usize];
+            for k in 0..3 {
+                row[Slot::VX + k] += change[k];
+            }
+        }
+    }
+}
+
+impl Answers {
+    /// Change of a node's velocity where an impulse acts on a touched one.
+    fn change(&self, touched: u32, node: u32, impulse: Three) -> Three {
+        let columns = &self.columns[touched as usize * self.bodies.len() + node as usize];
+        core::array::from_fn(|k| {
+            columns[0][k] * impulse[0] + columns[1][k] * impulse[1] + columns[2][k] * impulse[2]
+        })
+    }
+}
