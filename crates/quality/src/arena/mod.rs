@@ -78,6 +78,26 @@ mod tests {
     }
 
     #[test]
+    fn what_is_not_solid_for_each_other_passes() {
+        use tiny_physics::{Filter, RigidBody, ShapeDef, Vec2};
+        let mut scene = draw(1);
+        (scene.bodies, scene.joints, scene.script) = (Vec::new(), Vec::new(), None);
+        scene.gravity = Vec2::ZERO;
+        scene.steps = 30;
+        // A body and another's ghostly part: the solid parts pass far above each other.
+        let ghost =
+            ShapeDef::new(shapes::rect(0.2, 0.2)).filter(Filter { mask: 0, ..Filter::default() });
+        let high =
+            ShapeDef { offset: Vec2::new(0.0, 3.0), ..ShapeDef::new(shapes::rect(0.2, 0.2)) };
+        scene.body(RigidBody::fixed().shape(shapes::rect(0.2, 0.2)));
+        let body =
+            RigidBody::dynamic().position(Vec2::new(-1.0, 0.0)).velocity(Vec2::new(5.0, 0.0));
+        scene.body(body.shape(ghost).shape(high));
+        let found = play(&scene, &our_engine, &|| 0.0);
+        assert_eq!((found.passed, found.deepest), (0, 0.0));
+    }
+
+    #[test]
     fn shrinking_keeps_what_is_asked_for() {
         let scene = draw(3);
         let balls =
