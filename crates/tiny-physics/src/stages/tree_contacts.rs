@@ -13,12 +13,17 @@
 //! contact with Jacobian c has the effective mass `1 / (c P c^T)`, the part of what is no tree's added, and its impulse
 //! dl changes velocities by `P c^T dl`: Gauss-Seidel on the true masses, which leaves the joints as they are.
 //!
+//! Trees with motors or springs keep their contacts in lanes: see `is_driven`.
+//!
 //! These contacts are taken out of their lanes for the length of the substeps, and put back with their impulses.
 
 use super::contact_solver::{Parameters, Pass};
 use super::islands::Stores;
 use super::joint_solver::trees;
-use crate::dynamics::{Bodies, ConstraintBlock, JointTree, NULL, Slot, SurfaceBlock, flags};
+use super::passivity::may_drive;
+use crate::dynamics::{
+    Bodies, ConstraintBlock, JointTree, Joints, NULL, Slot, SurfaceBlock, flags,
+};
 use crate::simd::{BLOCK, Row, SimdLevel};
 
 /// Numbers that the answers of a tree may have: touched bodies times bodies. Others stay with the lanes.
@@ -111,7 +116,7 @@ impl TreeContacts {
     /// Takes the contacts of trees out of the lanes of a pace.
     pub(crate) fn take(&mut self, pace: usize, stores: &mut Stores<'_>) {
         self.touches.clear();
-        self.list_trees(pace, &stores.joint_graph.forest.trees);
+        self.list_trees(pace, &stores.joint_graph.forest.trees, stores.joints);
         if self.nodes.is_empty() {
             return;
         }
@@ -137,11 +142,11 @@ impl TreeContacts {
         }
     }
 
-    fn list_trees(&mut self, pace: usize, trees: &[JointTree]) {
+    fn list_trees(&mut self, pace: usize, trees: &[JointTree], joints: &Joints) {
         self.nodes.clear();
         self.used = 0;
         for (index, tree) in trees.iter().enumerate() {
-            if tree.pace != pace || tree.links.is_empty() {
+            if tree.pace != pace || tree.links.is_empty() || is_driven(tree, joints) {
                 continue;
             }
             let at = self.used as u32;
@@ -413,6 +418,15 @@ impl Touch {
             push(&self.sides, ABOUT, self.rolling_impulse - old, answers, rows);
         }
     }
+}
+
+/// Has the tree a motor or a spring? The elimination knows nothing of them: a leg that its motors hold stiff would feel as if it hung
+/// loose. Contacts of such trees stay in lanes, whether a motor has strength just now or not.
+fn is_driven(tree: &JointTree, joints: &Joints) -> bool {
+    tree.links.iter().any(|link| {
+        let def = &joints.records[link.joint as usize].def;
+        may_drive(def) || def.kind.motor().is_some()
+    })
 }
 
 /// What a direction reads of three numbers of the rows of both bodies.
