@@ -386,13 +386,13 @@ impl Touch {
                 let rigid = velocity < -parameters.fast_approach;
                 let velocity = if rigid { velocity } else { soft.mass_scale * velocity };
                 let decay = soft.impulse_scale * old;
-                let bound = (parameters.push_rate * s).max(-parameters.push_speed);
+                let bound = greater(parameters.push_rate * s, -parameters.push_speed);
                 let push = mass * (soft.bias_rate * soft.mass_scale * s);
-                old - mass * velocity - push.max(mass * bound - decay) - decay
+                old - mass * velocity - greater(push, mass * bound - decay) - decay
             } else {
                 old - mass * velocity
             };
-            point.impulse = impulse.max(0.0);
+            point.impulse = greater(impulse, 0.0);
             push(sides, on, point.impulse - old, answers, rows);
         }
     }
@@ -405,7 +405,7 @@ impl Touch {
             let velocity = read(&self.sides, on, rows, Slot::VX) + self.belt;
             let limit = self.friction * point.load;
             let old = point.rub;
-            point.rub = (old - point.tangent_mass * velocity).max(-limit).min(limit);
+            point.rub = clamp(old - point.tangent_mass * velocity, limit);
             push(&self.sides, on, point.rub - old, answers, rows);
         }
         if self.rolling > 0.0 {
@@ -414,7 +414,7 @@ impl Touch {
             let (give, old) = (inverse(0) + inverse(1), self.rolling_impulse);
             let mass = if give > 0.0 { 1.0 / give } else { 0.0 };
             let wanted = old - mass * read(&self.sides, ABOUT, rows, Slot::VX);
-            self.rolling_impulse = wanted.max(-limit).min(limit);
+            self.rolling_impulse = clamp(wanted, limit);
             push(&self.sides, ABOUT, self.rolling_impulse - old, answers, rows);
         }
     }
@@ -457,6 +457,17 @@ fn give(sides: &[Side; 2], on: [Three; 2], answers: &[Answers], rows: &[Row]) ->
         0.0
     };
     own[0] + own[1] + both
+}
+
+/// Of zeros of both signs the second: what platforms differ in.
+fn greater(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// At most `most` either way.
+fn clamp(value: f32, most: f32) -> f32 {
+    let value = greater(value, -most);
+    if value < most { value } else { most }
 }
 
 fn dot(a: Three, b: Three) -> f32 {
