@@ -241,6 +241,23 @@ joint_lanes! {
     }
 }
 
+/// The same of one joint, or of the joints of a stride.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Axis<L> {
+    pub(crate) push: L,
+    pub(crate) mass_scale: L,
+    pub(crate) impulse_scale: L,
+    pub(crate) rest: L,
+    pub(crate) motor_speed: L,
+    pub(crate) motor_max: L,
+    /// Lower and upper.
+    pub(crate) ends: [L; 2],
+    /// Accumulated impulses, those of the limits from the lower and from the upper one.
+    pub(crate) spring: L,
+    pub(crate) motor: L,
+    pub(crate) limits: [L; 2],
+}
+
 joint_lanes! {
     /// A motor of its own.
     MotorLanes {

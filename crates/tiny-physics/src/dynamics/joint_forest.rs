@@ -13,7 +13,7 @@
 use super::bodies::{Bodies, NULL};
 use super::coloured::{TREES, colour_at, place_of};
 use super::disjoint_sets::DisjointSets;
-use super::joint_blocks::JointClass;
+use super::joint_blocks::{Axis, JointClass};
 use super::joints::{JointPlace, Joints};
 use crate::codec::{Data, Reader, Sink, clone_by_field};
 use crate::describe::{JointDef, JointKind};
@@ -62,9 +62,6 @@ pub(crate) struct TreeNode {
     pub(crate) body: u32,
     /// Velocity: x, y, angular.
     pub(crate) v: Three,
-    /// Motion since the start of the step, and its turn as cosine and sine.
-    pub(crate) d: [f64; 3],
-    pub(crate) turn: [f64; 2],
     /// What a substep adds to its velocity by half, where the tree is kicked so.
     pub(crate) half_gain: Three,
     /// Inverse moment of inertia of its own.
@@ -93,20 +90,10 @@ pub(crate) struct TreeLink {
     pub(crate) child: u32,
     /// The node towards the root; NULL for the root's own anchor.
     pub(crate) parent: u32,
-    /// Anchors from the centres of mass, and from that of A to that of B, at the start of the step.
-    pub(crate) anchor_a: [f64; 2],
-    pub(crate) anchor_b: [f64; 2],
-    pub(crate) between: [f64; 2],
-    /// Direction of sliders, angle (or what a gear has slipped), and length of rods, at the start of the step.
-    pub(crate) direction: [f64; 2],
-    pub(crate) angle: f64,
-    pub(crate) length: f64,
-    /// Of a gear: how both bodies slide and spin.
-    pub(crate) mesh: [[f64; 3]; 2],
     /// What acts along the free coordinate: index among the tree's axes, or NULL.
     pub(crate) axis: u32,
     /// Motor of a wheel: speed, greatest impulse, impulse.
-    pub(crate) motor: [f32; 3],
+    pub(crate) motor: [f64; 3],
     /// Number of rigid rows.
     pub(crate) rigid: usize,
     /// The rows: on A and on B, and the rest of [`TreeRow`].
@@ -154,20 +141,10 @@ impl TreeLink {
     }
 }
 
-/// What acts along a link's free coordinate: see [`AxisLanes`](super::AxisLanes), from which it comes.
+/// What acts along a link's free coordinate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct TreeAxis {
-    /// Coefficients of the spring: push, mass scale, impulse scale; and where it rests.
-    pub(crate) soft: [f64; 3],
-    pub(crate) rest: f64,
-    pub(crate) motor_speed: f64,
-    pub(crate) motor_max: f64,
-    /// Lower and upper end, or `None`.
-    pub(crate) limits: Option<[f64; 2]>,
-    /// Accumulated impulses, those of the limits from the lower and from the upper one.
-    pub(crate) spring: f64,
-    pub(crate) motor: f64,
-    pub(crate) limit: [f64; 2],
+    pub(crate) axis: Axis<f64>,
     /// Velocity per impulse, of the two bodies alone, and as the rigid rows tie them.
     pub(crate) free: f64,
     pub(crate) tied: f64,

@@ -10,8 +10,8 @@ use super::coloured::{
     take_colour,
 };
 use super::joint_blocks::{
-    DistanceBlock, DriveBlock, GearBlock, Impulses, JointClass, JointLanes, PrismaticBlock,
-    PulleyBlock, RevoluteBlock, WeldBlock, WheelBlock,
+    DistanceBlock, DriveBlock, GearBlock, Impulses, JointLanes, PrismaticBlock, PulleyBlock,
+    RevoluteBlock, WeldBlock, WheelBlock,
 };
 use super::joint_forest::{JointForest, JointTree, is_rigid};
 use super::joints::{JointPlace, JointRecord, Joints};
@@ -107,11 +107,6 @@ impl<B: JointLanes> JointBucket<B> {
         impulses
     }
 
-    /// Gives the lanes of a joint impulses, as [`Self::saved`] gave them.
-    pub(crate) fn restore(&mut self, slot: u32, impulses: &Impulses) {
-        self.blocks[slot as usize / BLOCK].restore(slot as usize % BLOCK, impulses);
-    }
-
     fn mark_stale(&mut self, slot: u32) {
         self.stale[slot as usize / BLOCK] = true;
     }
@@ -160,34 +155,21 @@ macro_rules! declare {
 }
 joint_classes!(declare!());
 
-/// Does something with the bucket of a class, borrowed (`ref`) or to change (`mut`).
+/// Does something with the bucket of a class in a borrowed colour.
 macro_rules! with_bucket {
-    (mut $colour:expr, $class:expr, $bucket:ident => $body:expr) => {
-        joint_classes!(with_bucket!(place, mut $colour, $class, $bucket => $body))
-    };
-    (ref $colour:expr, $class:expr, $bucket:ident => $body:expr) => {
-        joint_classes!(with_bucket!(place, ref $colour, $class, $bucket => $body))
-    };
-    ((place, mut $colour:expr, $of:expr, $name:ident => $body:expr)
+    ((all, $colour:expr, $of:expr, $name:ident => $body:expr)
         $($bucket:ident $class:ident $block:ident),*) => {
         match $of {
-            $(JointClass::$class => {
-                let $name = &mut $colour.$bucket;
+            $($crate::dynamics::JointClass::$class => {
+                let $crate::dynamics::JointColour { $bucket: $name, .. } = $colour;
                 $body
             })*
         }
     };
-    ((place, ref $colour:expr, $of:expr, $name:ident => $body:expr)
-        $($bucket:ident $class:ident $block:ident),*) => {
-        match $of {
-            $(JointClass::$class => {
-                let $name = &$colour.$bucket;
-                $body
-            })*
-        }
+    ($colour:expr, $class:expr, $bucket:ident => $body:expr) => {
+        $crate::dynamics::joint_classes!(with_bucket!(all, $colour, $class, $bucket => $body))
     };
 }
-
 pub(crate) use with_bucket;
 
 impl Bucketful for JointColour {
@@ -351,7 +333,7 @@ impl JointGraph {
         let Some(class) = record.class() else { return };
         let ends = [record.body_a, record.body_b];
         let lanes = self.colours.open(place);
-        let slot = with_bucket!(mut lanes, class, bucket => {
+        let slot = with_bucket!(&mut *lanes, class, bucket => {
             bucket.push(index, ends, &record.saved)
         });
         record.place = JointPlace::Graph { colour: place as u8, slot };
@@ -377,7 +359,7 @@ impl JointGraph {
         let Some(class) = record.class() else { return };
         record.place = JointPlace::Asleep;
         let ends = [record.body_a, record.body_b];
-        let moved = with_bucket!(mut self.colours[usize::from(colour)], class, bucket => {
+        let moved = with_bucket!(&mut self.colours[usize::from(colour)], class, bucket => {
             record.saved = bucket.saved(slot);
             bucket.swap_remove(slot)
         });
@@ -395,7 +377,7 @@ impl JointGraph {
         else {
             return Impulses::default();
         };
-        with_bucket!(ref self.colours[usize::from(colour)], class, bucket => bucket.saved(slot))
+        with_bucket!(&self.colours[usize::from(colour)], class, bucket => bucket.saved(slot))
     }
 
     /// Brings the forest up to date, and moves joints between lanes and trees.
@@ -460,7 +442,7 @@ impl JointGraph {
         else {
             return;
         };
-        with_bucket!(mut self.colours[usize::from(colour)], class, bucket => bucket.mark_stale(slot));
+        with_bucket!(&mut self.colours[usize::from(colour)], class, bucket => bucket.mark_stale(slot));
         self.any_stale = true;
     }
 }
@@ -535,7 +517,7 @@ mod tests {
             placed += 1;
             let ends = [record.body_a, record.body_b];
             let class = record.class().expect("a joint in the graph has a class");
-            with_bucket!(mut graph.colours[usize::from(colour)], class, bucket => {
+            with_bucket!(&mut graph.colours[usize::from(colour)], class, bucket => {
                 assert_eq!(bucket.joints[slot as usize], index);
                 let frame = bucket.blocks[slot as usize / BLOCK].frame();
                 assert_eq!(frame.body_a[slot as usize % BLOCK], ends[0]);

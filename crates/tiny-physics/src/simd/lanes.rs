@@ -109,74 +109,80 @@ pub(crate) trait Native: Simd {
     type Lanes: Lanes<Token = Self>;
 }
 
-impl Lanes for f32 {
-    const WIDTH: usize = 1;
-    type Token = ();
-    type Mask = bool;
+/// One lane, of the constraints that are worked on one by one: those of trees in twice the precision.
+macro_rules! one_lane {
+    ($($float:ident)*) => {$(
+        impl Lanes for $float {
+            const WIDTH: usize = 1;
+            type Token = ();
+            type Mask = bool;
 
-    #[inline(always)]
-    fn splat((): (), value: f32) -> Self {
-        value
-    }
-    #[inline(always)]
-    fn load((): (), source: &[f32]) -> Self {
-        source[0]
-    }
-    #[inline(always)]
-    fn store(self, target: &mut [f32]) {
-        target[0] = self;
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        f32::sqrt(self)
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        f32::abs(self)
-    }
-    #[inline(always)]
-    fn lt(self, other: Self) -> bool {
-        self < other
-    }
-    #[inline(always)]
-    fn le(self, other: Self) -> bool {
-        self <= other
-    }
-    #[inline(always)]
-    fn eq(self, other: Self) -> bool {
-        self == other
-    }
-    #[inline(always)]
-    fn select(mask: bool, yes: Self, no: Self) -> Self {
-        if mask { yes } else { no }
-    }
-    #[inline(always)]
-    fn and(a: bool, b: bool) -> bool {
-        a & b
-    }
-    #[inline(always)]
-    fn or(a: bool, b: bool) -> bool {
-        a | b
-    }
-    #[inline(always)]
-    fn not(a: bool) -> bool {
-        !a
-    }
-    #[inline(always)]
-    fn bits(mask: bool) -> u32 {
-        u32::from(mask)
-    }
-    #[inline(always)]
-    fn gather((): (), rows: impl RowSource, indices: &[u32]) -> [Self; 8] {
-        rows.read(indices[0])
-    }
-    #[inline(always)]
-    fn scatter(values: [Self; 4], rows: SharedRows<'_>, indices: &[u32], write: u32) {
-        if write & 1 != 0 {
-            rows.write_half(indices[0], values);
+            #[inline(always)]
+            fn splat((): (), value: f32) -> Self {
+                value.into()
+            }
+            #[inline(always)]
+            fn load((): (), source: &[f32]) -> Self {
+                source[0].into()
+            }
+            #[inline(always)]
+            fn store(self, target: &mut [f32]) {
+                target[0] = self as f32;
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $float::sqrt(self)
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $float::abs(self)
+            }
+            #[inline(always)]
+            fn lt(self, other: Self) -> bool {
+                self < other
+            }
+            #[inline(always)]
+            fn le(self, other: Self) -> bool {
+                self <= other
+            }
+            #[inline(always)]
+            fn eq(self, other: Self) -> bool {
+                self == other
+            }
+            #[inline(always)]
+            fn select(mask: bool, yes: Self, no: Self) -> Self {
+                if mask { yes } else { no }
+            }
+            #[inline(always)]
+            fn and(a: bool, b: bool) -> bool {
+                a & b
+            }
+            #[inline(always)]
+            fn or(a: bool, b: bool) -> bool {
+                a | b
+            }
+            #[inline(always)]
+            fn not(a: bool) -> bool {
+                !a
+            }
+            #[inline(always)]
+            fn bits(mask: bool) -> u32 {
+                u32::from(mask)
+            }
+            #[inline(always)]
+            fn gather((): (), rows: impl RowSource, indices: &[u32]) -> [Self; 8] {
+                rows.read(indices[0]).map(Self::from)
+            }
+            #[inline(always)]
+            fn scatter(values: [Self; 4], rows: SharedRows<'_>, indices: &[u32], write: u32) {
+                if write & 1 != 0 {
+                    rows.write_half(indices[0], values.map(|value| value as f32));
+                }
+            }
         }
-    }
+    )*};
 }
+one_lane!(f32 f64);
 
 /// The operations that all vector instances take from the portable vector type unchanged.
 macro_rules! portable_operations {

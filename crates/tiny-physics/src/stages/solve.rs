@@ -292,7 +292,7 @@ fn prepare_joints(
     }
     if let Some((lanes, trees)) = joint_graph.in_trees(places) {
         lanes.for_each_run(team, prepare);
-        joint_solver::trees::prepare(team, pace, lanes, trees, joints, &bodies.motions);
+        joint_solver::trees::prepare(team, pace, trees, joints, &bodies.motions);
     }
 }
 
@@ -323,7 +323,7 @@ fn run_joints(
         }
     }
     let Some((lanes, trees)) = joint_graph.in_trees(places) else { return };
-    joint_solver::trees::run(team, level, pace, pass, substep, rows, trees);
+    joint_solver::trees::run(team, level, pace, pass, substep, rows, (lanes, trees));
     // Loads are read from the lanes: after the step, and in each substep where joints can break.
     let breakable = !joints.breakable.is_empty();
     if pass == joint_solver::Pass::Finish || breakable && pass == joint_solver::Pass::Relax {

@@ -3,7 +3,7 @@
 use super::parts::{Soft, Stride};
 use super::spring::Rates;
 use crate::describe::{Limits, Motor, Spring};
-use crate::dynamics::{AxisLanes, UNLIMITED};
+use crate::dynamics::{Axis, AxisLanes, UNLIMITED};
 use crate::simd::Lanes;
 
 /// A joint's free coordinate: metres or radians.
@@ -57,11 +57,26 @@ impl AxisLanes {
         self.used.iter().any(|&used| used != 0.0)
     }
 
+    #[inline(always)]
+    pub(super) fn load<L: Lanes>(&self, stride: &Stride<L>) -> Axis<L> {
+        Axis {
+            push: stride.load(&self.push),
+            mass_scale: stride.load(&self.mass_scale),
+            impulse_scale: stride.load(&self.impulse_scale),
+            rest: stride.load(&self.rest),
+            motor_speed: stride.load(&self.motor_speed),
+            motor_max: stride.load(&self.motor_max),
+            ends: stride.load2(&self.lower, &self.upper),
+            spring: stride.load(&self.spring),
+            motor: stride.load(&self.motor),
+            limits: stride.load2(&self.lower_impulse, &self.upper_impulse),
+        }
+    }
+
     /// Sum of the accumulated impulses.
     #[inline(always)]
     pub(super) fn total<L: Lanes>(&self, stride: &Stride<L>) -> L {
-        stride.load(&self.spring) + stride.load(&self.motor) + stride.load(&self.lower_impulse)
-            - stride.load(&self.upper_impulse)
+        self.load(stride).total()
     }
 
     /// Sum of the accumulated impulses of one lane.
@@ -80,61 +95,66 @@ impl AxisLanes {
     ) -> L {
         let Coordinate { value, mut velocity, inv_mass } = coordinate;
         let mass = stride.invert(inv_mass);
+        let mut axis = self.load(stride);
+        let total = axis.drive::<BIAS>(stride, value, &mut velocity, [mass, inv_mass]);
+        if BIAS {
+            stride.store(axis.spring, &mut self.spring);
+        }
+        stride.store(axis.motor, &mut self.motor);
+        let ([old_lower, old_upper], [lower, upper]) = (axis.limits, axis.ends);
+        let motion = [velocity, mass, inv_mass];
+        let impulse = give.solve::<BIAS>(stride, soft, old_lower, value - lower, motion);
+        stride.store(impulse, &mut self.lower_impulse);
+        let change = impulse - old_lower;
+        let (total, velocity) = (total + change, velocity + inv_mass * change);
+        let motion = [-velocity, mass, inv_mass];
+        let impulse = give.solve::<BIAS>(stride, soft, old_upper, upper - value, motion);
+        stride.store(impulse, &mut self.upper_impulse);
+        total - (impulse - old_upper)
+    }
+}
+
+impl<L: Lanes> Axis<L> {
+    /// Sum of the accumulated impulses.
+    #[inline(always)]
+    pub(super) fn total(&self) -> L {
+        self.spring + self.motor + self.limits[0] - self.limits[1]
+    }
+
+    /// Spring, in the solve pass alone, and motor: what they change in the impulse and in the velocity.
+    ///
+    /// The motor sees the velocity that would be without the limits: against one that holds it gives no more than it
+    /// needs to be held, and the two do not wind each other up.
+    #[inline(always)]
+    pub(super) fn drive<const BIAS: bool>(
+        &mut self,
+        stride: &Stride<L>,
+        value: L,
+        velocity: &mut L,
+        [mass, inv_mass]: [L; 2],
+    ) -> L {
         let mut total = stride.zero;
         if BIAS {
-            let spring = Soft {
-                push: stride.load(&self.push),
-                mass_scale: stride.load(&self.mass_scale),
-                impulse_scale: stride.load(&self.impulse_scale),
-                held: stride.zero,
-            };
-            let old = stride.load(&self.spring);
-            let demand = spring.demand(velocity, value - stride.load(&self.rest));
-            let change = -(mass * demand) - spring.impulse_scale * old;
-            stride.store(old + change, &mut self.spring);
-            velocity = velocity + inv_mass * change;
+            let demand = self.mass_scale * *velocity + self.push * (value - self.rest);
+            let change = -(mass * demand) - self.impulse_scale * self.spring;
+            self.spring = self.spring + change;
+            *velocity = *velocity + inv_mass * change;
             total = total + change;
         }
-        let held = stride.load(&self.lower_impulse) - stride.load(&self.upper_impulse);
-        let change = self.solve_motor(stride, velocity - inv_mass * held, mass);
-        velocity = velocity + inv_mass * change;
-        total = total + change;
-
-        let room = value - stride.load(&self.lower);
-        let change = solve_limit::<L, BIAS>(
-            stride,
-            soft,
-            give,
-            &mut self.lower_impulse,
-            room,
-            [velocity, mass, inv_mass],
-        );
-        velocity = velocity + inv_mass * change;
-        let total = total + change;
-
-        let room = stride.load(&self.upper) - value;
-        let change = solve_limit::<L, BIAS>(
-            stride,
-            soft,
-            give,
-            &mut self.upper_impulse,
-            room,
-            [-velocity, mass, inv_mass],
-        );
-        total - change
+        let held = self.limits[0] - self.limits[1];
+        let motor = [self.motor_speed, self.motor_max, self.motor];
+        let motor = drive(motor, *velocity - inv_mass * held, mass);
+        let change = motor - self.motor;
+        self.motor = motor;
+        *velocity = *velocity + inv_mass * change;
+        total + change
     }
+}
 
-    /// The motor's change of impulse. `velocity` is what it would be without the limits: against one that holds a
-    /// motor gives no more than it needs to be held, and the two do not wind each other up.
-    #[inline(always)]
-    fn solve_motor<L: Lanes>(&mut self, stride: &Stride<L>, velocity: L, mass: L) -> L {
-        let max = stride.load(&self.motor_max);
-        let old = stride.load(&self.motor);
-        let missing = stride.load(&self.motor_speed) - velocity;
-        let impulse = (old + mass * missing).clamp(-max, max);
-        stride.store(impulse, &mut self.motor);
-        impulse - old
-    }
+/// The impulse of a motor, from its speed, its greatest impulse and that so far.
+#[inline(always)]
+pub(super) fn drive<L: Lanes>([speed, max, old]: [L; 3], velocity: L, mass: L) -> L {
+    (old + mass * (speed - velocity)).clamp(-max, max)
 }
 
 /// Overrun of a limit, radians or metres, that is pushed back softly; what is beyond goes within a substep. Soft
@@ -180,37 +200,34 @@ impl<L: Lanes> Give<L> {
     pub(super) fn rope(stride: &Stride<L>) -> Self {
         Self { snap: stride.snap * stride.splat(4.0), overrun: stride.splat(f32::MAX) }
     }
-}
 
-/// One limit: it pushes only, and stops within the substep what would run over it.
-#[inline(always)]
-pub(super) fn solve_limit<L: Lanes, const BIAS: bool>(
-    stride: &Stride<L>,
-    soft: &Soft<L>,
-    give: Give<L>,
-    accumulated: &mut [f32; crate::simd::BLOCK],
-    room: L,
-    [velocity, mass, inv_mass]: [L; 3],
-) -> L {
-    let old = stride.load(accumulated);
-    let apart = room.gt(stride.zero);
-    let impulse = if BIAS {
-        let (soft_push, firm_push) = (soft.push * room, (room + give.overrun) * stride.inv_h);
-        let is_firm = firm_push.lt(soft_push);
-        let least = velocity.min(stride.zero) - inv_mass * old - give.snap;
-        let push = L::select(is_firm, firm_push, soft_push).max(least);
-        // Only a soft push takes part of the velocity, and of what was pushed before.
-        let share = L::select(is_firm, stride.one, soft.mass_scale);
-        let decay = L::select(is_firm, stride.zero, soft.impulse_scale * old);
-        let mass = mass * L::select(is_firm, stride.splat(FIRMNESS), stride.one);
-        let bias = L::select(apart, room * stride.inv_h, push);
-        let velocity = L::select(apart, velocity, share * velocity);
-        old - mass * (velocity + bias) - L::select(apart, stride.zero, decay)
-    } else {
-        let bias = L::select(apart, room * stride.inv_h, stride.zero);
-        old - mass * (velocity + bias)
-    };
-    let impulse = impulse.max(stride.zero);
-    stride.store(impulse, accumulated);
-    impulse - old
+    /// The impulse of one limit: it pushes only, and stops within the substep what would run over it.
+    #[inline(always)]
+    pub(super) fn solve<const BIAS: bool>(
+        &self,
+        stride: &Stride<L>,
+        soft: &Soft<L>,
+        old: L,
+        room: L,
+        [velocity, mass, inv_mass]: [L; 3],
+    ) -> L {
+        let apart = room.gt(stride.zero);
+        let impulse = if BIAS {
+            let (soft_push, firm_push) = (soft.push * room, (room + self.overrun) * stride.inv_h);
+            let is_firm = firm_push.lt(soft_push);
+            let least = velocity.min(stride.zero) - inv_mass * old - self.snap;
+            let push = L::select(is_firm, firm_push, soft_push).max(least);
+            // Only a soft push takes part of the velocity, and of what was pushed before.
+            let share = L::select(is_firm, stride.one, soft.mass_scale);
+            let decay = L::select(is_firm, stride.zero, soft.impulse_scale * old);
+            let mass = mass * L::select(is_firm, stride.splat(FIRMNESS), stride.one);
+            let bias = L::select(apart, room * stride.inv_h, push);
+            let velocity = L::select(apart, velocity, share * velocity);
+            old - mass * (velocity + bias) - L::select(apart, stride.zero, decay)
+        } else {
+            let bias = L::select(apart, room * stride.inv_h, stride.zero);
+            old - mass * (velocity + bias)
+        };
+        impulse.max(stride.zero)
+    }
 }

@@ -11,9 +11,9 @@ use super::axis::{AxisDef, Coordinate, Give};
 use super::parts::{Pair, Row, Soft, Stride, cross, dot, scale, slow_turn};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
-use crate::dynamics::DistanceBlock;
+use crate::dynamics::{DistanceBlock, TreeLink};
 use crate::math::Vec2;
-use crate::simd::Lanes;
+use crate::simd::{BLOCK, Lanes};
 
 /// Length and unit vector; (1, 0) for the zero vector.
 #[inline(always)]
@@ -30,9 +30,7 @@ pub(super) fn length_and_direction<L: Lanes>(stride: &Stride<L>, v: [L; 2]) -> (
 #[inline(always)]
 fn length_row<L: Lanes>(stride: &Stride<L>, pair: &Pair<L>) -> (L, Row<L>) {
     let (length, direction) = length_and_direction(stride, pair.gap);
-    let arm_a = cross(pair.anchor_a, direction);
-    let arm_b = cross(pair.anchor_b, direction);
-    (length, Row { direction, arm_a, arm_b })
+    (length, pair.row(pair.anchor_a, direction))
 }
 
 /// What circles add to the mean rate of the length over a substep, to second order: those of the
@@ -48,6 +46,16 @@ fn outward<L: Lanes>(stride: &Stride<L>, pair: &Pair<L>, length: L, direction: [
 }
 
 impl JointKernel for DistanceBlock {
+    fn tie(&self, stride: &Stride<f64>, pair: &Pair<f64>, link: &mut TreeLink) {
+        let (length, row) = length_row(stride, pair);
+        link.hold(&row, length - stride.load(&self.length.length));
+        link.let_go(&row, length);
+    }
+
+    fn told(&mut self) -> Option<[&mut [f32; BLOCK]; 2]> {
+        Some([&mut self.length.now_x, &mut self.length.now_y])
+    }
+
     fn describe(&mut self, lane: usize, def: &JointDef, rates: &Rates) {
         let JointKind::Distance { length, spring, limits, motor } = def.kind else { return };
         let rod = spring.is_none() && limits.is_none() && motor.is_none();

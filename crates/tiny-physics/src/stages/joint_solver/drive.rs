@@ -9,6 +9,7 @@
 //! taken from the point in 64 bits. Its angular part is a damper without a spring.
 
 use super::JointKernel;
+use super::axis::drive;
 use super::parts::{Pair, Soft, Start, Stride, Symmetric, add, dot, scale, sub};
 use super::revolute::describe_angle;
 use super::spring::Rates;
@@ -65,7 +66,7 @@ impl DriveBlock {
             let soft = Soft::load::<BIAS>(stride, &self.angular);
             let old = stride.load(&self.twist.impulse);
             let max = stride.load(&self.drive.twist_max);
-            let error = stride.load(&self.angle.start) + pair.turned();
+            let error = pair.angle(stride, &self.angle);
             let change = -(mass * soft.demand(velocity, error)) - soft.impulse_scale * old;
             let impulse = (old + change).clamp(-max, max);
             stride.store(impulse, &mut self.twist.impulse);
@@ -74,8 +75,8 @@ impl DriveBlock {
         }
         let old = stride.load(&self.drive.angular_impulse);
         let max = stride.load(&self.drive.angular_max);
-        let missing = stride.load(&self.drive.angular_velocity) - velocity;
-        let impulse = (old + mass * missing).clamp(-max, max);
+        let speed = stride.load(&self.drive.angular_velocity);
+        let impulse = drive([speed, max, old], velocity, mass);
         stride.store(impulse, &mut self.drive.angular_impulse);
         total + (impulse - old)
     }

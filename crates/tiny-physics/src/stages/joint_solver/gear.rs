@@ -11,7 +11,7 @@ use super::JointKernel;
 use super::parts::{Pair, Sides, Soft, Stride, add, cross, dot, sub};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
-use crate::dynamics::{GearBlock, Slot};
+use crate::dynamics::{GearBlock, Slot, TreeLink};
 use crate::math::Vec2;
 use crate::simd::Lanes;
 use crate::threads::SharedRows;
@@ -42,6 +42,11 @@ impl GearBlock {
 }
 
 impl JointKernel for GearBlock {
+    fn tie(&self, stride: &Stride<f64>, pair: &Pair<f64>, link: &mut TreeLink) {
+        let mesh = self.mesh(stride, pair);
+        link.mesh(&mesh, self.error(stride, pair, &mesh));
+    }
+
     fn describe(&mut self, lane: usize, def: &JointDef, rates: &Rates) {
         let JointKind::Gear { ratio, slide_a, slide_b } = def.kind else { return };
         rates.write(def, None, &mut self.soft, lane);

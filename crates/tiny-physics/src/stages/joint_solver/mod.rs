@@ -42,8 +42,8 @@ mod tests;
 
 use crate::describe::{BodyKind, JointDef};
 use crate::dynamics::{
-    BodyInfo, FrameLanes, JointBlocks, JointBucket, JointClass, JointGraph, JointLanes, JointLoad,
-    JointPlace, Joints, REFINEMENT, joint_classes, pace_at, with_bucket,
+    AxisLanes, BodyInfo, FrameLanes, JointBlocks, JointBucket, JointGraph, JointLanes, JointLoad,
+    JointPlace, Joints, MotorLanes, REFINEMENT, TreeLink, joint_classes, pace_at, with_bucket,
 };
 use crate::math::{Pose, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_baseline, dispatch_narrow};
@@ -64,6 +64,20 @@ pub(crate) enum Pass {
 
 /// What the solver does with a class of joints.
 trait JointKernel: JointLanes {
+    /// What acts along the free coordinate of joints that trees hold. Its impulses are the last.
+    fn axis(&self) -> Option<&AxisLanes> {
+        None
+    }
+    /// Their motor of its own, whose impulse comes after those of the rows.
+    fn motor(&self) -> Option<&MotorLanes> {
+        None
+    }
+    /// Writes the rows of a joint that a tree holds, whose impulses are the first, and the free coordinate.
+    fn tie(&self, _stride: &Stride<f64>, _pair: &Pair<f64>, _link: &mut TreeLink) {}
+    /// The direction along which their load is told, if that follows from no impulse.
+    fn told(&mut self) -> Option<[&mut [f32; BLOCK]; 2]> {
+        None
+    }
     /// Writes what follows from a joint's description. The anchors are there already.
     fn describe(&mut self, lane: usize, def: &JointDef, rates: &Rates);
     /// Writes what follows from the poses. The anchors are there already.
@@ -277,8 +291,7 @@ pub(crate) fn load(graph: &JointGraph, joints: &Joints, index: u32, inv_h: f32) 
     };
     let colour = &graph.colours[usize::from(colour)];
     let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
-    let (force, torque) =
-        with_bucket!(ref colour, class, bucket => bucket.blocks[block].impulse(lane));
+    let (force, torque) = with_bucket!(colour, class, bucket => bucket.blocks[block].impulse(lane));
     JointLoad { force: force * inv_h, torque: torque * inv_h }
 }
 

@@ -1,6 +1,6 @@
 //! What the kernels of all joints share: lanes of a stride, pairs of bodies, small linear systems.
 
-use crate::dynamics::{DirectionLanes, FrameLanes, Slot, SoftLanes};
+use crate::dynamics::{AngleLanes, DirectionLanes, FrameLanes, Slot, SoftLanes};
 use crate::math::{Pose, Rot};
 use crate::simd::{BLOCK, Lanes};
 use crate::threads::SharedRows;
@@ -373,7 +373,7 @@ impl<L: Lanes> Pair<L> {
 
     /// Turn of B against A since the start of the step.
     #[inline(always)]
-    pub(super) fn turned(&self) -> L {
+    fn turned(&self) -> L {
         self.b[Slot::DA] - self.a[Slot::DA]
     }
 
@@ -493,14 +493,24 @@ impl<L: Lanes> Pair<L> {
         rotate(self.turn_a, stride.load2(&lanes.x, &lanes.y))
     }
 
-    /// The Jacobian of the gap along a direction that turns with A.
+    /// The Jacobian of the gap along a direction, from a point on A (see [`Self::row_on_a`]) to the anchor on B.
+    #[inline(always)]
+    pub(super) fn row(&self, from_a: [L; 2], direction: [L; 2]) -> Row<L> {
+        let [arm_a, arm_b] = [from_a, self.anchor_b].map(|arm| cross(arm, direction));
+        let reach = [from_a, self.anchor_b].map(|arm| dot(arm, direction));
+        Row { direction, arm_a, arm_b, reach }
+    }
+
+    /// The same along a direction that turns with A.
     #[inline(always)]
     pub(super) fn row_on_a(&self, direction: [L; 2]) -> Row<L> {
-        Row {
-            direction,
-            arm_a: cross(add(self.gap, self.anchor_a), direction),
-            arm_b: cross(self.anchor_b, direction),
-        }
+        self.row(add(self.gap, self.anchor_a), direction)
+    }
+
+    /// The angle now.
+    #[inline(always)]
+    pub(super) fn angle(&self, stride: &Stride<L>, lanes: &AngleLanes) -> L {
+        stride.load(&lanes.start) + self.turned()
     }
 }
 
@@ -509,6 +519,8 @@ pub(super) struct Row<L> {
     pub(super) direction: [L; 2],
     pub(super) arm_a: L,
     pub(super) arm_b: L,
+    /// Lever arms along the direction: how the force turns a body further when that has turned.
+    pub(super) reach: [L; 2],
 }
 
 /// The Jacobian of a joint that moves each body along a direction of its own.

@@ -17,9 +17,9 @@ use super::parts::{
 use super::revolute::describe_angle;
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
-use crate::dynamics::{DirectionLanes, PrismaticBlock, Slot};
+use crate::dynamics::{AxisLanes, DirectionLanes, PrismaticBlock, Slot, TreeLink};
 use crate::math::{Pose, Rot, Vec2};
-use crate::simd::Lanes;
+use crate::simd::{BLOCK, Lanes};
 
 /// Writes a description's direction.
 pub(super) fn describe_direction(lanes: &mut DirectionLanes, lane: usize, def: &JointDef) {
@@ -82,6 +82,21 @@ impl<L: Lanes> Rows<L> {
 }
 
 impl JointKernel for PrismaticBlock {
+    fn axis(&self) -> Option<&AxisLanes> {
+        Some(&self.axis)
+    }
+
+    fn tie(&self, stride: &Stride<f64>, pair: &Pair<f64>, link: &mut TreeLink) {
+        let Rows { along, across } = Rows::new(pair, pair.direction(stride, &self.direction));
+        link.hold(&across, dot(pair.gap, across.direction));
+        link.hold(&Row::ANGLE, pair.angle(stride, &self.angle));
+        link.let_go(&along, dot(pair.gap, along.direction));
+    }
+
+    fn told(&mut self) -> Option<[&mut [f32; BLOCK]; 2]> {
+        Some([&mut self.direction.now_x, &mut self.direction.now_y])
+    }
+
     fn describe(&mut self, lane: usize, def: &JointDef, rates: &Rates) {
         let JointKind::Prismatic { spring, target, limits, motor } = def.kind else { return };
         rates.write(def, None, &mut self.soft, lane);
@@ -118,7 +133,7 @@ impl JointKernel for PrismaticBlock {
         let old = stride.load2(&self.rigid.impulse_x, &self.rigid.impulse_y);
         let inverse = jacobians.rigid_mass(stride, pair);
         let velocity = [pair.velocity_along(&jacobians.across), pair.spin()];
-        let angle = stride.load(&self.angle.start) + pair.turned();
+        let angle = pair.angle(stride, &self.angle);
         let demand = [
             soft.hold(stride, velocity[0], dot(pair.gap, jacobians.across.direction), stride.snap),
             soft.hold(stride, velocity[1], angle, stride.snap_turn),

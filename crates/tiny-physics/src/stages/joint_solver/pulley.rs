@@ -6,7 +6,7 @@
 //! ```
 
 use super::JointKernel;
-use super::axis::{Give, solve_limit};
+use super::axis::Give;
 use super::distance::length_and_direction;
 use super::parts::{Pair, Sides, Soft, Start, Stride, add, cross, scale};
 use super::spring::Rates;
@@ -90,16 +90,11 @@ impl JointKernel for PulleyBlock {
         let inv_mass = rope.pull.inv_mass(pair);
         let mass = stride.invert(inv_mass);
         let velocity = rope.pull.velocity(pair);
-        let tension = &mut self.rod.impulse;
-        let change = solve_limit::<L, BIAS>(
-            stride,
-            &soft,
-            Give::rope(stride),
-            tension,
-            rope.room,
-            [velocity, mass, inv_mass],
-        );
-        rope.pull.apply(pair, change);
+        let old = stride.load(&self.rod.impulse);
+        let motion = [velocity, mass, inv_mass];
+        let tension = Give::rope(stride).solve::<BIAS>(stride, &soft, old, rope.room, motion);
+        stride.store(tension, &mut self.rod.impulse);
+        rope.pull.apply(pair, tension - old);
         if !BIAS {
             stride.store2(rope.direction_b, &mut self.rope.now_x, &mut self.rope.now_y);
         }

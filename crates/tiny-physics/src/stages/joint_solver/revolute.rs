@@ -14,11 +14,11 @@
 use super::JointKernel;
 use super::axis::{AxisDef, Coordinate, Give};
 use super::parts::{
-    LEAST_COMPLEMENT, Pair, Soft, Start, Stride, Symmetric, add, dot, scale, sub, wrap,
+    LEAST_COMPLEMENT, Pair, Row, Soft, Start, Stride, Symmetric, add, dot, scale, sub, wrap,
 };
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind, Limits};
-use crate::dynamics::{AngleLanes, RevoluteBlock};
+use crate::dynamics::{AngleLanes, AxisLanes, RevoluteBlock, TreeLink};
 use crate::math::{Pose, Rot, Vec2};
 use crate::simd::Lanes;
 
@@ -65,6 +65,15 @@ fn near_zero(limits: Limits) -> Limits {
 }
 
 impl JointKernel for RevoluteBlock {
+    fn axis(&self) -> Option<&AxisLanes> {
+        Some(&self.axis)
+    }
+
+    fn tie(&self, stride: &Stride<f64>, pair: &Pair<f64>, link: &mut TreeLink) {
+        link.hold_point(pair);
+        link.let_go(&Row::ANGLE, pair.angle(stride, &self.angle));
+    }
+
     fn describe(&mut self, lane: usize, def: &JointDef, rates: &Rates) {
         let JointKind::Revolute { spring, target_angle, limits, motor } = def.kind else { return };
         rates.write(def, None, &mut self.soft, lane);
@@ -114,7 +123,7 @@ impl JointKernel for RevoluteBlock {
             let carried = add(old, scale(tie.per_angular, self.axis.total(stride)));
             let alone = sub(change, scale(carried, soft.impulse_scale));
             let coordinate = Coordinate {
-                value: stride.load(&self.angle.start) + pair.turned(),
+                value: pair.angle(stride, &self.angle),
                 velocity: pair.spin() + dot(tie.twist, alone),
                 inv_mass: tie.inv_mass,
             };

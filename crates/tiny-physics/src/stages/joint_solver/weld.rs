@@ -8,15 +8,20 @@
 //! [`revolute`](super::revolute).
 
 use super::JointKernel;
-use super::parts::{Pair, Soft, Start, Stride, add, dot, scale, sub};
+use super::parts::{Pair, Row, Soft, Start, Stride, add, dot, scale, sub};
 use super::revolute::{Tie, describe_angle};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
-use crate::dynamics::WeldBlock;
+use crate::dynamics::{TreeLink, WeldBlock};
 use crate::math::{Pose, Vec2};
 use crate::simd::Lanes;
 
 impl JointKernel for WeldBlock {
+    fn tie(&self, stride: &Stride<f64>, pair: &Pair<f64>, link: &mut TreeLink) {
+        link.hold_point(pair);
+        link.hold(&Row::ANGLE, pair.angle(stride, &self.angle));
+    }
+
     fn describe(&mut self, lane: usize, def: &JointDef, rates: &Rates) {
         let JointKind::Weld { linear, angular } = def.kind else { return };
         rates.write(def, linear, &mut self.linear, lane);
@@ -48,7 +53,7 @@ impl JointKernel for WeldBlock {
         let tie = Tie::new(stride, pair, &inverse, stride.load(&self.linear.rigid));
 
         let old_twist = stride.load(&self.twist.impulse);
-        let angle = stride.load(&self.angle.start) + pair.turned();
+        let angle = pair.angle(stride, &self.angle);
         // A rigid angle takes away all of the spin that the point's correction makes, a spring its part.
         let rigid = stride.load(&self.angular.rigid);
         let part = rigid + (stride.one - rigid) * angular.mass_scale;

@@ -4,14 +4,14 @@
 //! coordinate with spring and limits. The motor is a row of its own, solved first.
 
 use super::JointKernel;
-use super::axis::{AxisDef, Coordinate, Give};
+use super::axis::{AxisDef, Coordinate, Give, drive};
 use super::parts::{LEAST_COMPLEMENT, Pair, Row, Soft, Start, Stride, add, dot, perp, scale};
 use super::prismatic::{describe_direction, prepare_direction};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
-use crate::dynamics::{Slot, WheelBlock};
+use crate::dynamics::{AxisLanes, MotorLanes, Slot, TreeLink, WheelBlock};
 use crate::math::{Pose, Vec2};
-use crate::simd::Lanes;
+use crate::simd::{BLOCK, Lanes};
 
 /// Applies impulses along and across the line, and angular.
 #[inline(always)]
@@ -29,14 +29,34 @@ impl WheelBlock {
     fn solve_motor<L: Lanes>(&mut self, stride: &Stride<L>, pair: &Pair<L>) -> L {
         let old = stride.load(&self.motor.impulse);
         let max = stride.load(&self.motor.max);
-        let missing = stride.load(&self.motor.speed) - pair.spin();
-        let impulse = (old + stride.invert(pair.inv_inertia()) * missing).clamp(-max, max);
+        let speed = stride.load(&self.motor.speed);
+        let mass = stride.invert(pair.inv_inertia());
+        let impulse = drive([speed, max, old], pair.spin(), mass);
         stride.store(impulse, &mut self.motor.impulse);
         impulse - old
     }
 }
 
 impl JointKernel for WheelBlock {
+    fn axis(&self) -> Option<&AxisLanes> {
+        Some(&self.axis)
+    }
+
+    fn motor(&self) -> Option<&MotorLanes> {
+        Some(&self.motor)
+    }
+
+    fn tie(&self, stride: &Stride<f64>, pair: &Pair<f64>, link: &mut TreeLink) {
+        let direction = pair.direction(stride, &self.direction);
+        let across = pair.row_on_a(perp(direction));
+        link.hold(&across, dot(pair.gap, across.direction));
+        link.let_go(&pair.row_on_a(direction), dot(pair.gap, direction));
+    }
+
+    fn told(&mut self) -> Option<[&mut [f32; BLOCK]; 2]> {
+        Some([&mut self.direction.now_x, &mut self.direction.now_y])
+    }
+
     fn describe(&mut self, lane: usize, def: &JointDef, rates: &Rates) {
         let JointKind::Wheel { spring, limits, motor } = def.kind else { return };
         rates.write(def, None, &mut self.soft, lane);

@@ -17,8 +17,8 @@ mod rows;
 #[cfg(test)]
 mod tests;
 
-use super::Pass;
-use super::parts::{SNAP, SNAP_SHARE, Substep};
+use super::parts::{SNAP, SNAP_SHARE, Stride, Substep, slow_turn};
+use super::{Pass, axis};
 use crate::dynamics::{
     JOINTED, JointClass, JointColour, JointTree, Joints, Motion, TreeAxis, TreeLink, TreeNode,
 };
@@ -39,21 +39,18 @@ const MOST_SOLVES: usize = 4;
 const LEAST_OVERRUN: f64 = 1.0e-5;
 /// Trees that one member of the team works on at a time.
 const CHUNK: usize = 4;
-/// Turn in a substep up to which the circles of anchors are followed, radians.
-const FASTEST_SWING: f64 = 0.2;
 
-/// Takes over what the lanes of a pace's trees hold, once their own preparation is done.
+/// Begins a step of a pace's trees, once their lanes are prepared.
 pub(crate) fn prepare(
     team: &Team,
     pace: usize,
-    lanes: &JointColour,
     trees: &mut [JointTree],
     joints: &Joints,
     motions: &[Motion],
 ) {
     team.for_each_chunk_mut(trees, CHUNK, |_, trees| {
         of_pace(trees, pace).for_each(|tree| {
-            rows::prepare(tree, lanes, joints);
+            rows::prepare(tree, joints);
             for node in &mut tree.nodes[..tree.dynamic] {
                 let Motion { gain, .. } = &motions[node.body as usize];
                 node.half_gain = [gain[0], gain[1], gain[2], 0.0].map(|x| 0.5 * f64::from(x));
@@ -67,7 +64,7 @@ pub(crate) fn finish(pace: usize, trees: &mut [JointTree], lanes: &mut JointColo
     of_pace(trees, pace).for_each(|tree| rows::finish(tree, lanes));
 }
 
-/// Runs a pass over the trees of a pace.
+/// Runs a pass over the trees of a pace, whose joints have these lanes.
 pub(crate) fn run(
     team: &Team,
     level: SimdLevel,
@@ -75,28 +72,32 @@ pub(crate) fn run(
     pass: Pass,
     substep: Substep,
     bodies: SharedRows<'_>,
-    trees: &mut [JointTree],
+    (lanes, trees): (&mut JointColour, &mut [JointTree]),
 ) {
     if pass == Pass::Finish {
         if pace == JOINTED {
             of_pace(trees, pace).for_each(|tree| rows::restore(tree, bodies));
         }
+        lanes.for_each_run(team, |blocks, count| {
+            super::run(level, pass, substep, bodies, blocks, count);
+        });
         return;
     }
+    let lanes = &*lanes;
     team.for_each_chunk_mut(trees, CHUNK, |_, trees| {
-        dispatch_doubles(level, RunPass(pass, substep, bodies, trees, pace));
+        dispatch_doubles(level, RunPass(pass, substep, bodies, lanes, trees, pace));
     });
 }
 
 /// A pass over some trees.
-struct RunPass<'a>(Pass, Substep, SharedRows<'a>, &'a mut [JointTree], usize);
+struct RunPass<'a>(Pass, Substep, SharedRows<'a>, &'a JointColour, &'a mut [JointTree], usize);
 
 impl DoubleKernel for RunPass<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self(pass, substep, bodies, trees, pace) = self;
+        let Self(pass, substep, bodies, lanes, trees, pace) = self;
         for tree in of_pace(trees, pace) {
-            run_tree(simd, pass, substep, bodies, tree);
+            run_tree(simd, pass, substep, bodies, lanes, tree);
         }
     }
 }
@@ -144,13 +145,13 @@ fn run_tree<S: Simd>(
     pass: Pass,
     substep: Substep,
     bodies: SharedRows<'_>,
+    lanes: &JointColour,
     tree: &mut JointTree,
 ) {
     let rates = Rates::new(substep, tree.pace);
-    let h = rates.h;
     let moved = pass == Pass::Relax && tree.moved;
     if moved || !tree.fresh {
-        rows::refresh(simd, tree, bodies, h);
+        rows::refresh(simd, tree, lanes, bodies, substep);
     }
     rows::load(tree, bodies);
     tree.moved = pass == Pass::Solve;
@@ -164,14 +165,14 @@ fn run_tree<S: Simd>(
             warm_start(simd, tree);
         }
         Pass::Solve => {
-            drive::<_, true>(simd, tree);
+            drive::<_, true>(simd, tree, &rates);
             solve::<_, true>(simd, tree, &rates);
         }
         _ => {
             if moved && tree.pace != JOINTED {
                 kick(simd, tree, 1.0);
             }
-            drive::<_, false>(simd, tree);
+            drive::<_, false>(simd, tree, &rates);
             solve::<_, false>(simd, tree, &rates);
         }
     }
@@ -194,15 +195,13 @@ fn warm_start<S: Simd>(simd: S, tree: &mut JointTree) {
     for link in links {
         let ends = [link.a, link.b];
         for i in 0..link.rigid {
-            let row = [link.jacobians[0].rows[i], link.jacobians[1].rows[i]];
-            rows::push(simd, nodes, ends, &row, link.impulses[i]);
+            rows::push(simd, nodes, ends, &link.row(i), link.impulses[i]);
         }
-        if let Some(axis) = axes.get(link.axis as usize) {
-            let total = axis.spring + axis.motor + axis.limit[0] - axis.limit[1];
-            rows::push(simd, nodes, ends, &link.coordinate.on, total);
+        if let Some(TreeAxis { axis, .. }) = axes.get(link.axis as usize) {
+            rows::push(simd, nodes, ends, &link.coordinate.on, axis.total());
         }
         if link.class == JointClass::Wheel {
-            turn(nodes, ends, f64::from(link.motor[2]));
+            turn(nodes, ends, link.motor[2]);
         }
     }
 }
@@ -216,65 +215,44 @@ fn turn(nodes: &mut [TreeNode], [a, b]: [u32; 2], impulse: f64) {
 
 /// Springs and motors, joint by joint.
 #[inline(always)]
-fn drive<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree) {
+fn drive<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) {
     let JointTree { nodes, links, axes, .. } = tree;
     for link in links {
         if link.class == JointClass::Wheel && (link.motor[1] > 0.0 || link.motor[2] != 0.0) {
-            drive_wheel(link, nodes);
+            drive_wheel(link, nodes, rates);
         }
         if let Some(axis) = axes.get_mut(link.axis as usize)
-            && (BIAS && axis.soft[1] != 0.0 || axis.motor_max != 0.0)
+            && (BIAS && axis.axis.mass_scale != 0.0 || axis.axis.motor_max != 0.0)
         {
-            drive_axis::<S, BIAS>(simd, link, axis, nodes);
+            drive_axis::<S, BIAS>(simd, link, axis, nodes, rates);
         }
     }
 }
 
-fn drive_wheel(link: &mut TreeLink, nodes: &mut [TreeNode]) {
+fn drive_wheel(link: &mut TreeLink, nodes: &mut [TreeNode], rates: &Rates) {
     let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
-    let (inv, spin) = (a.inv[2] + b.inv[2], b.v[2] - a.v[2]);
-    let [speed, max, old] = link.motor;
-    let wanted = if inv > 0.0 { (f64::from(speed) - spin) / inv } else { 0.0 };
-    let impulse = (old + wanted as f32).max(-max).min(max);
-    link.motor[2] = impulse;
-    turn(nodes, [link.a, link.b], f64::from(impulse - old));
+    let mass = rates.stride.invert(a.inv[2] + b.inv[2]);
+    let impulse = axis::drive(link.motor, b.v[2] - a.v[2], mass);
+    let change = impulse - core::mem::replace(&mut link.motor[2], impulse);
+    turn(nodes, [link.a, link.b], change);
 }
 
-/// Along the free coordinate, with the mass of the two bodies as the joint's rigid rows tie them: as
-/// [`AxisLanes::solve`](crate::dynamics::AxisLanes) does.
+/// Along the free coordinate, with the mass of the two bodies as the joint's rigid rows tie them.
 #[inline(always)]
 fn drive_axis<S: Simd, const BIAS: bool>(
     simd: S,
     link: &mut TreeLink,
     axis: &mut TreeAxis,
     nodes: &mut [TreeNode],
+    Rates { stride, .. }: &Rates,
 ) {
-    let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
-    let mut velocity = rows::velocity(&link.coordinate.on, a, b);
-    let mass = if axis.tied > 0.0 { 1.0 / axis.tied } else { 0.0 };
-    let mut change = 0.0;
-    if BIAS {
-        let [push, share, decay] = axis.soft;
-        let demand = share * velocity + push * (link.value - axis.rest);
-        change = -mass * demand - decay * axis.spring;
-        axis.spring += change;
-        velocity += axis.tied * change;
-    }
-    let held = axis.limit[0] - axis.limit[1];
-    let wanted = axis.motor + mass * (axis.motor_speed - (velocity - axis.tied * held));
-    let motor = clamp(wanted, axis.motor_max);
-    change += motor - axis.motor;
-    axis.motor = motor;
+    let mut velocity = velocity(link, nodes);
+    let masses = [stride.invert(axis.tied), axis.tied];
+    let change = axis.axis.drive::<BIAS>(stride, link.value, &mut velocity, masses);
     rows::push(simd, nodes, [link.a, link.b], &axis.on, change);
     for (impulse, given) in link.impulses[..link.rigid].iter_mut().zip(axis.given) {
         *impulse += given * change;
     }
-}
-
-/// At most `most` either way.
-fn clamp(value: f64, most: f64) -> f64 {
-    let value = if value > -most { value } else { -most };
-    if value < most { value } else { most }
 }
 
 /// Solves the rigid rows together with the limits that hold.
@@ -298,30 +276,28 @@ fn solve<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates
 
 /// What a tree does to position errors in a substep.
 struct Rates {
-    h: f64,
+    stride: Stride<f64>,
     /// Part that is taken away.
     push: f64,
-    /// Position errors move no body faster than this: metres and radians a second.
-    snap: [f64; 2],
 }
 
 impl Rates {
-    fn new(Substep { inv_h, unit, .. }: Substep, pace: usize) -> Self {
-        let snap = [f64::from(SNAP * unit * inv_h), f64::from(SNAP * inv_h)];
+    fn new(substep: Substep, pace: usize) -> Self {
         let push = if pace == JOINTED { TOUCHED_PUSH } else { PUSH };
-        Self { h: 1.0 / f64::from(inv_h), push, snap }
+        Self { stride: Stride::new((), 0, substep), push }
     }
 
     /// Velocity that a limit asks for: within the substep it may be reached, but not passed. An overrun goes as it
     /// does in lanes, softly while it is small, and no faster than what the limit has taken.
     #[inline(always)]
     fn limit_bias<const BIAS: bool>(&self, class: JointClass, room: f64, taken: f64) -> f64 {
+        let Stride { inv_h, snap, snap_turn, .. } = self.stride;
         if room > 0.0 {
-            return room / self.h;
+            return room * inv_h;
         }
-        let snap = self.snap[usize::from(class == JointClass::Revolute)];
-        let (soft, firm) = (TOUCHED_PUSH * room, room + f64::from(super::axis::SOFT_OVERRUN));
-        let push = if firm < soft { firm } else { soft } / self.h;
+        let snap = if class == JointClass::Revolute { snap_turn } else { snap };
+        let (soft, firm) = (TOUCHED_PUSH * room, room + f64::from(axis::SOFT_OVERRUN));
+        let push = if firm < soft { firm } else { soft } * inv_h;
         let least = -(snap + taken);
         match BIAS {
             false => 0.0,
@@ -332,7 +308,7 @@ impl Rates {
 
     /// Velocity that the error of a rigid row asks for.
     fn rigid_bias(&self, error: f64) -> f64 {
-        self.push * error / self.h
+        self.push * error * self.stride.inv_h
     }
 }
 
@@ -340,7 +316,7 @@ impl Rates {
 /// hurl it about. What they alone would do tells.
 #[inline(always)]
 fn snap_share<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) -> f64 {
-    let [most, most_turn] = rates.snap;
+    let Stride { snap: most, snap_turn: most_turn, .. } = rates.stride;
     let (mut sum, mut largest) = (0.0, 0.0);
     for link in &mut tree.links {
         link.rhs = link.error.map(|error| -rates.rigid_bias(error));
@@ -377,10 +353,9 @@ fn overrun<const BIAS: bool>(
     side: f64,
     rates: &Rates,
 ) -> f64 {
-    let Some(ends) = axis.limits else { return -f64::MAX };
     let at = usize::from(side < 0.0);
-    let (velocity, stopped) = (side * velocity, axis.free * axis.limit[at]);
-    let room = side * (link.value - ends[at]);
+    let (velocity, stopped) = (side * velocity, axis.free * axis.axis.limits[at]);
+    let room = side * (link.value - axis.axis.ends[at]);
     let taken = if velocity < 0.0 { stopped - velocity } else { stopped };
     -(velocity + rates.limit_bias::<BIAS>(link.class, room, taken))
 }
@@ -392,7 +367,7 @@ fn velocity(link: &TreeLink, nodes: &[TreeNode]) -> f64 {
 
 /// The accumulated impulse of a limit.
 fn limit_impulse(axis: &mut TreeAxis, side: f64) -> &mut f64 {
-    &mut axis.limit[usize::from(side < 0.0)]
+    &mut axis.axis.limits[usize::from(side < 0.0)]
 }
 
 /// Takes back what a limit has given.
@@ -413,20 +388,19 @@ fn release<S: Simd>(
 fn begin_limits<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) {
     let JointTree { nodes, links, axes, factored, .. } = tree;
     for link in links {
-        let axis = axes.get_mut(link.axis as usize).filter(|axis| axis.limits.is_some());
-        let Some(axis) = axis else { continue };
+        let Some(axis) = axes.get_mut(link.axis as usize) else { continue };
         let velocity = velocity(link, nodes);
         let wants = |impulse: f64, side: f64| {
             impulse > 0.0 || overrun::<BIAS>(link, axis, velocity, side, rates) > 0.0
         };
-        let side = if wants(axis.limit[0], 1.0) {
+        let side = if wants(axis.axis.limits[0], 1.0) {
             1.0
-        } else if wants(axis.limit[1], -1.0) {
+        } else if wants(axis.axis.limits[1], -1.0) {
             -1.0
         } else {
             0.0
         };
-        if side > 0.0 && axis.limit[1] != 0.0 {
+        if side > 0.0 && axis.axis.limits[1] != 0.0 {
             release(simd, link, axis, nodes, -1.0);
         }
         if side != link.limit {
@@ -442,8 +416,7 @@ fn change_limits<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates
     let JointTree { nodes, links, axes, factored, .. } = tree;
     let mut changed = false;
     for link in links {
-        let axis = axes.get_mut(link.axis as usize).filter(|axis| axis.limits.is_some());
-        let Some(axis) = axis else { continue };
+        let Some(axis) = axes.get_mut(link.axis as usize) else { continue };
         if link.limit != 0.0 {
             if *limit_impulse(axis, link.limit) < 0.0 {
                 release(simd, link, axis, nodes, link.limit);
@@ -472,7 +445,7 @@ fn demand<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rate
         let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
         let mut rhs = [0.0; 4];
         if BIAS {
-            rhs = curve(simd, link, a, b, rates.h);
+            rhs = curve(simd, link, a, b, &rates.stride);
             let rows = link.error.iter().zip(&link.compliance).zip(&link.impulses);
             for (rhs, ((error, compliance), impulse)) in rhs.iter_mut().zip(rows) {
                 *rhs -= share * rates.rigid_bias(1.0) * error + compliance * impulse;
@@ -497,27 +470,27 @@ fn demand<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rate
 /// What the circles of anchors and rods take from the mean velocities over a substep, to second order:
 /// `h w^2 r / 2` for an anchor, `-h vt^2 / (2 d)` for a rod.
 #[inline(always)]
-fn curve<S: Simd>(simd: S, link: &TreeLink, a: &TreeNode, b: &TreeNode, h: f64) -> Three {
+fn curve<S: Simd>(
+    simd: S,
+    link: &TreeLink,
+    a: &TreeNode,
+    b: &TreeNode,
+    stride: &Stride<f64>,
+) -> Three {
     let mut sums = [0.0; 4];
     if matches!(link.class, JointClass::Prismatic | JointClass::Wheel | JointClass::Gear) {
         return sums;
     }
-    let inward = |w: f64| 0.5 * w * slow_turn(h * w);
+    let inward = |w: f64| 0.5 * w * slow_turn(stride, w);
     add_times(simd, &mut sums, &link.reach[1], inward(b.v[2]));
     add_times(simd, &mut sums, &link.reach[0], -inward(a.v[2]));
     if link.class == JointClass::Distance && link.value > 0.0 {
         let [x, y, ..] = link.jacobians[1].rows[0];
         let across = x * (b.v[1] - a.v[1]) - y * (b.v[0] - a.v[0])
             + (link.reach[1][0] * b.v[2] - link.reach[0][0] * a.v[2]);
-        sums[0] -= 0.5 * across * slow_turn(h * across / link.value);
+        sums[0] -= 0.5 * across * slow_turn(stride, across / link.value);
     }
     sums
-}
-
-/// A turn in a substep, which fades out towards [`FASTEST_SWING`].
-fn slow_turn(turn: f64) -> f64 {
-    let fade = 1.0 - turn * turn / (FASTEST_SWING * FASTEST_SWING);
-    if fade > 0.0 { turn * fade } else { 0.0 }
 }
 
 /// Adds the solution to velocities and impulses.
