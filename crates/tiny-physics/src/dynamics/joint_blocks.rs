@@ -29,9 +29,9 @@ pub(crate) enum JointClass {
     Distance,
     #[default]
     Revolute,
-    Prismatic,
+    /// Prismatic and wheel joints.
+    Slider,
     Weld,
-    Wheel,
     /// Motor and mouse joints.
     Drive,
     Pulley,
@@ -44,9 +44,8 @@ impl JointClass {
         Some(match kind {
             JointKind::Distance { .. } => Self::Distance,
             JointKind::Revolute { .. } => Self::Revolute,
-            JointKind::Prismatic { .. } => Self::Prismatic,
+            JointKind::Prismatic { .. } | JointKind::Wheel { .. } => Self::Slider,
             JointKind::Weld { .. } => Self::Weld,
-            JointKind::Wheel { .. } => Self::Wheel,
             JointKind::Motor { .. } | JointKind::Mouse { .. } => Self::Drive,
             JointKind::Pulley { .. } => Self::Pulley,
             JointKind::Gear { .. } => Self::Gear,
@@ -258,17 +257,6 @@ pub(crate) struct Axis<L> {
     pub(crate) limits: [L; 2],
 }
 
-joint_lanes! {
-    /// A motor of its own.
-    MotorLanes {
-        speed: f32 = 0.0,
-        /// Greatest impulse in a substep.
-        max: f32 = 0.0,
-        ; impulses
-        impulse,
-    }
-}
-
 joint_block! {
     DistanceBlock { soft: SoftLanes, rod: RodLanes, axis: AxisLanes, length: LengthLanes, }
 }
@@ -288,13 +276,25 @@ joint_block! {
 }
 
 joint_block! {
-    PrismaticBlock {
+    SliderBlock {
         soft: SoftLanes,
         /// Impulse across the axis, and angular.
         rigid: PointLanes2,
         angle: AngleLanes,
         direction: DirectionLanes,
+        wheel: WheelLanes,
         axis: AxisLanes,
+    }
+}
+
+joint_lanes! {
+    /// What makes a slider a wheel.
+    WheelLanes {
+        /// 1 where the angle is free, else 0.
+        turns: f32 = 0.0,
+        /// Of the motor, and its greatest impulse in a substep.
+        speed: f32 = 0.0,
+        max: f32 = 0.0,
     }
 }
 
@@ -305,16 +305,6 @@ joint_block! {
         point: PointLanes2,
         twist: RodLanes,
         angle: AngleLanes,
-    }
-}
-
-joint_block! {
-    WheelBlock {
-        soft: SoftLanes,
-        rod: RodLanes,
-        direction: DirectionLanes,
-        motor: MotorLanes,
-        axis: AxisLanes,
     }
 }
 

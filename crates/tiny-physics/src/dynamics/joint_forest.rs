@@ -92,8 +92,8 @@ pub(crate) struct TreeLink {
     pub(crate) parent: u32,
     /// What acts along the free coordinate: index among the tree's axes, or NULL.
     pub(crate) axis: u32,
-    /// Motor of a wheel: speed, greatest impulse, impulse.
-    pub(crate) motor: [f64; 3],
+    /// Motor of a wheel, which turns freely: speed, greatest impulse, impulse.
+    pub(crate) motor: Option<[f64; 3]>,
     /// Number of rigid rows.
     pub(crate) rigid: usize,
     /// The rows: on A and on B, and the rest of [`TreeRow`].

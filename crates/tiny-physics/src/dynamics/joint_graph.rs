@@ -10,8 +10,8 @@ use super::coloured::{
     take_colour,
 };
 use super::joint_blocks::{
-    DistanceBlock, DriveBlock, GearBlock, Impulses, JointLanes, PrismaticBlock, PulleyBlock,
-    RevoluteBlock, WeldBlock, WheelBlock,
+    DistanceBlock, DriveBlock, GearBlock, Impulses, JointLanes, PulleyBlock, RevoluteBlock,
+    SliderBlock, WeldBlock,
 };
 use super::joint_forest::{JointForest, JointTree, is_rigid};
 use super::joints::{JointPlace, JointRecord, Joints};
@@ -119,9 +119,8 @@ macro_rules! joint_classes {
             ($($given)*)
             distance Distance DistanceBlock,
             revolute Revolute RevoluteBlock,
-            prismatic Prismatic PrismaticBlock,
+            slider Slider SliderBlock,
             weld Weld WeldBlock,
-            wheel Wheel WheelBlock,
             drive Drive DriveBlock,
             pulley Pulley PulleyBlock,
             gear Gear GearBlock

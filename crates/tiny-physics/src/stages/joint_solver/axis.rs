@@ -1,6 +1,6 @@
 //! What acts along a joint's free coordinate: spring, motor, lower and upper limit, in this order.
 
-use super::parts::{Soft, Stride};
+use super::parts::{LEAST_COMPLEMENT, Soft, Stride, Symmetric, add, dot, scale, sub};
 use super::spring::Rates;
 use crate::describe::{Limits, Motor, Spring};
 use crate::dynamics::{Axis, AxisLanes, UNLIMITED};
@@ -12,6 +12,60 @@ pub(super) struct Coordinate<L> {
     pub(super) velocity: L,
     /// Velocity per impulse.
     pub(super) inv_mass: L,
+}
+
+/// Two rows that a joint holds.
+pub(super) struct Held<L> {
+    /// Inverse of their response to impulses there.
+    pub(super) inverse: Symmetric<L>,
+    /// Velocities that they take away.
+    pub(super) demand: [L; 2],
+    /// Accumulated impulses.
+    pub(super) old: [L; 2],
+    /// How they answer an impulse along the free coordinate.
+    pub(super) coupling: [L; 2],
+}
+
+impl<L: Lanes> Held<L> {
+    /// Changes of the impulses, together with that of what acts along the free coordinate.
+    ///
+    /// With K the rows' response and k their coupling, the coordinate's inverse mass given the rows is `m - k . K^-1 k`
+    /// (Schur's complement). An impulse j along it goes with the impulse `-K^-1 k j` in the rows, which keeps their
+    /// velocities. The decay of the soft rows is that of all impulses which act on them, `K p + k j`: with `K p` alone
+    /// a cantilever of 3 m sagged by 3.9 mm instead of 0.07 mm.
+    #[inline(always)]
+    pub(super) fn solve<const BIAS: bool>(
+        &self,
+        stride: &Stride<L>,
+        soft: &Soft<L>,
+        axis: &mut AxisLanes,
+        coordinate: Coordinate<L>,
+        give: Give<L>,
+    ) -> ([L; 2], L) {
+        let alone = scale(self.inverse.apply(self.demand), -stride.one);
+        if !stride.extras {
+            return (sub(alone, scale(self.old, soft.impulse_scale)), stride.zero);
+        }
+        let per = self.inverse.apply(self.coupling);
+        let carried = add(self.old, scale(per, axis.total(stride)));
+        let alone = sub(alone, scale(carried, soft.impulse_scale));
+        let velocity = coordinate.velocity + dot(self.coupling, alone);
+        let inv_mass = complement(stride, coordinate.inv_mass, self.coupling, per);
+        let coordinate = Coordinate { velocity, inv_mass, ..coordinate };
+        let along = axis.solve::<L, BIAS>(stride, soft, give, coordinate);
+        (sub(alone, scale(per, along)), along)
+    }
+}
+
+/// Schur's complement of an inverse mass: what is left of it where rows with such a coupling take so much per impulse.
+#[inline(always)]
+pub(super) fn complement<L: Lanes>(
+    stride: &Stride<L>,
+    inv_mass: L,
+    coupling: [L; 2],
+    per: [L; 2],
+) -> L {
+    (inv_mass - dot(coupling, per)).max(inv_mass * stride.splat(LEAST_COMPLEMENT))
 }
 
 /// Spring, its rest, limits and motor of a description.

@@ -10,8 +10,7 @@
 
 use super::JointKernel;
 use super::axis::drive;
-use super::parts::{Pair, Soft, Start, Stride, Symmetric, add, dot, scale, sub};
-use super::revolute::describe_angle;
+use super::parts::{Pair, Soft, Start, Stride, Symmetric, add, describe_angle, dot, scale, sub};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind, Spring};
 use crate::dynamics::DriveBlock;
@@ -164,8 +163,7 @@ impl JointKernel for DriveBlock {
 
     #[inline(always)]
     fn prepare<L: Lanes>(&mut self, stride: &Stride<L>, start: &Start<L>, poses: &[Pose]) {
-        let angle = start.angle(stride, stride.load2(&self.angle.turn_c, &self.angle.turn_s));
-        stride.store(angle, &mut self.angle.start);
+        start.prepare_angle(stride, &mut self.angle);
         for i in stride.at..stride.at + L::WIDTH {
             if self.drive.mouse[i] != 0.0 {
                 let target = DVec2::new(self.drive.target_x[i], self.drive.target_y[i]);

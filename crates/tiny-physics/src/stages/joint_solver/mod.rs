@@ -29,13 +29,12 @@ mod distance;
 mod drive;
 mod gear;
 mod parts;
-mod prismatic;
 mod pulley;
 mod revolute;
+mod slider;
 mod spring;
 pub(crate) mod trees;
 mod weld;
-mod wheel;
 
 #[cfg(test)]
 mod tests;
@@ -43,7 +42,7 @@ mod tests;
 use crate::describe::{BodyKind, JointDef};
 use crate::dynamics::{
     AxisLanes, BodyInfo, FrameLanes, JointBlocks, JointBucket, JointGraph, JointLanes, JointLoad,
-    JointPlace, Joints, MotorLanes, REFINEMENT, TreeLink, joint_classes, pace_at, with_bucket,
+    JointPlace, Joints, REFINEMENT, TreeLink, joint_classes, pace_at, with_bucket,
 };
 use crate::math::{Pose, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_baseline, dispatch_narrow};
@@ -68,8 +67,8 @@ trait JointKernel: JointLanes {
     fn axis(&self) -> Option<&AxisLanes> {
         None
     }
-    /// Their motor of its own, whose impulse comes after those of the rows.
-    fn motor(&self) -> Option<&MotorLanes> {
+    /// The motor of a lane that has one of its own: speed, greatest impulse, impulse, which comes after those of the rows.
+    fn motor(&self, _lane: usize) -> Option<[f32; 3]> {
         None
     }
     /// Writes the rows of a joint that a tree holds, whose impulses are the first, and the free coordinate.

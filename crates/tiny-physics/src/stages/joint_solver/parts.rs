@@ -1,5 +1,6 @@
 //! What the kernels of all joints share: lanes of a stride, pairs of bodies, small linear systems.
 
+use crate::describe::JointDef;
 use crate::dynamics::{AngleLanes, DirectionLanes, FrameLanes, Slot, SoftLanes};
 use crate::math::{Pose, Rot};
 use crate::simd::{BLOCK, Lanes};
@@ -221,6 +222,20 @@ impl<L: Lanes> Start<L> {
         let [c, s] = rotate(rotate(back, self.turn_b), description);
         atan2(stride, s, c)
     }
+
+    /// Writes the angle at the start of the step.
+    #[inline(always)]
+    pub(super) fn prepare_angle(&self, stride: &Stride<L>, lanes: &mut AngleLanes) {
+        let angle = self.angle(stride, stride.load2(&lanes.turn_c, &lanes.turn_s));
+        stride.store(angle, &mut lanes.start);
+    }
+}
+
+/// Writes what a description adds to the angle.
+pub(super) fn describe_angle(angle: &mut AngleLanes, lane: usize, def: &JointDef) {
+    let turn = Rot::from_angle(def.angle_b).relative_to(Rot::from_angle(def.angle_a));
+    angle.turn_c[lane] = turn.c;
+    angle.turn_s[lane] = turn.s;
 }
 
 /// Arc tangent of s / c in lanes, in [-pi, pi], within 3e-7; 0 for the zero vector.

@@ -4,58 +4,15 @@
 //! C = xB + rB - xA - rA,     J v = vB + wB x rB - vA - wA x rA     (two rows, rigid)
 //! angle = aB - aA,           J v = wB - wA                         (free coordinate)
 //! ```
-//!
-//! With K the point's response and k that of the angular velocity to an impulse at the anchors, the
-//! angle's inverse mass given the point is `iA + iB - k . K^-1 k` (Schur's complement). An angular
-//! impulse j goes with the impulse `-K^-1 k j` at the anchors, which keeps their velocities. The decay
-//! of the soft point is that of all impulses which act on it, `K p + k j`: with `K p` alone a cantilever
-//! of 3 m sagged by 3.9 mm instead of 0.07 mm.
 
 use super::JointKernel;
-use super::axis::{AxisDef, Coordinate, Give};
-use super::parts::{
-    LEAST_COMPLEMENT, Pair, Row, Soft, Start, Stride, Symmetric, add, dot, scale, sub, wrap,
-};
+use super::axis::{AxisDef, Coordinate, Give, Held};
+use super::parts::{Pair, Row, Soft, Start, Stride, add, describe_angle, wrap};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind, Limits};
-use crate::dynamics::{AngleLanes, AxisLanes, RevoluteBlock, TreeLink};
+use crate::dynamics::{AxisLanes, RevoluteBlock, TreeLink};
 use crate::math::{Pose, Rot, Vec2};
 use crate::simd::Lanes;
-
-/// Writes what a description adds to the angle.
-pub(super) fn describe_angle(angle: &mut AngleLanes, lane: usize, def: &JointDef) {
-    let turn = Rot::from_angle(def.angle_b).relative_to(Rot::from_angle(def.angle_a));
-    angle.turn_c[lane] = turn.c;
-    angle.turn_s[lane] = turn.s;
-}
-
-/// How the point answers to what happens to the angle.
-pub(super) struct Tie<L> {
-    /// Response of the angular velocity to an impulse at the anchors.
-    pub(super) twist: [L; 2],
-    /// Impulse at the anchors that an angular impulse takes from the point, `K^-1 k`.
-    pub(super) per_angular: [L; 2],
-    /// Inverse mass of the angle given the point.
-    pub(super) inv_mass: L,
-}
-
-impl<L: Lanes> Tie<L> {
-    /// `coupled` is 1 where the point is rigid and so carries the angle along, else 0.
-    #[inline(always)]
-    pub(super) fn new(
-        stride: &Stride<L>,
-        pair: &Pair<L>,
-        inverse: &Symmetric<L>,
-        coupled: L,
-    ) -> Self {
-        let twist = pair.twist();
-        let per_angular = scale(inverse.apply(twist), coupled);
-        let inv_inertia = pair.inv_inertia();
-        let least = inv_inertia * stride.splat(LEAST_COMPLEMENT);
-        let inv_mass = (inv_inertia - dot(twist, per_angular)).max(least);
-        Self { twist, per_angular, inv_mass }
-    }
-}
 
 /// Limits shifted by whole turns so that their middle is in [-pi, pi].
 fn near_zero(limits: Limits) -> Limits {
@@ -114,24 +71,19 @@ impl JointKernel for RevoluteBlock {
     fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let soft = Soft::load::<BIAS>(stride, &self.soft);
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
-        let inverse = pair.point_mass(stride);
-        let demand = soft.hold2(stride, pair.anchor_velocity_in::<BIAS>(stride), pair.gap);
-        let mut change = scale(inverse.apply(demand), -stride.one);
-        let mut angular = stride.zero;
-        if stride.extras {
-            let tie = Tie::new(stride, pair, &inverse, stride.one);
-            let carried = add(old, scale(tie.per_angular, self.axis.total(stride)));
-            let alone = sub(change, scale(carried, soft.impulse_scale));
-            let coordinate = Coordinate {
-                value: pair.angle(stride, &self.angle),
-                velocity: pair.spin() + dot(tie.twist, alone),
-                inv_mass: tie.inv_mass,
-            };
-            angular = self.axis.solve::<L, BIAS>(stride, &soft, Give::turning(stride), coordinate);
-            change = sub(alone, scale(tie.per_angular, angular));
-        } else {
-            change = sub(change, scale(old, soft.impulse_scale));
-        }
+        let rows = Held {
+            inverse: pair.point_mass(stride),
+            demand: soft.hold2(stride, pair.anchor_velocity_in::<BIAS>(stride), pair.gap),
+            old,
+            coupling: pair.twist(),
+        };
+        let coordinate = Coordinate {
+            value: pair.angle(stride, &self.angle),
+            velocity: pair.spin(),
+            inv_mass: pair.inv_inertia(),
+        };
+        let give = Give::turning(stride);
+        let (change, angular) = rows.solve::<BIAS>(stride, &soft, &mut self.axis, coordinate, give);
         let impulse = add(old, change);
         stride.store2(impulse, &mut self.point.impulse_x, &mut self.point.impulse_y);
         pair.apply_at_anchors(change, angular);

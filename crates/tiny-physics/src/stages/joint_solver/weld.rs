@@ -8,8 +8,8 @@
 //! [`revolute`](super::revolute).
 
 use super::JointKernel;
-use super::parts::{Pair, Row, Soft, Start, Stride, add, dot, scale, sub};
-use super::revolute::{Tie, describe_angle};
+use super::axis::complement;
+use super::parts::{Pair, Row, Soft, Start, Stride, add, describe_angle, dot, scale, sub};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
 use crate::dynamics::{TreeLink, WeldBlock};
@@ -31,8 +31,7 @@ impl JointKernel for WeldBlock {
 
     #[inline(always)]
     fn prepare<L: Lanes>(&mut self, stride: &Stride<L>, start: &Start<L>, _: &[Pose]) {
-        let angle = start.angle(stride, stride.load2(&self.angle.turn_c, &self.angle.turn_s));
-        stride.store(angle, &mut self.angle.start);
+        start.prepare_angle(stride, &mut self.angle);
     }
 
     #[inline(always)]
@@ -50,7 +49,10 @@ impl JointKernel for WeldBlock {
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         let demand = linear.hold2(stride, pair.anchor_velocity_in::<BIAS>(stride), pair.gap);
         let alone = scale(inverse.apply(demand), -stride.one);
-        let tie = Tie::new(stride, pair, &inverse, stride.load(&self.linear.rigid));
+        let coupling = pair.twist();
+        // Only a rigid point carries the angle along.
+        let per_angular = scale(inverse.apply(coupling), stride.load(&self.linear.rigid));
+        let inv_mass = complement(stride, pair.inv_inertia(), coupling, per_angular);
 
         let old_twist = stride.load(&self.twist.impulse);
         let angle = pair.angle(stride, &self.angle);
@@ -58,11 +60,11 @@ impl JointKernel for WeldBlock {
         let rigid = stride.load(&self.angular.rigid);
         let part = rigid + (stride.one - rigid) * angular.mass_scale;
         let demand = angular.hold(stride, pair.spin(), angle, stride.snap_turn)
-            + part * dot(tie.twist, alone);
-        let twist = -(stride.invert(tie.inv_mass) * demand) - angular.impulse_scale * old_twist;
-        let carried = add(old, scale(tie.per_angular, old_twist));
+            + part * dot(coupling, alone);
+        let twist = -(stride.invert(inv_mass) * demand) - angular.impulse_scale * old_twist;
+        let carried = add(old, scale(per_angular, old_twist));
         let change =
-            sub(sub(alone, scale(carried, linear.impulse_scale)), scale(tie.per_angular, twist));
+            sub(sub(alone, scale(carried, linear.impulse_scale)), scale(per_angular, twist));
 
         let impulse = add(old, change);
         stride.store2(impulse, &mut self.point.impulse_x, &mut self.point.impulse_y);

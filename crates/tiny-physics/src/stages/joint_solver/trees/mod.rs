@@ -200,8 +200,8 @@ fn warm_start<S: Simd>(simd: S, tree: &mut JointTree) {
         if let Some(TreeAxis { axis, .. }) = axes.get(link.axis as usize) {
             rows::push(simd, nodes, ends, &link.coordinate.on, axis.total());
         }
-        if link.class == JointClass::Wheel {
-            turn(nodes, ends, link.motor[2]);
+        if let Some([.., impulse]) = link.motor {
+            turn(nodes, ends, impulse);
         }
     }
 }
@@ -218,8 +218,12 @@ fn turn(nodes: &mut [TreeNode], [a, b]: [u32; 2], impulse: f64) {
 fn drive<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) {
     let JointTree { nodes, links, axes, .. } = tree;
     for link in links {
-        if link.class == JointClass::Wheel && (link.motor[1] > 0.0 || link.motor[2] != 0.0) {
-            drive_wheel(link, nodes, rates);
+        if let Some(motor) = &mut link.motor {
+            let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
+            let mass = rates.stride.invert(a.inv[2] + b.inv[2]);
+            let impulse = axis::drive(*motor, b.v[2] - a.v[2], mass);
+            let change = impulse - core::mem::replace(&mut motor[2], impulse);
+            turn(nodes, [link.a, link.b], change);
         }
         if let Some(axis) = axes.get_mut(link.axis as usize)
             && (BIAS && axis.axis.mass_scale != 0.0 || axis.axis.motor_max != 0.0)
@@ -227,14 +231,6 @@ fn drive<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates
             drive_axis::<S, BIAS>(simd, link, axis, nodes, rates);
         }
     }
-}
-
-fn drive_wheel(link: &mut TreeLink, nodes: &mut [TreeNode], rates: &Rates) {
-    let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
-    let mass = rates.stride.invert(a.inv[2] + b.inv[2]);
-    let impulse = axis::drive(link.motor, b.v[2] - a.v[2], mass);
-    let change = impulse - core::mem::replace(&mut link.motor[2], impulse);
-    turn(nodes, [link.a, link.b], change);
 }
 
 /// Along the free coordinate, with the mass of the two bodies as the joint's rigid rows tie them.
@@ -478,7 +474,7 @@ fn curve<S: Simd>(
     stride: &Stride<f64>,
 ) -> Three {
     let mut sums = [0.0; 4];
-    if matches!(link.class, JointClass::Prismatic | JointClass::Wheel | JointClass::Gear) {
+    if matches!(link.class, JointClass::Slider | JointClass::Gear) {
         return sums;
     }
     let inward = |w: f64| 0.5 * w * slow_turn(stride, w);

@@ -96,9 +96,7 @@ fn begin<B: JointKernel>(
     for (impulse, saved) in link.impulses[..link.rigid].iter_mut().zip(saved) {
         *impulse = f64::from(saved);
     }
-    if let Some(motor) = block.motor() {
-        link.motor = [&motor.speed, &motor.max, &motor.impulse].map(|lanes| stride.load(lanes));
-    }
+    link.motor = block.motor(stride.at).map(|motor| motor.map(f64::from));
     link.axis = NULL;
     if let Some(lanes) = block.axis().filter(|lanes| lanes.used[stride.at] != 0.0) {
         link.axis = axes.len() as u32;
@@ -123,8 +121,8 @@ fn give_back<B: JointKernel>(link: &TreeLink, axis: Option<&TreeAxis>, block: &m
     for (saved, impulse) in saved.iter_mut().zip(&link.impulses[..link.rigid]) {
         *saved = *impulse as f32;
     }
-    if block.motor().is_some() {
-        saved[link.rigid] = link.motor[2] as f32;
+    if let Some([.., impulse]) = link.motor {
+        saved[link.rigid] = impulse as f32;
     }
     if let Some(TreeAxis { axis, .. }) = axis {
         let impulses = [axis.spring, axis.motor, axis.limits[0], axis.limits[1]];
