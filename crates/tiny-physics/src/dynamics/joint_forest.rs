@@ -90,10 +90,6 @@ pub(crate) struct TreeLink {
     pub(crate) child: u32,
     /// The node towards the root; NULL for the root's own anchor.
     pub(crate) parent: u32,
-    /// What acts along the free coordinate: index among the tree's axes, or NULL.
-    pub(crate) axis: u32,
-    /// Motor of a wheel, which turns freely: speed, greatest impulse, impulse.
-    pub(crate) motor: Option<[f64; 3]>,
     /// Number of rigid rows.
     pub(crate) rigid: usize,
     /// The rows: on A and on B, and the rest of [`TreeRow`].
@@ -123,7 +119,7 @@ impl TreeLink {
         child: u32,
         parent: u32,
     ) -> Self {
-        Self { joint, class, a, b, child, parent, axis: NULL, ..Self::default() }
+        Self { joint, class, a, b, child, parent, ..Self::default() }
     }
 
     /// Writes row `i`.
@@ -141,10 +137,13 @@ impl TreeLink {
     }
 }
 
-/// What acts along a link's free coordinate.
+/// What acts along a link's free coordinate, and the motor of one that turns freely.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct TreeAxis {
+    pub(crate) link: u32,
     pub(crate) axis: Axis<f64>,
+    /// Speed, greatest impulse, impulse.
+    pub(crate) motor: Option<[f64; 3]>,
     /// Velocity per impulse, of the two bodies alone, and as the rigid rows tie them.
     pub(crate) free: f64,
     pub(crate) tied: f64,
@@ -161,6 +160,7 @@ pub(crate) struct JointTree {
     pub(crate) dynamic: usize,
     /// The root's anchor if it has one, joints from the root outwards, further anchors.
     pub(crate) links: Vec<TreeLink>,
+    /// In the order of the links, of those that have any.
     pub(crate) axes: Vec<TreeAxis>,
     /// That of all its bodies.
     pub(crate) pace: usize,

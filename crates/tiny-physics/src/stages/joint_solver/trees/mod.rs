@@ -192,17 +192,15 @@ fn kick<S: Simd>(simd: S, tree: &mut JointTree, sign: f64) {
 #[inline(always)]
 fn warm_start<S: Simd>(simd: S, tree: &mut JointTree) {
     let JointTree { nodes, links, axes, .. } = tree;
-    for link in links {
-        let ends = [link.a, link.b];
+    for link in &*links {
         for i in 0..link.rigid {
-            rows::push(simd, nodes, ends, &link.row(i), link.impulses[i]);
+            rows::push(simd, nodes, [link.a, link.b], &link.row(i), link.impulses[i]);
         }
-        if let Some(TreeAxis { axis, .. }) = axes.get(link.axis as usize) {
-            rows::push(simd, nodes, ends, &link.coordinate.on, axis.total());
-        }
-        if let Some([.., impulse]) = link.motor {
-            turn(nodes, ends, impulse);
-        }
+    }
+    for TreeAxis { link, axis, motor, .. } in axes {
+        let TreeLink { a, b, ref coordinate, .. } = links[*link as usize];
+        rows::push(simd, nodes, [a, b], &coordinate.on, axis.total());
+        turn(nodes, [a, b], motor.map_or(0.0, |[.., impulse]| impulse));
     }
 }
 
@@ -217,17 +215,16 @@ fn turn(nodes: &mut [TreeNode], [a, b]: [u32; 2], impulse: f64) {
 #[inline(always)]
 fn drive<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) {
     let JointTree { nodes, links, axes, .. } = tree;
-    for link in links {
-        if let Some(motor) = &mut link.motor {
-            let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
+    for axis in axes {
+        let link = &mut links[axis.link as usize];
+        let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
+        if let Some(motor) = &mut axis.motor {
             let mass = rates.stride.invert(a.inv[2] + b.inv[2]);
             let impulse = axis::drive(*motor, b.v[2] - a.v[2], mass);
             let change = impulse - core::mem::replace(&mut motor[2], impulse);
             turn(nodes, [link.a, link.b], change);
         }
-        if let Some(axis) = axes.get_mut(link.axis as usize)
-            && (BIAS && axis.axis.mass_scale != 0.0 || axis.axis.motor_max != 0.0)
-        {
+        if BIAS && axis.axis.mass_scale != 0.0 || axis.axis.motor_max != 0.0 {
             drive_axis::<S, BIAS>(simd, link, axis, nodes, rates);
         }
     }
@@ -383,8 +380,8 @@ fn release<S: Simd>(
 #[inline(always)]
 fn begin_limits<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) {
     let JointTree { nodes, links, axes, factored, .. } = tree;
-    for link in links {
-        let Some(axis) = axes.get_mut(link.axis as usize) else { continue };
+    for axis in axes {
+        let link = &mut links[axis.link as usize];
         let velocity = velocity(link, nodes);
         let wants = |impulse: f64, side: f64| {
             impulse > 0.0 || overrun::<BIAS>(link, axis, velocity, side, rates) > 0.0
@@ -411,8 +408,8 @@ fn begin_limits<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates:
 fn change_limits<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) -> bool {
     let JointTree { nodes, links, axes, factored, .. } = tree;
     let mut changed = false;
-    for link in links {
-        let Some(axis) = axes.get_mut(link.axis as usize) else { continue };
+    for axis in axes {
+        let link = &mut links[axis.link as usize];
         if link.limit != 0.0 {
             if *limit_impulse(axis, link.limit) < 0.0 {
                 release(simd, link, axis, nodes, link.limit);
@@ -437,7 +434,7 @@ fn change_limits<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates
 #[inline(always)]
 fn demand<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates, share: f64) {
     let JointTree { nodes, links, axes, .. } = tree;
-    for link in links {
+    for link in &mut *links {
         let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
         let mut rhs = [0.0; 4];
         if BIAS {
@@ -449,17 +446,17 @@ fn demand<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rate
         }
         take_product(simd, &mut rhs, &link.jacobians[1].columns, &b.v);
         take_product(simd, &mut rhs, &link.jacobians[0].columns, &a.v);
-        if let Some(axis) = axes.get_mut(link.axis as usize)
-            && link.limit != 0.0
-        {
-            let velocity = rows::velocity(&link.coordinate.on, a, b);
-            let mut wanted = overrun::<BIAS>(link, axis, velocity, link.limit, rates);
+        link.rhs = rhs;
+    }
+    for axis in axes {
+        let link = &mut links[axis.link as usize];
+        if link.limit != 0.0 {
+            let mut wanted = overrun::<BIAS>(link, axis, velocity(link, nodes), link.limit, rates);
             if BIAS {
                 wanted -= link.coordinate.compliance * *limit_impulse(axis, link.limit);
             }
-            rhs[link.rigid] = wanted;
+            link.rhs[link.rigid] = wanted;
         }
-        link.rhs = rhs;
     }
 }
 
@@ -496,12 +493,13 @@ fn apply<S: Simd>(simd: S, tree: &mut JointTree) {
     for node in &mut nodes[..*dynamic] {
         add_times(simd, &mut node.v, &node.dv, 1.0);
     }
-    for link in links {
-        if let Some(axis) = axes.get_mut(link.axis as usize)
-            && link.limit != 0.0
-        {
+    for axis in axes {
+        let link = &mut links[axis.link as usize];
+        if link.limit != 0.0 {
             *limit_impulse(axis, link.limit) += core::mem::take(&mut link.change[link.rigid]);
         }
+    }
+    for link in links {
         add_times(simd, &mut link.impulses, &link.change, 1.0);
     }
 }

@@ -5,8 +5,8 @@
 
 use super::factor::{dot3, invert};
 use crate::dynamics::{
-    FrameLanes, Impulses, JOINTED, JointColour, JointPlace, JointTree, Joints, NULL, Slot,
-    TreeAxis, TreeLink, TreeNode, TreeRow, with_bucket,
+    FrameLanes, Impulses, JOINTED, JointColour, JointPlace, JointTree, Joints, Slot, TreeAxis,
+    TreeLink, TreeNode, TreeRow, with_bucket,
 };
 use crate::simd::{BLOCK, Simd, Three, add_times, times};
 use crate::stages::joint_solver::JointKernel;
@@ -38,9 +38,10 @@ impl TreeLink {
 
     /// Holds the anchors together.
     pub(in super::super) fn hold_point(&mut self, pair: &Pair<f64>) {
-        for (direction, error) in [[1.0, 0.0], [0.0, 1.0]].into_iter().zip(pair.gap) {
-            self.hold(&pair.row(pair.anchor_a, direction), error);
-        }
+        let Pair { anchor_a: [ax, ay], anchor_b: [bx, by], gap, .. } = *pair;
+        let row = |direction, arm_a, arm_b, reach| Row { direction, arm_a, arm_b, reach };
+        self.hold(&row([1.0, 0.0], -ay, -by, [ax, bx]), gap[0]);
+        self.hold(&row([0.0, 1.0], ax, bx, [ay, by]), gap[1]);
     }
 
     /// Holds a row of which each body has a direction of its own.
@@ -83,11 +84,11 @@ pub(super) fn prepare(tree: &mut JointTree, joints: &Joints) {
     }
 }
 
-/// Takes over the impulses and what acts along the free coordinate, once the rows are there.
+/// Takes over the impulses and what acts along the free coordinate of a link, once its rows are there.
 fn begin<B: JointKernel>(
     block: &B,
     stride: &Stride<f64>,
-    link: &mut TreeLink,
+    (index, link): (usize, &mut TreeLink),
     axes: &mut Vec<TreeAxis>,
 ) {
     let mut saved = Impulses::default();
@@ -96,19 +97,21 @@ fn begin<B: JointKernel>(
     for (impulse, saved) in link.impulses[..link.rigid].iter_mut().zip(saved) {
         *impulse = f64::from(saved);
     }
-    link.motor = block.motor(stride.at).map(|motor| motor.map(f64::from));
-    link.axis = NULL;
-    if let Some(lanes) = block.axis().filter(|lanes| lanes.used[stride.at] != 0.0) {
-        link.axis = axes.len() as u32;
-        axes.push(TreeAxis { axis: lanes.load(stride), ..TreeAxis::default() });
+    let motor = block.motor(stride.at).map(|motor| motor.map(f64::from));
+    if let Some(lanes) = block.axis()
+        && (motor.is_some() || lanes.used[stride.at] != 0.0)
+    {
+        let axis = lanes.load(stride);
+        axes.push(TreeAxis { link: index as u32, axis, motor, ..TreeAxis::default() });
     }
 }
 
 /// Gives the impulses, and the directions in which they act, back to the lanes.
 pub(super) fn finish(tree: &JointTree, lanes: &mut JointColour) {
-    for link in &tree.links {
+    let mut axes = tree.axes.iter().peekable();
+    for (index, link) in tree.links.iter().enumerate() {
         let (at, lane) = (link.slot as usize / BLOCK, link.slot as usize % BLOCK);
-        let axis = tree.axes.get(link.axis as usize);
+        let axis = axes.next_if(|axis| axis.link as usize == index);
         with_bucket!(&mut *lanes, link.class, bucket => {
             give_back(link, axis, &mut bucket.blocks[at], lane);
         });
@@ -121,13 +124,13 @@ fn give_back<B: JointKernel>(link: &TreeLink, axis: Option<&TreeAxis>, block: &m
     for (saved, impulse) in saved.iter_mut().zip(&link.impulses[..link.rigid]) {
         *saved = *impulse as f32;
     }
-    if let Some([.., impulse]) = link.motor {
-        saved[link.rigid] = impulse as f32;
-    }
-    if let Some(TreeAxis { axis, .. }) = axis {
+    if let Some(TreeAxis { axis, motor, .. }) = axis {
         let impulses = [axis.spring, axis.motor, axis.limits[0], axis.limits[1]];
         saved[B::IMPULSES - 4..B::IMPULSES]
             .copy_from_slice(&impulses.map(|impulse| impulse as f32));
+        if let Some([.., impulse]) = motor {
+            saved[link.rigid] = *impulse as f32;
+        }
     }
     block.restore(lane, &saved);
     if let Some([x, y]) = block.told() {
@@ -179,13 +182,13 @@ pub(super) fn refresh<S: Simd>(
         node.inv = [inv_mass, inv_mass, node.own_inv_inertia, 0.0];
         node.g = [0.0; 4];
     }
-    for link in links.iter_mut() {
+    for (index, link) in links.iter_mut().enumerate() {
         let stride = Stride::new((), link.slot as usize % BLOCK, substep);
         with_bucket!(lanes, link.class, bucket => {
             let block = &bucket.blocks[link.slot as usize / BLOCK];
             write(block, &block.frame, &stride, rows, link);
             if !*begun {
-                begin(block, &stride, link, axes);
+                begin(block, &stride, (index, link), axes);
             }
         });
         let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
@@ -200,10 +203,9 @@ pub(super) fn refresh<S: Simd>(
             node.inv[2] = 1.0 / least;
         }
     }
-    for link in links.iter_mut() {
-        if let Some(axis) = axes.get_mut(link.axis as usize) {
-            tie(simd, link, axis, &nodes[link.a as usize], &nodes[link.b as usize]);
-        }
+    for axis in axes {
+        let link = &mut links[axis.link as usize];
+        tie(simd, link, axis, &nodes[link.a as usize], &nodes[link.b as usize]);
     }
     (*begun, *fresh, *factored) = (true, true, false);
     if *pace == JOINTED {
