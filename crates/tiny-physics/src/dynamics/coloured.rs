@@ -11,7 +11,7 @@
 
 use super::bodies::{Bodies, BodyInfo};
 use super::pace::PACES;
-use crate::codec::{Data, Reader, Sink, bad};
+use crate::codec::{Data, Reader, Sink, bad, data_enum};
 use crate::error::Error;
 use crate::footprint::MemoryUse;
 use crate::threads::SharedSlice;
@@ -25,6 +25,22 @@ pub(crate) const TREES: usize = COLOURS + 1;
 const PER_PACE: usize = COLOURS + 2;
 /// Place of the contacts that do not touch, after those of all paces.
 pub(crate) const IDLE: usize = PER_PACE * PACES;
+
+/// Where the lanes of a contact or joint are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// In its graph: place and slot in the bucket of its class.
+    Graph {
+        /// The place.
+        colour: u8,
+        /// Block * lanes + lane.
+        slot: u32,
+    },
+    /// Nowhere: its bodies sleep or are disabled, or it has nothing to solve.
+    Asleep,
+}
+
+data_enum!(Place { 0 => Asleep, 1 => Graph { colour, slot } });
 
 /// A place by its pace and by its colour, [`COLOURS`] for the overflow or [`TREES`].
 pub(crate) fn place_of(pace: usize, colour: usize) -> usize {

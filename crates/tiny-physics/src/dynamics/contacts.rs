@@ -1,9 +1,10 @@
 //! Contact records: pairs of shapes that came near, until their fat boxes part.
 
 use super::bodies::Bodies;
+use super::coloured::Place;
 use super::edges::{self, edges};
 use super::pair_table::PairTable;
-use crate::codec::{bad, data_enum, record, store};
+use crate::codec::{bad, record, store};
 use crate::error::Error;
 use crate::geometry::manifold::PairClass;
 
@@ -20,20 +21,6 @@ record! {
 
 impl SavedPoint {
     pub(crate) const NONE: Self = Self { id: -1.0, normal_impulse: 0.0, tangent_impulse: 0.0 };
-}
-
-/// Where the lanes of a contact are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Place {
-    /// In the constraint graph: colour (or overflow, or idle) and slot in the bucket of its class.
-    Graph {
-        /// Index of the colour.
-        colour: u8,
-        /// Block * lanes + lane.
-        slot: u32,
-    },
-    /// Nowhere: its bodies sleep.
-    Asleep,
 }
 
 record! {
@@ -64,7 +51,6 @@ record! {
     }
 }
 
-data_enum!(Place { 0 => Asleep, 1 => Graph { colour, slot } });
 edges!(Contact, first_contact);
 
 store! {

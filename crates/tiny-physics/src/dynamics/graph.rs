@@ -9,8 +9,8 @@ use super::blocks::{
     load_lanes, move_lane, save_lanes,
 };
 use super::bodies::Bodies;
-use super::coloured::{Bucketful, Coloured, IDLE, give_colour_back, place_of, take_colour};
-use super::contacts::{Contact, Contacts, Place, SavedPoint};
+use super::coloured::{Bucketful, Coloured, IDLE, Place, give_colour_back, place_of, take_colour};
+use super::contacts::{Contact, Contacts, SavedPoint};
 use crate::codec::{Data, Reader, Sink, clone_by_field, store};
 use crate::error::Error;
 use crate::footprint::{Footprint, MemoryUse, each, footprint};

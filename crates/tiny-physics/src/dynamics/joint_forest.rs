@@ -11,10 +11,10 @@
 //! have changed since.
 
 use super::bodies::{Bodies, NULL};
-use super::coloured::{TREES, colour_at, place_of};
+use super::coloured::{Place, TREES, colour_at, place_of};
 use super::disjoint_sets::DisjointSets;
 use super::joint_blocks::{Axis, JointClass};
-use super::joints::{JointPlace, Joints};
+use super::joints::{JointRecord, Joints};
 use crate::codec::{Data, Reader, Sink, clone_by_field};
 use crate::describe::{JointDef, JointKind};
 use crate::error::Error;
@@ -285,7 +285,7 @@ impl JointForest {
             let in_trees = place_of(tree.pace, TREES);
             self.insert(tree);
             for &joint in &found.joints {
-                let JointPlace::Graph { colour, .. } = joints.records[joint as usize].place else {
+                let Place::Graph { colour, .. } = joints.records[joint as usize].place else {
                     continue;
                 };
                 let place = usize::from(colour);
@@ -369,7 +369,7 @@ impl Walk {
             found.bodies.push(body);
             for (joint, side) in joints.of_body(bodies.infos[body as usize].first_joint) {
                 let record = &joints.records[joint as usize];
-                if record.place != JointPlace::Asleep && is_rigid(&record.def) {
+                if record.place != Place::Asleep && is_rigid(&record.def) {
                     found.joints.push(joint);
                     self.waiting.push(if side == 0 { record.body_b } else { record.body_a });
                 }
@@ -463,46 +463,40 @@ impl Planter<'_> {
             edges.extend([(record.body_a, joint), (record.body_b, joint)]);
         }
         edges.sort_unstable();
-        let root = anchors.first().map_or(edges.first().map(|edge| edge.0), |&joint| {
-            let record = &self.joints.records[joint as usize];
-            let a = self.bodies.is_dynamic(record.body_a);
-            Some(if a { record.body_a } else { record.body_b })
-        });
-        let Some(root) = root else { return };
+        let anchored = anchors.first().map(|&joint| self.ends_of(joint).0);
+        let Some(root) = anchored.or(edges.first().map(|edge| edge.0)) else { return };
         self.tree.pace = usize::from(self.bodies.infos[root as usize].pace);
-        let node = self.add_node(root);
-        self.nodes[self.places[root as usize] as usize] = node;
-        self.depth.push(0);
-        if let Some(&joint) = anchors.first() {
-            self.add_anchor(joint, 0, true);
-        }
+        self.add_mover(root, 0);
         let mut at = 0;
         while let Some(&TreeNode { body, .. }) = self.tree.nodes.get(at) {
             let first = edges.partition_point(|edge| edge.0 < body);
             for &(_, joint) in edges[first..].iter().take_while(|edge| edge.0 == body) {
-                let record = &self.joints.records[joint as usize];
-                let is_a = record.body_a == body;
-                let other = if is_a { record.body_b } else { record.body_a };
+                let other = self.joints.records[joint as usize].other(body);
                 if self.node_of(other) == NULL {
-                    let child = self.add_node(other);
-                    self.nodes[self.places[other as usize] as usize] = child;
-                    self.depth.push(self.depth[at] + 1);
-                    let (a, b) = if is_a { (at as u32, child) } else { (child, at as u32) };
-                    self.add_link(joint, [a, b], child, at as u32);
+                    let child = self.add_mover(other, self.depth[at] + 1);
+                    self.add_link(joint, [at as u32, child], child, at as u32);
                 }
             }
             at += 1;
         }
         self.tree.dynamic = self.tree.nodes.len();
-        if !anchors.is_empty() {
-            self.finish_root_anchor();
+        let first = self.tree.links.len();
+        for &joint in anchors {
+            let (body, fixed) = self.ends_of(joint);
+            let (node, fixed) = (self.node_of(body), self.add_node(fixed));
+            self.add_link(joint, [node, fixed], NULL, node);
         }
-        for &joint in anchors.iter().skip(1) {
-            let record = &self.joints.records[joint as usize];
-            let a = self.bodies.is_dynamic(record.body_a);
-            let body = if a { record.body_a } else { record.body_b };
-            self.add_anchor(joint, self.node_of(body), false);
+        // The root's anchor holds it as a joint holds its child, and comes first.
+        if let Some(links) = self.tree.links.get_mut(..=first) {
+            links.rotate_right(1);
+            (links[0].child, links[0].parent) = (0, NULL);
         }
+    }
+
+    /// The dynamic body of an anchor, and the other.
+    fn ends_of(&self, joint: u32) -> (u32, u32) {
+        let &JointRecord { body_a, body_b, .. } = &self.joints.records[joint as usize];
+        if self.bodies.is_dynamic(body_a) { (body_a, body_b) } else { (body_b, body_a) }
     }
 
     /// The node of a dynamic body of the component, or NULL.
@@ -515,32 +509,20 @@ impl Planter<'_> {
         self.tree.nodes.len() as u32 - 1
     }
 
-    /// An anchor of a node. That of the root comes before other nodes, and has its fixed node added last.
-    fn add_anchor(&mut self, joint: u32, node: u32, of_root: bool) {
+    /// The node of a body of the component that many joints from the root.
+    fn add_mover(&mut self, body: u32, depth: usize) -> u32 {
+        let node = self.add_node(body);
+        self.nodes[self.places[body as usize] as usize] = node;
+        self.depth.push(depth);
+        node
+    }
+
+    /// A joint between two nodes, in whichever order they have.
+    fn add_link(&mut self, joint: u32, [one, other]: [u32; 2], child: u32, parent: u32) {
         let record = &self.joints.records[joint as usize];
-        let is_a = self.bodies.is_dynamic(record.body_a);
-        let fixed = if of_root {
-            NULL
-        } else {
-            self.add_node(if is_a { record.body_b } else { record.body_a })
-        };
-        let ends = if is_a { [node, fixed] } else { [fixed, node] };
-        let (child, parent) = if of_root { (node, NULL) } else { (NULL, node) };
-        self.add_link(joint, ends, child, parent);
-    }
-
-    fn finish_root_anchor(&mut self) {
-        let link = self.tree.links[0];
-        let record = &self.joints.records[link.joint as usize];
-        if link.a == NULL {
-            self.tree.links[0].a = self.add_node(record.body_a);
-        } else {
-            self.tree.links[0].b = self.add_node(record.body_b);
-        }
-    }
-
-    fn add_link(&mut self, joint: u32, ends: [u32; 2], child: u32, parent: u32) {
-        if let Some(class) = self.joints.records[joint as usize].class() {
+        let is_a = record.body_a == self.tree.nodes[one as usize].body;
+        let ends = if is_a { [one, other] } else { [other, one] };
+        if let Some(class) = record.class() {
             self.tree.links.push(TreeLink::new(joint, class, ends, child, parent));
         }
     }

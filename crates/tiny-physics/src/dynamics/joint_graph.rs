@@ -6,7 +6,7 @@
 use super::blocks::{load_lanes, move_lane, save_lanes};
 use super::bodies::Bodies;
 use super::coloured::{
-    Bucketful, COLOURS, Coloured, TREES, colour_at, give_colour_back, pace_at, place_of,
+    Bucketful, COLOURS, Coloured, Place, TREES, colour_at, give_colour_back, pace_at, place_of,
     take_colour,
 };
 use super::joint_blocks::{
@@ -14,7 +14,7 @@ use super::joint_blocks::{
     SliderBlock, WeldBlock,
 };
 use super::joint_forest::{JointForest, JointTree, is_rigid};
-use super::joints::{JointPlace, JointRecord, Joints};
+use super::joints::{JointRecord, Joints};
 use super::pace::PLAIN;
 use crate::codec::{Data, Reader, Sink, clone_by_field, store};
 use crate::error::Error;
@@ -293,8 +293,8 @@ impl JointGraph {
     /// The pace at which a joint is solved.
     pub(crate) fn pace_of(&self, record: &JointRecord) -> usize {
         match record.place {
-            JointPlace::Graph { colour, .. } => pace_at(colour.into()),
-            JointPlace::Asleep => PLAIN,
+            Place::Graph { colour, .. } => pace_at(colour.into()),
+            Place::Asleep => PLAIN,
         }
     }
 
@@ -309,7 +309,7 @@ impl JointGraph {
         let record = &joints.records[index as usize];
         let enabled = |body: u32| bodies.infos[body as usize].enabled;
         if record.class().is_none()
-            || record.place != JointPlace::Asleep
+            || record.place != Place::Asleep
             || !(enabled(record.body_a) && enabled(record.body_b))
         {
             return;
@@ -335,7 +335,7 @@ impl JointGraph {
         let slot = with_bucket!(&mut *lanes, class, bucket => {
             bucket.push(index, ends, &record.saved)
         });
-        record.place = JointPlace::Graph { colour: place as u8, slot };
+        record.place = Place::Graph { colour: place as u8, slot };
         self.any_stale = true;
         self.count += 1;
     }
@@ -344,7 +344,7 @@ impl JointGraph {
     /// before the description of the joint changes its kind, or a body its type.
     pub(crate) fn remove(&mut self, bodies: &mut Bodies, joints: &mut Joints, index: u32) {
         let record = &joints.records[index as usize];
-        if record.place != JointPlace::Asleep {
+        if record.place != Place::Asleep {
             self.forest.note(record.body_a, record.body_b);
             self.forest.dissolve(index);
             self.take(bodies, joints, index);
@@ -354,16 +354,16 @@ impl JointGraph {
     /// Takes a joint's lanes away.
     fn take(&mut self, bodies: &mut Bodies, joints: &mut Joints, index: u32) {
         let record = &mut joints.records[index as usize];
-        let JointPlace::Graph { colour, slot } = record.place else { return };
+        let Place::Graph { colour, slot } = record.place else { return };
         let Some(class) = record.class() else { return };
-        record.place = JointPlace::Asleep;
+        record.place = Place::Asleep;
         let ends = [record.body_a, record.body_b];
         let moved = with_bucket!(&mut self.colours[usize::from(colour)], class, bucket => {
             record.saved = bucket.saved(slot);
             bucket.swap_remove(slot)
         });
         if let Some(moved) = moved {
-            joints.records[moved as usize].place = JointPlace::Graph { colour, slot };
+            joints.records[moved as usize].place = Place::Graph { colour, slot };
         }
         self.colours.close(colour.into());
         give_colour_back(bodies, ends, colour.into(), |info| &mut info.joint_colours);
@@ -372,8 +372,7 @@ impl JointGraph {
 
     /// What a joint has accumulated in the last substep, in the order of its block; nothing while it sleeps.
     pub(crate) fn impulses(&self, record: &JointRecord) -> Impulses {
-        let (JointPlace::Graph { colour, slot }, Some(class)) = (record.place, record.class())
-        else {
+        let (Place::Graph { colour, slot }, Some(class)) = (record.place, record.class()) else {
             return Impulses::default();
         };
         with_bucket!(&self.colours[usize::from(colour)], class, bucket => bucket.saved(slot))
@@ -412,7 +411,7 @@ impl JointGraph {
             joints.records[index as usize].def = *def;
             self.mark_stale(joints, index);
         } else {
-            let placed = record.place != JointPlace::Asleep;
+            let placed = record.place != Place::Asleep;
             self.remove(bodies, joints, index);
             let record = &mut joints.records[index as usize];
             record.def = *def;
@@ -437,8 +436,7 @@ impl JointGraph {
     /// centre of mass of a body has.
     fn mark_stale(&mut self, joints: &Joints, index: u32) {
         let record = &joints.records[index as usize];
-        let (JointPlace::Graph { colour, slot }, Some(class)) = (record.place, record.class())
-        else {
+        let (Place::Graph { colour, slot }, Some(class)) = (record.place, record.class()) else {
             return;
         };
         with_bucket!(&mut self.colours[usize::from(colour)], class, bucket => bucket.mark_stale(slot));
@@ -512,7 +510,7 @@ mod tests {
         let mut placed = 0;
         for index in joints.indices() {
             let record = &joints.records[index as usize];
-            let JointPlace::Graph { colour, slot } = record.place else { continue };
+            let Place::Graph { colour, slot } = record.place else { continue };
             placed += 1;
             let ends = [record.body_a, record.body_b];
             let class = record.class().expect("a joint in the graph has a class");

@@ -1,25 +1,12 @@
 //! Joint records: what the user asked for, and where the solver's copy of it is.
 
 use super::bodies::{Bodies, NULL};
+use super::coloured::Place;
 use super::edges::{self, edges};
 use super::joint_blocks::{Impulses, JointClass};
-use crate::codec::{Generations, data_enum, record, store};
+use crate::codec::{Generations, record, store};
 use crate::describe::JointDef;
 use crate::math::Vec2;
-
-/// Where the lanes of a joint are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum JointPlace {
-    /// In the joint graph: colour (or overflow) and slot in the bucket of its class.
-    Graph {
-        /// Index of the colour.
-        colour: u8,
-        /// Block * lanes + lane.
-        slot: u32,
-    },
-    /// Nowhere: its bodies sleep or are disabled, or it has nothing to solve.
-    Asleep,
-}
 
 record! {
     /// The lasting record of a joint.
@@ -30,7 +17,7 @@ record! {
         pub(crate) body_a: u32,
         pub(crate) body_b: u32,
         pub(crate) def: JointDef,
-        pub(crate) place: JointPlace,
+        pub(crate) place: Place,
         /// Impulses kept while the joint has no lane.
         pub(crate) saved: Impulses,
         /// Neighbours in the joint lists of A and B: (previous, next) edges.
@@ -47,7 +34,7 @@ impl JointRecord {
             body_a,
             body_b,
             def,
-            place: JointPlace::Asleep,
+            place: Place::Asleep,
             saved: Impulses::default(),
             links: [(NULL, NULL); 2],
         }
@@ -65,7 +52,6 @@ impl JointRecord {
     }
 }
 
-data_enum!(JointPlace { 0 => Asleep, 1 => Graph { colour, slot } });
 edges!(JointRecord, first_joint);
 
 /// What a joint does to body B, as of the last substep: the opposite acts on body A.
@@ -120,7 +106,7 @@ impl Joints {
 
     /// Takes a record out. The caller has taken its lanes out of the graph.
     pub(crate) fn remove(&mut self, bodies: &mut Bodies, index: u32) {
-        debug_assert_eq!(self.records[index as usize].place, JointPlace::Asleep);
+        debug_assert_eq!(self.records[index as usize].place, Place::Asleep);
         self.count -= 1;
         edges::unlink(&mut self.records, bodies, index);
         let record = &mut self.records[index as usize];
@@ -153,7 +139,7 @@ impl Joints {
     /// The joints that tie islands together: those in the graph or of class none.
     pub(crate) fn tying(&self) -> impl Iterator<Item = &JointRecord> {
         let all = self.records.iter();
-        all.filter(|record| record.alive && record.place != JointPlace::Asleep)
+        all.filter(|record| record.alive && record.place != Place::Asleep)
     }
 
     /// Their bodies.

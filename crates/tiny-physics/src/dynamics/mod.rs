@@ -29,8 +29,8 @@ pub(crate) use blocks::{
     BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags,
 };
 pub(crate) use bodies::{Bodies, BodyInfo, Given, Motion, NULL, Slot};
-pub(crate) use coloured::{COLOURS, IDLE, colour_at, is_overflow, pace_at};
-pub(crate) use contacts::{Contact, Contacts, Place, SavedPoint};
+pub(crate) use coloured::{COLOURS, IDLE, Place, colour_at, is_overflow, pace_at};
+pub(crate) use contacts::{Contact, Contacts, SavedPoint};
 pub(crate) use disjoint_sets::DisjointSets;
 pub(crate) use edges::next_edge;
 pub(crate) use graph::{BlockAddress, Blocks, Bucket, Graph};
@@ -39,7 +39,7 @@ pub(crate) use joint_forest::{JointTree, TreeAxis, TreeLink, TreeNode, TreeRow};
 pub(crate) use joint_graph::{
     JointBlocks, JointBucket, JointColour, JointGraph, JointPlaces, joint_classes, with_bucket,
 };
-pub(crate) use joints::{JointLoad, JointPlace, JointRecord, Joints};
+pub(crate) use joints::{JointLoad, JointRecord, Joints};
 pub(crate) use pace::{JOINTED, PACES, PLAIN, REFINEMENT, ROUNDS, WATCHED};
 #[cfg(test)]
 use schedule::PlaceRuns;

@@ -4,7 +4,8 @@
 //! the team, a bucket to a chunk.
 
 use super::bodies::Bodies;
-use super::contacts::{Contacts, Place};
+use super::coloured::Place;
+use super::contacts::Contacts;
 use super::graph::{Bucket, Graph, key, place_at};
 use crate::threads::{SharedSlice, Team};
 use core::ops::Range;

@@ -12,8 +12,8 @@ use super::islands::{Islands, Stores};
 use super::passivity::may_drive;
 use crate::describe::BodyKind;
 use crate::dynamics::{
-    Bodies, Bucket, Graph, JOINTED, JointPlace, NULL, PLAIN, Place, PointLanes, REFINEMENT, ROUNDS,
-    TreeNode, WATCHED, next_edge, pace_at,
+    Bodies, Bucket, Graph, JOINTED, NULL, PLAIN, Place, PointLanes, REFINEMENT, ROUNDS, TreeNode,
+    WATCHED, next_edge, pace_at,
 };
 use crate::math::Vec2;
 use crate::simd::BLOCK;
@@ -343,7 +343,7 @@ fn change(stores: &mut Stores<'_>, memory: &mut Memory) {
         let mut edge = bodies.infos[body as usize].first_joint;
         while edge != NULL {
             let joint = &joints.records[edge as usize / 2];
-            if let JointPlace::Graph { .. } = joint.place {
+            if let Place::Graph { .. } = joint.place {
                 let pace = joint_graph.pace_of(joint);
                 joint_graph.remove(bodies, joints, edge / 2);
                 moved_joints.push((edge / 2, pace));

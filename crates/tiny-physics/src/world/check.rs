@@ -6,8 +6,8 @@ use super::World;
 use crate::broad_phase::ProxyId;
 use crate::describe::{BodyKind, JointKind};
 use crate::dynamics::{
-    BodyInfo, Bucket, Contact, FrameLanes, IDLE, JointBucket, JointClass, JointLanes, JointPlace,
-    JointRecord, NULL, PACES, PLAIN, Place, guard, joint_classes,
+    BodyInfo, Bucket, Contact, FrameLanes, IDLE, JointBucket, JointClass, JointLanes, JointRecord,
+    NULL, PACES, PLAIN, Place, guard, joint_classes,
 };
 use crate::geometry::manifold::{PairClass, ShapeClass};
 use crate::simd::BLOCK;
@@ -289,7 +289,7 @@ impl World {
         ensure(graph.forest.is_stale() || graph.forest.count() == in_trees, "trees lack joints")?;
         let placed: usize = graph.colours.list().iter().map(|colour| colour.count()).sum();
         let records = self.state.joints.records.iter().filter(|record| record.alive);
-        let waiting = records.filter(|record| record.place != JointPlace::Asleep).count();
+        let waiting = records.filter(|record| record.place != Place::Asleep).count();
         ensure(placed == graph.count && placed == waiting, "joints are lost")
     }
 
@@ -309,7 +309,7 @@ impl World {
                     let record = self.state.joints.records.get(index as usize);
                     let record =
                         record.filter(|record| record.alive).ok_or("a lane has no joint")?;
-                    let place = JointPlace::Graph { colour: colour as u8, slot: slot as u32 };
+                    let place = Place::Graph { colour: colour as u8, slot: slot as u32 };
                     ensure(
                         record.place == place && record.class() == Some(class),
                         "a joint is elsewhere",

@@ -4,7 +4,7 @@ use super::World;
 use super::build::proxy_kind;
 use super::state::State;
 use crate::describe::BodyKind;
-use crate::dynamics::{COLOURS, IDLE, JointPlace, JointRecord, NULL, Place, colour_at};
+use crate::dynamics::{COLOURS, IDLE, JointRecord, NULL, Place, colour_at};
 use crate::stages::{boxes, pairs};
 
 impl World {
@@ -153,7 +153,7 @@ impl World {
             let asleep = |&body: &u32| {
                 self.state.bodies.is_dynamic(body) && !self.state.bodies.infos[body as usize].awake
             };
-            let placed = awake == (joint.place != JointPlace::Asleep);
+            let placed = awake == (joint.place != Place::Asleep);
             ensure(placed, || format!("joint {index} is awake without a lane, or sleeps in one"))?;
             let pulls = awake && ends.iter().any(asleep);
             ensure(!pulls, || format!("joint {index} pulls at a body that sleeps"))?;

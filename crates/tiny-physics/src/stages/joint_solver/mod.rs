@@ -42,7 +42,7 @@ mod tests;
 use crate::describe::{BodyKind, JointDef};
 use crate::dynamics::{
     AxisLanes, BodyInfo, FrameLanes, JointBlocks, JointBucket, JointGraph, JointLanes, JointLoad,
-    JointPlace, Joints, REFINEMENT, TreeLink, joint_classes, pace_at, with_bucket,
+    Joints, Place, REFINEMENT, TreeLink, joint_classes, pace_at, with_bucket,
 };
 use crate::math::{Pose, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_baseline, dispatch_narrow};
@@ -285,7 +285,7 @@ impl<B: JointKernel> LaneKernel for RunPass<'_, B> {
 pub(crate) fn load(graph: &JointGraph, joints: &Joints, index: u32, inv_h: f32) -> JointLoad {
     let record = &joints.records[index as usize];
     let inv_h = inv_h * REFINEMENT[graph.pace_of(record)] as f32;
-    let (JointPlace::Graph { colour, slot }, Some(class)) = (record.place, record.class()) else {
+    let (Place::Graph { colour, slot }, Some(class)) = (record.place, record.class()) else {
         return JointLoad::default();
     };
     let colour = &graph.colours[usize::from(colour)];

@@ -5,8 +5,8 @@
 
 use super::factor::{dot3, invert};
 use crate::dynamics::{
-    FrameLanes, Impulses, JOINTED, JointColour, JointPlace, JointTree, Joints, Slot, TreeAxis,
-    TreeLink, TreeNode, TreeRow, with_bucket,
+    FrameLanes, Impulses, JOINTED, JointColour, JointTree, Joints, Place, Slot, TreeAxis, TreeLink,
+    TreeNode, TreeRow, with_bucket,
 };
 use crate::simd::{BLOCK, Simd, Three, add_times, times};
 use crate::stages::joint_solver::JointKernel;
@@ -75,7 +75,7 @@ pub(super) fn prepare(tree: &mut JointTree, joints: &Joints) {
     axes.clear();
     (*begun, *fresh, *factored) = (false, false, false);
     for link in links {
-        let JointPlace::Graph { slot, .. } = joints.records[link.joint as usize].place else {
+        let Place::Graph { slot, .. } = joints.records[link.joint as usize].place else {
             debug_assert!(false, "a joint of a tree has no lanes");
             continue;
         };
