@@ -103,8 +103,7 @@ store! {
         pub(crate) records: Vec<ShapeRecord>,
         /// The shape as a rounded box in the frame of the body's centre of mass, for the lane kernels:
         /// place x, y, rotation c, s, half extents x, y, radius, and 1 where this is all there is to the
-        /// shape (0 for general polygons, whose row is their own frame and a bounding circle), plus 2
-        /// where it has guards.
+        /// shape (0 for general polygons, whose row is the box around them), plus 2 where it has guards.
         pub(crate) rows: Vec<Row>,
         /// The boxes of the shapes as they are.
         pub(crate) tight: Vec<Aabb>,
@@ -195,6 +194,18 @@ impl Shapes {
             & (b.min.x - a.max.x <= reach)
             & (a.min.y - b.max.y <= reach)
             & (b.min.y - a.max.y <= reach)
+    }
+
+    /// How far the box of a shape reaches from the centre of mass, metres; what is round at its corners.
+    pub(crate) fn reach(&self, index: u32) -> f32 {
+        self.arm(index) + self.rows[index as usize][6]
+    }
+
+    /// That of the box without its radius.
+    #[inline]
+    pub(crate) fn arm(&self, index: u32) -> f32 {
+        let row = &self.rows[index as usize];
+        Vec2::new(row[0], row[1]).length() + Vec2::new(row[4], row[5]).length()
     }
 
     /// The leaf of a shape in the broad phase.

@@ -58,8 +58,9 @@ impl Shape {
     }
 }
 
+/// Box around turned points.
 #[inline]
-fn turned_box<const N: usize>(points: &[Vec2; N], q: Rot) -> Aabb {
+pub(crate) fn turned_box<const N: usize>(points: &[Vec2; N], q: Rot) -> Aabb {
     let mut bounds = Aabb::EMPTY;
     for point in points {
         let turned = q.rotate(*point);

@@ -27,6 +27,7 @@ mod toi;
 #[cfg(test)]
 pub(crate) mod tests;
 
+pub(crate) use bounds::turned_box;
 pub use cast::{CastHit, shape_cast};
 pub use distance::{Distance, distance};
 pub(crate) use edges::least_by;

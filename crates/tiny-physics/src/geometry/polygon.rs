@@ -26,6 +26,18 @@ pub struct Polygon {
 }
 
 impl Polygon {
+    /// The square with corners at 1 and -1.
+    pub(crate) const UNIT_BOX: Self = {
+        const A: Vec2 = Vec2::new(-1.0, -1.0);
+        const B: Vec2 = Vec2::new(1.0, -1.0);
+        const C: Vec2 = Vec2::new(1.0, 1.0);
+        const D: Vec2 = Vec2::new(-1.0, 1.0);
+        const DOWN: Vec2 = Vec2::new(0.0, -1.0);
+        const LEFT: Vec2 = Vec2::new(-1.0, 0.0);
+        let normals = [DOWN, Vec2::X, Vec2::Y, LEFT, DOWN, DOWN, DOWN, DOWN];
+        Self { vertices: [A, B, C, D, A, A, A, A], normals, count: 4, radius: 0.0 }
+    };
+
     /// A box by its half width and half height, centred.
     ///
     /// # Errors

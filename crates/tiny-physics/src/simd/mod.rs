@@ -19,7 +19,7 @@ mod level;
 
 pub(crate) use doubles::{Three, add_product, add_times, take_product, times};
 pub(crate) use fearless_simd::Simd;
-pub(crate) use lanes::{BLOCK, Lanes, Row};
+pub(crate) use lanes::{BLOCK, Lanes, Row, RowSource};
 pub use level::SimdLevel;
 pub(crate) use level::{
     DoubleKernel, LaneKernel, dispatch, dispatch_baseline, dispatch_doubles, dispatch_narrow,

@@ -95,12 +95,8 @@ pub(crate) struct Way {
 impl Way {
     /// A box around a shape, grown by what turning takes it through.
     fn turned(&self, shapes: &Shapes, shape: u32, tight: Aabb) -> Aabb {
-        let row = &shapes.rows[shape as usize];
-        let arm = Vec2::new(row[0], row[1]).length() + Vec2::new(row[4], row[5]).length();
-        // Of a general polygon it knows a disk.
-        let arm = if guard::exact(row[7]) == 1.0 { arm } else { arm + row[6] };
         // No chord is longer than two radii.
-        tight.grown(self.turn.abs().min(2.0) * arm)
+        tight.grown(self.turn.abs().min(2.0) * shapes.arm(shape))
     }
 
     /// A box around all that a shape goes through.

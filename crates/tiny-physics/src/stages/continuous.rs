@@ -447,15 +447,9 @@ mod tests {
 
     /// A shape's row, of which its sizes are filled in, and the frame of its box.
     fn row_of(shape: &Shape) -> (Row, Transform) {
-        let (extents, frame) = RoundedBox::of(shape).map_or_else(
-            || {
-                let core = shape.core();
-                ([0.0, 0.0, core.reach(Vec2::ZERO) + core.radius], Transform::IDENTITY)
-            },
-            |rounded| (rounded.extents(), rounded.frame),
-        );
-        let [x, y, radius] = extents;
-        ([0.0, 0.0, 0.0, 0.0, x, y, radius, 0.0], frame)
+        let rounded = RoundedBox::of(shape);
+        let [x, y, radius] = rounded.extents();
+        ([0.0, 0.0, 0.0, 0.0, x, y, radius, 0.0], rounded.frame)
     }
 
     proptest! {

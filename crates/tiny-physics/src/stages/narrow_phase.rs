@@ -9,10 +9,11 @@ use super::ahead::{HARMLESS, Predictions};
 use super::narrow_context::Context;
 use super::surfaces::{self, LanePoints};
 use crate::dynamics::{BlockHead, Blocks, Graph, ManifoldBlock, NULL, Schedule, flags};
-use crate::geometry::manifold::{self, LaneManifold, LanePair, PairClass};
+use crate::geometry::manifold::{self, LaneManifold, LanePair, Outline, PairClass};
 use crate::math::{Pose, Rot, Transform, Vec2};
-use crate::simd::{BLOCK, LaneKernel, Lanes, dispatch, dispatch_baseline};
+use crate::simd::{BLOCK, LaneKernel, Lanes, dispatch};
 use crate::threads::Team;
+use core::marker::PhantomData;
 
 /// Blocks that one member of the team updates at a time.
 pub(crate) const CHUNK: usize = 4;
@@ -27,47 +28,30 @@ pub(crate) fn run(
     predictions: &Predictions,
 ) {
     for stage in schedule.stages() {
-        graph.for_each_run(team, &stage, |class, blocks| {
-            update(Pass { context, predictions, blocks }, class);
+        graph.for_each_run(team, &stage, |class, blocks| match class {
+            PairClass::BoxBox => update::<BoxBox>(context, predictions, blocks),
+            PairClass::BoxCircle => update::<BoxCircle>(context, predictions, blocks),
+            PairClass::CapsuleCircle => update::<CapsuleCircle>(context, predictions, blocks),
+            PairClass::CircleCircle => update::<CircleCircle>(context, predictions, blocks),
+            PairClass::General => update::<General>(context, predictions, blocks),
         });
     }
 }
 
-/// Blocks of one class on their way through the kernel.
-struct Pass<'a> {
-    context: Context<'a>,
-    predictions: &'a Predictions,
-    blocks: Blocks<'a>,
-}
-
-fn update(pass: Pass<'_>, class: PairClass) {
-    match class {
-        PairClass::BoxBox => run_kernel::<BoxBox>(pass),
-        PairClass::BoxCircle => run_kernel::<BoxCircle>(pass),
-        PairClass::CapsuleCircle => run_kernel::<CapsuleCircle>(pass),
-        PairClass::CircleCircle => run_kernel::<CircleCircle>(pass),
-        // One after the other, whatever the lanes.
-        PairClass::General => dispatch_baseline(pass.context.level, Update::<General>::new(pass)),
-    }
-}
-
-fn run_kernel<K: PairKernel>(pass: Pass<'_>) {
-    let level = pass.context.level.for_count(pass.blocks.contacts.len());
-    dispatch(level, Update::<K>::new(pass));
+fn update<K: PairKernel>(context: Context<'_>, predictions: &Predictions, blocks: Blocks<'_>) {
+    let level = context.level.for_count(blocks.contacts.len());
+    dispatch(level, Update::<K> { context, predictions, blocks, kernel: PhantomData });
 }
 
 /// A manifold kernel for a class of pairs.
 trait PairKernel {
     /// Greatest number of points.
     const POINTS: usize;
-    /// Does it tell separations up to any distance?
-    const FAR: bool;
-    /// Manifolds of the contacts from lane `at` of the block on, in the frames of their shapes A.
+    /// Manifolds of the first of some pairs of shapes, in the frames of the boxes of A.
     fn collide<L: Lanes>(
         token: L::Token,
         context: &Context<'_>,
-        block: &ManifoldBlock,
-        at: usize,
+        shapes: [&[u32]; 2],
         pair: &LanePair<L>,
         reach: L,
     ) -> LaneManifold<L>;
@@ -79,13 +63,11 @@ macro_rules! lane_pair_kernel {
 
         impl PairKernel for $class {
             const POINTS: usize = PairClass::$class.max_points();
-            const FAR: bool = true;
             #[inline(always)]
             fn collide<L: Lanes>(
                 token: L::Token,
                 _: &Context<'_>,
-                _: &ManifoldBlock,
-                _: usize,
+                _: [&[u32]; 2],
                 pair: &LanePair<L>,
                 reach: L,
             ) -> LaneManifold<L> {
@@ -102,87 +84,44 @@ lane_pair_kernel!(
     CircleCircle = circle_circle
 );
 
-/// Pairs with a general polygon: one after the other.
+/// Pairs with a general polygon, whose corners are not in the rows of the shapes.
 struct General;
 
 impl PairKernel for General {
-    const POINTS: usize = 2;
-    const FAR: bool = false;
+    const POINTS: usize = PairClass::General.max_points();
 
     #[inline(always)]
     fn collide<L: Lanes>(
         token: L::Token,
         context: &Context<'_>,
-        block: &ManifoldBlock,
-        at: usize,
+        [a, b]: [&[u32]; 2],
         pair: &LanePair<L>,
         reach: L,
     ) -> LaneManifold<L> {
-        let mut frames = [[0.0; BLOCK]; 5];
-        let of_lanes = [pair.p[0], pair.p[1], pair.q[0], pair.q[1], reach];
-        frames.iter_mut().zip(of_lanes).for_each(|(frame, lanes)| lanes.store(frame));
-        let mut out = [[0.0; BLOCK]; 10];
-        for i in 0..L::WIDTH {
-            let b_in_a = Transform::new(
-                Vec2::new(frames[0][i], frames[1][i]),
-                Rot { c: frames[2][i], s: frames[3][i] },
-            );
-            let shapes = [block.shape_a[at + i], block.shape_b[at + i]];
-            let empty = block.body_a[at + i] == block.body_b[at + i];
-            let reach = frames[4][i];
-            let values =
-                if empty { NO_POINTS } else { general_lane(context, shapes, b_in_a, reach) };
-            for (lane, value) in out.iter_mut().zip(values) {
-                lane[i] = value;
-            }
-        }
-        let load = |k: usize| L::load(token, &out[k]);
-        LaneManifold {
-            normal: [load(0), load(1)],
-            points: [[load(2), load(3)], [load(4), load(5)]],
-            separation: [load(6), load(7)],
-            id: [load(8), load(9)],
-        }
+        let (a, b) = (outlines(context, &a[..L::WIDTH]), outlines(context, &b[..L::WIDTH]));
+        manifold::general(token, pair, [&a, &b], reach)
     }
 }
 
-/// One manifold as ten floats: normal, two points, separations, ids.
-fn general_lane(
-    context: &Context<'_>,
-    [a, b]: [u32; 2],
-    b_in_a: Transform,
-    reach: f32,
-) -> [f32; 10] {
-    let (Some(a), Some(b)) = (context.shapes.get(a as usize), context.shapes.get(b as usize))
-    else {
-        return NO_POINTS;
-    };
-    // The kernels' frame of B is that of its rounded box; A, a general polygon, has no other frame.
-    let b_in_a = b_in_a.compose(b.box_frame.inverse());
-    let m = manifold::collide_general(&a.shape, &b.shape, b_in_a, reach);
-    let mut out = NO_POINTS;
-    out[0] = m.normal.x;
-    out[1] = m.normal.y;
-    for (k, point) in m.points().iter().enumerate() {
-        out[2 + 2 * k] = point.point.x;
-        out[3 + 2 * k] = point.point.y;
-        out[6 + k] = point.separation;
-        out[8 + k] = f32::from(point.id);
+/// The outlines of some shapes.
+#[inline(always)]
+fn outlines<'a>(context: &Context<'a>, shapes: &[u32]) -> [Outline<'a>; BLOCK] {
+    let mut outlines = [Outline::UNIT_BOX; BLOCK];
+    for (outline, &shape) in outlines.iter_mut().zip(shapes) {
+        let record = &context.shapes[shape as usize];
+        let row = &context.shape_rows[shape as usize];
+        let half = Vec2::new(row[4], row[5]);
+        *outline = Outline::of(&record.shape, record.class, record.box_frame.p, half);
     }
-    out
+    outlines
 }
 
-const NO_POINTS: [f32; 10] = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, f32::MAX, f32::MAX, 0.0, 0.0];
-
+/// Blocks of one class on their way through the kernel.
 struct Update<'a, K> {
-    pass: Pass<'a>,
-    kernel: core::marker::PhantomData<K>,
-}
-
-impl<'a, K> Update<'a, K> {
-    fn new(pass: Pass<'a>) -> Self {
-        Self { pass, kernel: core::marker::PhantomData }
-    }
+    context: Context<'a>,
+    predictions: &'a Predictions,
+    blocks: Blocks<'a>,
+    kernel: PhantomData<K>,
 }
 
 impl<K: PairKernel> LaneKernel for Update<'_, K> {
@@ -190,7 +129,7 @@ impl<K: PairKernel> LaneKernel for Update<'_, K> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, token: L::Token) {
-        let Pass { context, predictions, mut blocks } = self.pass;
+        let Self { context, predictions, mut blocks, .. } = self;
         let constrained = !blocks.constraints.is_empty();
         for index in 0..blocks.manifolds.len() {
             let contacts = &blocks.contacts[index * BLOCK..];
@@ -234,11 +173,8 @@ fn note_joints(context: &Context<'_>, block: &ManifoldBlock, head: &mut BlockHea
 
 /// Manifolds of a stride, turned into the world's axes.
 struct Geometry<L: Lanes> {
-    normal: [L; 2],
     /// Points relative to the centre of mass of A.
-    points: [[L; 2]; 2],
-    separation: [L; 2],
-    id: [L; 2],
+    manifold: LaneManifold<L>,
     /// Points up to this far apart count, metres.
     most: L,
     valid: [L::Mask; 2],
@@ -262,8 +198,8 @@ impl<L: Lanes> Geometry<L> {
         let shape_a = L::gather(token, context.shape_rows, &block.shape_a[at..]);
         let shape_b = L::gather(token, context.shape_rows, &block.shape_b[at..]);
         // Frames of the shapes in the world's axes: rotation, and place relative to the body.
-        let frame_a = compose(turn_a, [shape_a[2], shape_a[3]]);
-        let frame_b = compose(turn_b, [shape_b[2], shape_b[3]]);
+        let frame_a = rotate(turn_a, [shape_a[2], shape_a[3]]);
+        let frame_b = rotate(turn_b, [shape_b[2], shape_b[3]]);
         let place_a = rotate(turn_a, [shape_a[0], shape_a[1]]);
         let place_b = rotate(turn_b, [shape_b[0], shape_b[1]]);
         let offset = [between[0] + place_b[0] - place_a[0], between[1] + place_b[1] - place_a[1]];
@@ -275,9 +211,10 @@ impl<L: Lanes> Geometry<L> {
         };
         let limit = L::splat(token, context.speculative_distance);
         let ahead = (context.ahead > 0.0)
-            .then(|| Ahead::of::<K>(token, context, block, at, &pair, [place_a, place_b]));
+            .then(|| Ahead::of(token, context, block, at, &pair, [place_a, place_b]));
         let reach = ahead.as_ref().map_or(limit, |ahead| ahead.way.max(limit));
-        let mut m = K::collide::<L>(token, context, block, at, &pair, reach);
+        let shapes = [&block.shape_a[at..], &block.shape_b[at..]];
+        let mut m = K::collide::<L>(token, context, shapes, &pair, reach);
         let gap = m.separation[0].min(m.separation[1]);
         let guarded = L::splat(token, 1.5);
         let guarded = L::bits(L::or(shape_a[7].gt(guarded), shape_b[7].gt(guarded)));
@@ -295,10 +232,11 @@ impl<L: Lanes> Geometry<L> {
         let touching =
             if K::POINTS == 2 { L::bits(L::or(valid[0], valid[1])) } else { L::bits(valid[0]) };
         let mut geometry = Self {
-            normal: rotate(frame_a, m.normal),
-            points: [to_world(m.points[0]), to_world(m.points[1])],
-            separation: m.separation,
-            id: m.id,
+            manifold: LaneManifold {
+                normal: rotate(frame_a, m.normal),
+                points: [to_world(m.points[0]), to_world(m.points[1])],
+                ..m
+            },
             most,
             valid,
             between,
@@ -315,7 +253,10 @@ impl<L: Lanes> Geometry<L> {
     #[inline(always)]
     fn foresee(&mut self, token: L::Token, predictions: &Predictions, contacts: &[u32]) {
         let mut lanes = [[0.0; BLOCK]; 13];
-        self.store(&mut lanes);
+        self.manifold.store(&mut lanes);
+        self.between[0].store(&mut lanes[10]);
+        self.between[1].store(&mut lanes[11]);
+        self.most.store(&mut lanes[12]);
         let mut any = false;
         for (i, &contact) in contacts.iter().enumerate().take(L::WIDTH) {
             let Some(ahead) = predictions.of(contact) else { continue };
@@ -330,36 +271,13 @@ impl<L: Lanes> Geometry<L> {
             lanes[12][i] = 0.5 * f32::MAX;
         }
         if any {
-            self.load(token, &lanes);
+            self.manifold = LaneManifold::load(token, &lanes);
+            self.between = [L::load(token, &lanes[10]), L::load(token, &lanes[11])];
+            self.most = L::load(token, &lanes[12]);
+            let separation = self.manifold.separation;
+            self.valid = [separation[0].le(self.most), separation[1].le(self.most)];
+            self.touching = L::bits(L::or(self.valid[0], self.valid[1]));
         }
-    }
-
-    #[inline(always)]
-    fn store(&self, lanes: &mut [[f32; BLOCK]; 13]) {
-        for k in 0..2 {
-            self.normal[k].store(&mut lanes[k]);
-            self.points[0][k].store(&mut lanes[2 + k]);
-            self.points[1][k].store(&mut lanes[4 + k]);
-            self.separation[k].store(&mut lanes[6 + k]);
-            self.id[k].store(&mut lanes[8 + k]);
-            self.between[k].store(&mut lanes[10 + k]);
-        }
-        self.most.store(&mut lanes[12]);
-    }
-
-    #[inline(always)]
-    fn load(&mut self, token: L::Token, lanes: &[[f32; BLOCK]; 13]) {
-        self.most = L::load(token, &lanes[12]);
-        for k in 0..2 {
-            self.normal[k] = L::load(token, &lanes[k]);
-            self.points[0][k] = L::load(token, &lanes[2 + k]);
-            self.points[1][k] = L::load(token, &lanes[4 + k]);
-            self.separation[k] = L::load(token, &lanes[6 + k]);
-            self.id[k] = L::load(token, &lanes[8 + k]);
-            self.between[k] = L::load(token, &lanes[10 + k]);
-            self.valid[k] = self.separation[k].le(self.most);
-        }
-        self.touching = L::bits(L::or(self.valid[0], self.valid[1]));
     }
 }
 
@@ -378,7 +296,7 @@ struct Ahead<L: Lanes> {
 
 impl<L: Lanes> Ahead<L> {
     #[inline(always)]
-    fn of<K: PairKernel>(
+    fn of(
         token: L::Token,
         context: &Context<'_>,
         block: &ManifoldBlock,
@@ -390,11 +308,9 @@ impl<L: Lanes> Ahead<L> {
         let b = L::gather(token, context.body_rows, &block.body_b[at..]);
         let dt = L::splat(token, context.ahead);
         let length = |x: L, y: L| (x * x + y * y).sqrt();
-        let arm = |half: [L; 3], place: [L; 2]| {
-            let arm = length(half[0], half[1]) + length(place[0], place[1]);
-            // What is round turns without coming nearer; of other shapes only a disk around them is known here.
-            if K::FAR { arm } else { arm + half[2] }
-        };
+        // What is round turns without coming nearer.
+        let arm =
+            |half: [L; 3], place: [L; 2]| length(half[0], half[1]) + length(place[0], place[1]);
         let arms = [arm(pair.a, places[0]), arm(pair.b, places[1])];
         let turns = [a[2] * dt, b[2] * dt];
         let turn = turns[0].abs() * arms[0] + turns[1].abs() * arms[1];
@@ -417,15 +333,12 @@ impl<L: Lanes> Ahead<L> {
         let thickness = |half: [L; 3]| half[0].min(half[1]) + half[2];
         let part = L::splat(token, HARMLESS) * thickness(pair.a).min(thickness(pair.b));
         let least = part.max(limit);
-        let (gap, coming) = if K::FAR {
-            let along = now.normal[0] * self.linear[0] + now.normal[1] * self.linear[1];
-            // No turn takes the disks around them closer.
-            let apart = now.normal[0] * now.between[0] + now.normal[1] * now.between[1];
-            (gap, self.turn.min(self.extent - apart + gap) - along)
-        } else {
-            let sizes = pair.a[0] + pair.a[1] + pair.a[2] + pair.b[0] + pair.b[1] + pair.b[2];
-            (gap.min(pair.p[0].abs().max(pair.p[1].abs()) - sizes), self.way)
-        };
+        let along =
+            now.manifold.normal[0] * self.linear[0] + now.manifold.normal[1] * self.linear[1];
+        // No turn takes the disks around them closer.
+        let apart =
+            now.manifold.normal[0] * now.between[0] + now.manifold.normal[1] * now.between[1];
+        let coming = self.turn.min(self.extent - apart + gap) - along;
         let zero = L::splat(token, 0.0);
         let coming = L::bits((coming - gap.max(zero)).gt(least));
         let first = self.pressing(now, 0, zero);
@@ -437,10 +350,11 @@ impl<L: Lanes> Ahead<L> {
     /// How far the shapes come together at a point where they touch.
     #[inline(always)]
     fn pressing(&self, now: &Geometry<L>, k: usize, zero: L) -> L {
-        let ([x, y], [dx, dy]) = (now.points[k], now.between);
-        let cross = |x: L, y: L| x * now.normal[1] - y * now.normal[0];
+        let ([x, y], [dx, dy]) = (now.manifold.points[k], now.between);
+        let cross = |x: L, y: L| x * now.manifold.normal[1] - y * now.manifold.normal[0];
         let turned = self.turns[1] * cross(x - dx, y - dy) - self.turns[0] * cross(x, y);
-        let along = now.normal[0] * self.linear[0] + now.normal[1] * self.linear[1];
+        let along =
+            now.manifold.normal[0] * self.linear[0] + now.manifold.normal[1] * self.linear[1];
         L::select(now.valid[k], zero - (turned + along), zero)
     }
 }
@@ -457,23 +371,13 @@ fn correct_lanes<L: Lanes>(
     m: &mut LaneManifold<L>,
 ) {
     let mut lanes = [[0.0; BLOCK]; 14];
-    m.normal[0].store(&mut lanes[0]);
-    m.normal[1].store(&mut lanes[1]);
+    m.store(&mut lanes);
     for k in 0..2 {
-        m.points[k][0].store(&mut lanes[2 + 2 * k]);
-        m.points[k][1].store(&mut lanes[3 + 2 * k]);
-        m.separation[k].store(&mut lanes[6 + k]);
-        m.id[k].store(&mut lanes[8 + k]);
         pair.p[k].store(&mut lanes[10 + k]);
         pair.q[k].store(&mut lanes[12 + k]);
     }
     surfaces_of_lanes(context, block, at, guarded, &mut lanes);
-    m.normal = [L::load(token, &lanes[0]), L::load(token, &lanes[1])];
-    for k in 0..2 {
-        m.points[k] = [L::load(token, &lanes[2 + 2 * k]), L::load(token, &lanes[3 + 2 * k])];
-        m.separation[k] = L::load(token, &lanes[6 + k]);
-        m.id[k] = L::load(token, &lanes[8 + k]);
-    }
+    *m = LaneManifold::load(token, &lanes);
 }
 
 /// The scalar part of [`correct_lanes`]: ten rows of a manifold, then the frame of B in A's.
@@ -530,12 +434,7 @@ fn gather_poses<L: Lanes>(
     ([load(0), load(1)], [load(2), load(3)], [load(4), load(5)])
 }
 
-/// Rotation `outer` after `inner`.
-#[inline(always)]
-fn compose<L: Lanes>(outer: [L; 2], inner: [L; 2]) -> [L; 2] {
-    rotate(outer, inner)
-}
-
+/// A vector turned, or a rotation after another.
 #[inline(always)]
 fn rotate<L: Lanes>(q: [L; 2], v: [L; 2]) -> [L; 2] {
     [q[0] * v[0] - q[1] * v[1], q[1] * v[0] + q[0] * v[1]]
@@ -560,8 +459,8 @@ fn write_constraint<L: Lanes, K: PairKernel>(
     let constraint = &mut blocks.constraints[index];
     let body_a = L::gather(token, context.body_rows, &manifold.body_a[at..]);
     let body_b = L::gather(token, context.body_rows, &manifold.body_b[at..]);
-    geometry.normal[0].store(&mut constraint.normal_x[at..]);
-    geometry.normal[1].store(&mut constraint.normal_y[at..]);
+    geometry.manifold.normal[0].store(&mut constraint.normal_x[at..]);
+    geometry.manifold.normal[1].store(&mut constraint.normal_y[at..]);
     L::load(token, &manifold.friction[at..]).store(&mut constraint.friction[at..]);
 
     let old_id = [L::load(token, &manifold.id_1[at..]), L::load(token, &manifold.id_2[at..])];
@@ -573,7 +472,7 @@ fn write_constraint<L: Lanes, K: PairKernel>(
     let mut approach = [zero; 2];
     for (k, approach) in approach.iter_mut().enumerate().take(K::POINTS) {
         let valid = geometry.valid[k];
-        let same = [geometry.id[k].eq(old_id[0]), geometry.id[k].eq(old_id[1])];
+        let same = [geometry.manifold.id[k].eq(old_id[0]), geometry.manifold.id[k].eq(old_id[1])];
         let carry = |kind: usize| {
             let carried = L::select(same[0], old[0][kind], L::select(same[1], old[1][kind], zero));
             L::select(valid, carried, zero)
@@ -581,13 +480,13 @@ fn write_constraint<L: Lanes, K: PairKernel>(
         let (normal_impulse, tangent_impulse) = (carry(0), carry(1));
         let arms = Arms::compute(geometry, k);
         let (normal_mass, tangent_mass) = arms.masses(token, &body_a, &body_b);
-        *approach = geometry.normal[0] * (body_b[0] - body_a[0])
-            + geometry.normal[1] * (body_b[1] - body_a[1])
+        *approach = geometry.manifold.normal[0] * (body_b[0] - body_a[0])
+            + geometry.manifold.normal[1] * (body_b[1] - body_a[1])
             + arms.normal[1] * body_b[2]
             - arms.normal[0] * body_a[2];
 
         let point = &mut constraint.points[k];
-        geometry.separation[k].store(&mut point.separation[at..]);
+        geometry.manifold.separation[k].store(&mut point.separation[at..]);
         arms.normal[0].store(&mut point.normal_arm_a[at..]);
         arms.normal[1].store(&mut point.normal_arm_b[at..]);
         arms.tangent[0].store(&mut point.tangent_arm_a[at..]);
@@ -598,9 +497,9 @@ fn write_constraint<L: Lanes, K: PairKernel>(
         tangent_impulse.store(&mut point.tangent_impulse[at..]);
     }
     let none = L::splat(token, -1.0);
-    L::select(geometry.valid[0], geometry.id[0], none).store(&mut manifold.id_1[at..]);
+    L::select(geometry.valid[0], geometry.manifold.id[0], none).store(&mut manifold.id_1[at..]);
     if K::POINTS == 2 {
-        L::select(geometry.valid[1], geometry.id[1], none).store(&mut manifold.id_2[at..]);
+        L::select(geometry.valid[1], geometry.manifold.id[1], none).store(&mut manifold.id_2[at..]);
     }
     if blocks.heads[index].flags & (flags::RESTITUTION | flags::HIT) != 0 {
         let surface = &mut blocks.surfaces[index];
@@ -622,8 +521,8 @@ struct Arms<L> {
 impl<L: Lanes> Arms<L> {
     #[inline(always)]
     fn compute(geometry: &Geometry<L>, k: usize) -> Self {
-        let [nx, ny] = geometry.normal;
-        let a = geometry.points[k];
+        let [nx, ny] = geometry.manifold.normal;
+        let a = geometry.manifold.points[k];
         let b = [a[0] - geometry.between[0], a[1] - geometry.between[1]];
         Self {
             normal: [a[0] * ny - a[1] * nx, b[0] * ny - b[1] * nx],
@@ -631,16 +530,19 @@ impl<L: Lanes> Arms<L> {
         }
     }
 
-    /// Effective masses along normal and tangent: 1 / (sum of inverse masses + arms squared times
-    /// inverse inertias), zero where nothing can move.
+    /// Effective masses along normal and tangent.
     #[inline(always)]
     fn masses(&self, token: L::Token, body_a: &[L; 8], body_b: &[L; 8]) -> (L, L) {
-        let inverse_mass = body_a[3] + body_b[3];
-        let effective = |arm: [L; 2]| {
-            let k = inverse_mass + body_a[7] * arm[0] * arm[0] + body_b[7] * arm[1] * arm[1];
-            let zero = L::splat(token, 0.0);
-            L::select(k.gt(zero), L::splat(token, 1.0) / k, zero)
-        };
-        (effective(self.normal), effective(self.tangent))
+        let inverses = [body_a[3] + body_b[3], body_a[7], body_b[7]];
+        let normal = effective_mass(token, self.normal, inverses);
+        (normal, effective_mass(token, self.tangent, inverses))
     }
+}
+
+/// 1 / (sum of inverse masses + arms squared times inverse inertias), zero where nothing can move.
+#[inline(always)]
+fn effective_mass<L: Lanes>(token: L::Token, arm: [L; 2], [mass, a, b]: [L; 3]) -> L {
+    let k = mass + a * arm[0] * arm[0] + b * arm[1] * arm[1];
+    let zero = L::splat(token, 0.0);
+    L::select(k.gt(zero), L::splat(token, 1.0) / k, zero)
 }

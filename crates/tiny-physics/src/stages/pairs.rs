@@ -7,10 +7,11 @@
 use crate::broad_phase::{BroadPhase, ProxyId, sort_pairs};
 use crate::describe::{Mix, Settings};
 use crate::dynamics::{
-    Bodies, Contact, Contacts, Graph, Joints, NULL, Place, SavedPoint, Schedule, Shapes, Waiting,
+    Bodies, Contact, Contacts, Graph, Joints, NULL, Place, SavedPoint, Schedule, ShapeRecord,
+    Shapes, Waiting,
 };
 use crate::footprint::footprint;
-use crate::geometry::manifold::PairClass;
+use crate::geometry::manifold::{PairClass, ShapeClass};
 use crate::math::Vec2;
 use crate::simd::BLOCK;
 use crate::threads::{SharedSlice, Team};
@@ -384,7 +385,11 @@ pub(crate) fn mix_materials(contact: &mut Contact, settings: &Settings, shapes: 
     let (a, b) = (contact.shape_a, contact.shape_b);
     let (shape_a, shape_b) = (&shapes.records[a as usize], &shapes.records[b as usize]);
     let (material_a, material_b) = (&shape_a.material, &shape_b.material);
-    let radius = |i: u32| shapes.rows[i as usize][6];
+    // A general polygon rolls like the disk around it.
+    let radius = |i: u32| match shapes.records[i as usize] {
+        ShapeRecord { class: ShapeClass::General, shape, .. } => shape.bounding_radius(),
+        _ => shapes.rows[i as usize][6],
+    };
     if !contact.touching {
         contact.events = shape_a.contact_events || shape_b.contact_events;
     }

@@ -303,11 +303,8 @@ impl World {
         if is_solid && (is_first || lane.thickness < info.min_extent) {
             info.min_extent = lane.thickness;
         }
-        let row = lane.row;
-        let reach =
-            Vec2::new(row[0], row[1]).length() + Vec2::new(row[4], row[5]).length() + row[6];
-        info.max_extent = info.max_extent.max(reach);
-        shapes.rows[shape as usize] = row;
+        info.max_extent = info.max_extent.max(lane.reach);
+        shapes.rows[shape as usize] = lane.row;
         shapes.mark_row(shape);
         is_solid
     }
@@ -373,27 +370,26 @@ struct LaneShape {
     row: Row,
     /// Frame of the row in the shape's frame.
     box_frame: Transform,
+    /// From the centre of mass to its furthest point, metres.
+    reach: f32,
     /// Half of the least thickness, metres.
     thickness: f32,
 }
 
 impl LaneShape {
     fn new(shape: &Shape, central: Transform) -> Self {
-        let (box_frame, extents, exact, thickness) = match RoundedBox::of(shape) {
-            Some(rounded) => {
-                let [x, y, radius] = rounded.extents();
-                (rounded.frame, [x, y, radius], 1.0, if x < y { x } else { y } + radius)
-            }
-            None => {
-                let core = shape.core();
-                let radius = core.reach(Vec2::ZERO) + core.radius;
-                (Transform::IDENTITY, [0.0, 0.0, radius], 0.0, shape.inner_radius())
-            }
+        let rounded = RoundedBox::of(shape);
+        let [x, y, radius] = rounded.extents();
+        let frame = central.compose(rounded.frame);
+        let is_general = ShapeClass::of(shape) == ShapeClass::General;
+        let (exact, reach, thickness) = if is_general {
+            (0.0, central.p.length() + shape.bounding_radius(), shape.inner_radius())
+        } else {
+            let reach = frame.p.length() + rounded.half_extents.length() + radius;
+            (1.0, reach, if x < y { x } else { y } + radius)
         };
-        let frame = central.compose(box_frame);
-        let [x, y, radius] = extents;
         let row = [frame.p.x, frame.p.y, frame.q.c, frame.q.s, x, y, radius, exact];
-        Self { row, box_frame, thickness }
+        Self { row, box_frame: rounded.frame, reach, thickness }
     }
 }
 

@@ -31,20 +31,20 @@ pub(crate) fn box_box<L: Lanes>(
 
 /// Lengths that depend on the size of the boxes, metres.
 #[derive(Clone, Copy)]
-struct Scale<L> {
+pub(super) struct Scale<L> {
     /// What an axis must be better by.
-    bias: L,
+    pub(super) bias: L,
     /// Shorter than this has no direction.
-    noise: L,
+    pub(super) noise: L,
     /// Narrower than this is one point.
-    width: L,
+    pub(super) width: L,
     /// Both radii.
-    radius: L,
+    pub(super) radius: L,
 }
 
 impl<L: Lanes> Scale<L> {
     #[inline(always)]
-    fn of(token: L::Token, pair: &LanePair<L>) -> Self {
+    pub(super) fn of(token: L::Token, pair: &LanePair<L>) -> Self {
         let size_a = pair.a[0] + pair.a[1] + pair.a[2];
         let size_b = pair.b[0] + pair.b[1] + pair.b[2];
         Self {

@@ -1,10 +1,7 @@
 //! Which kernel a pair belongs to, and shapes as rounded boxes.
 
-use super::{LaneManifold, LanePair};
-use super::{box_box, box_circle, capsule_circle, circle_circle};
-use crate::geometry::{Polygon, Shape};
+use crate::geometry::{Polygon, Shape, turned_box};
 use crate::math::{Rot, Transform, Vec2};
-use crate::simd::Lanes;
 
 /// A shape as the kernels see it, in rising order of rank: a pair is stored with the higher rank as A.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Hash)]
@@ -45,7 +42,7 @@ pub(crate) enum PairClass {
     CapsuleCircle,
     /// Circle and circle.
     CircleCircle,
-    /// At least one general polygon: not in lanes.
+    /// At least one general polygon.
     General,
 }
 
@@ -75,23 +72,6 @@ impl PairClass {
             (ShapeClass::Circle, _) => Self::CircleCircle,
         }
     }
-
-    /// Collides pairs of this class that lie in lanes. `General` pairs have no lane form and do not come
-    /// here; [`collide_general`](super::collide_general) is for them.
-    #[inline(always)]
-    pub fn collide<L: Lanes>(
-        self,
-        token: L::Token,
-        pair: &LanePair<L>,
-        max_separation: L,
-    ) -> LaneManifold<L> {
-        match self {
-            Self::BoxBox | Self::General => box_box(token, pair, max_separation),
-            Self::BoxCircle => box_circle(token, pair, max_separation),
-            Self::CapsuleCircle => capsule_circle(token, pair, max_separation),
-            Self::CircleCircle => circle_circle(token, pair, max_separation),
-        }
-    }
 }
 
 /// All points within `radius` of a box, which may have no width or no height or neither.
@@ -106,18 +86,14 @@ pub(crate) struct RoundedBox {
 }
 
 impl RoundedBox {
-    /// The shape as a rounded box; `None` for [`ShapeClass::General`].
-    pub fn of(shape: &Shape) -> Option<Self> {
+    /// The shape as a rounded box; that around a [`ShapeClass::General`], which it does not turn against.
+    pub fn of(shape: &Shape) -> Self {
         match *shape {
-            Shape::Circle { radius } => {
-                Some(Self { frame: Transform::IDENTITY, half_extents: Vec2::ZERO, radius })
-            }
-            Shape::Aabb { half_extents } => {
-                Some(Self { frame: Transform::IDENTITY, half_extents, radius: 0.0 })
-            }
-            Shape::Capsule { a, b, radius } => Some(Self::capsule(a, b, radius)),
-            Shape::Segment { a, b } => Some(Self::capsule(a, b, 0.0)),
-            Shape::Polygon(ref polygon) => Self::rectangle(polygon),
+            Shape::Circle { radius } => Self { radius, ..Self::default() },
+            Shape::Aabb { half_extents } => Self { half_extents, ..Self::default() },
+            Shape::Capsule { a, b, radius } => Self::capsule(a, b, radius),
+            Shape::Segment { a, b } => Self::capsule(a, b, 0.0),
+            Shape::Polygon(ref polygon) => Self::polygon(polygon),
         }
     }
 
@@ -130,9 +106,12 @@ impl RoundedBox {
         Self { frame: Transform::new((a + b) * 0.5, q), half_extents: Vec2::new(half, 0.0), radius }
     }
 
-    fn rectangle(polygon: &Polygon) -> Option<Self> {
-        let (half_extents, frame) = polygon.as_rect()?;
-        Some(Self { frame, half_extents, radius: polygon.radius() })
+    fn polygon(polygon: &Polygon) -> Self {
+        let (half_extents, frame) = polygon.as_rect().unwrap_or_else(|| {
+            let bounds = turned_box(polygon.padded().0, Rot::IDENTITY);
+            (bounds.half_extents(), Transform::new(bounds.center(), Rot::IDENTITY))
+        });
+        Self { frame, half_extents, radius: polygon.radius() }
     }
 
     /// Half extents and radius as the kernels take them.
@@ -152,7 +131,7 @@ mod tests {
         for k in 0..12 {
             let q = Rot::from_angle(k as f32 * 0.5);
             let polygon = Polygon::turned_rect(2.0, 0.5, center, q).unwrap();
-            let rounded = RoundedBox::of(&polygon.into()).unwrap();
+            let rounded = RoundedBox::of(&polygon.into());
             assert!((rounded.frame.p - center).length() < 1e-6);
             assert!(rounded.frame.q.angle_from(q).abs() < 1e-6);
             assert!((rounded.half_extents - Vec2::new(2.0, 0.5)).length() < 1e-6);
@@ -162,7 +141,7 @@ mod tests {
     #[test]
     fn a_capsule_without_length_is_a_circle() {
         let point = Vec2::new(1.0, 2.0);
-        let rounded = RoundedBox::of(&Shape::Capsule { a: point, b: point, radius: 0.5 }).unwrap();
+        let rounded = RoundedBox::of(&Shape::Capsule { a: point, b: point, radius: 0.5 });
         assert_eq!(rounded.frame, Transform::new(point, Rot::IDENTITY));
         assert_eq!(rounded.half_extents, Vec2::ZERO);
     }

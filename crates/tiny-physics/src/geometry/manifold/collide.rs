@@ -1,6 +1,9 @@
 //! Two shapes, one manifold: the public entry, and the scalar form of the kernels.
 
-use super::{LanePair, Manifold, PairClass, RoundedBox, ShapeClass, general};
+use super::{
+    LanePair, Manifold, Outline, PairClass, RoundedBox, ShapeClass, box_box, box_circle,
+    capsule_circle, circle_circle, general,
+};
 use crate::geometry::Shape;
 use crate::math::Transform;
 
@@ -21,27 +24,23 @@ use crate::math::Transform;
 /// assert_eq!(manifold.points()[0].separation, -0.25);
 /// ```
 pub fn collide(a: &Shape, b: &Shape, b_in_a: Transform, max_separation: f32) -> Manifold {
-    let (Some(box_a), Some(box_b)) = (RoundedBox::of(a), RoundedBox::of(b)) else {
-        return general::collide_general(a, b, b_in_a, max_separation);
-    };
     let (class_a, class_b) = (ShapeClass::of(a), ShapeClass::of(b));
     let class = PairClass::of(class_a, class_b);
     if class_a < class_b {
-        let a_in_b = b_in_a.inverse();
-        collide_boxes(class, &box_b, &box_a, a_in_b, max_separation).swapped(b_in_a)
+        collide_as(class, [b, a], b_in_a.inverse(), max_separation).swapped(b_in_a)
     } else {
-        collide_boxes(class, &box_a, &box_b, b_in_a, max_separation)
+        collide_as(class, [a, b], b_in_a, max_separation)
     }
 }
 
-/// The one-lane instance of the kernel of a class.
-fn collide_boxes(
+/// The one-lane instance of the kernel of a class, which has to take the two shapes.
+pub(super) fn collide_as(
     class: PairClass,
-    a: &RoundedBox,
-    b: &RoundedBox,
+    shapes: [&Shape; 2],
     b_in_a: Transform,
     max_separation: f32,
 ) -> Manifold {
+    let [a, b] = shapes.map(RoundedBox::of);
     let relative = b_in_a.compose(b.frame).relative_to(a.frame);
     let pair = LanePair {
         p: relative.p.into(),
@@ -49,5 +48,17 @@ fn collide_boxes(
         a: a.extents(),
         b: b.extents(),
     };
-    Manifold::from(class.collide((), &pair, max_separation)).moved(a.frame)
+    let manifold = match class {
+        PairClass::BoxBox => box_box((), &pair, max_separation),
+        PairClass::BoxCircle => box_circle((), &pair, max_separation),
+        PairClass::CapsuleCircle => capsule_circle((), &pair, max_separation),
+        PairClass::CircleCircle => circle_circle((), &pair, max_separation),
+        PairClass::General => {
+            let outline = |shape, RoundedBox { frame, half_extents, .. }| {
+                [Outline::of(shape, ShapeClass::of(shape), frame.p, half_extents)]
+            };
+            general((), &pair, [&outline(shapes[0], a), &outline(shapes[1], b)], max_separation)
+        }
+    };
+    Manifold::from(manifold).moved(a.frame)
 }

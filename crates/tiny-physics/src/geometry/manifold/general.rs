@@ -1,356 +1,400 @@
-//! Manifolds with a general polygon: the method of the box kernel over lists of vertices.
+//! Manifolds with a general polygon, in lanes: the method of the box kernel over lists of corners.
 //!
-//! Scalar, with branches. A shape that is no general polygon takes part as its rounded box, so a
-//! segment has end faces of no width and a circle's centre has four faces of no width; with these,
-//! the best axis is always within 45 degrees of the direction between two nearest corners.
+//! A shape that is no general polygon takes part as its rounded box, so a segment has end faces of no
+//! width and a circle's centre has four faces of no width; with these, the best axis is always within 45
+//! degrees of the direction between two nearest corners.
 
-use super::{Manifold, ManifoldPoint, RoundedBox};
-use crate::geometry::{MAX_VERTICES, Shape, least_by};
-use crate::math::{Transform, Vec2};
-
-/// An axis of B replaces one of A, and a later one an earlier, only if it separates by this fraction of
-/// the smaller shape more.
-const AXIS_BIAS: f32 = 5.0e-4;
-
-/// Below this fraction of both shapes' size, the direction between two corners is rounding noise.
-const NOISE: f32 = 4.0e-5;
-
-/// Two points nearer to each other than this fraction of both shapes' size are one.
-const MIN_WIDTH: f32 = 4.0e-6;
+use super::box_box::Scale;
+use super::lane::ABSENT;
+use super::{LaneManifold, LanePair, ShapeClass};
+use crate::geometry::{MAX_VERTICES, Polygon, Shape};
+use crate::math::Vec2;
+use crate::simd::{BLOCK, Lanes, Row, RowSource};
 
 /// An edge this steep against the normal (sine of the angle between them) counts as its lowest end alone.
 const MIN_SINE: f32 = 0.1;
 
-const MAX_POINTS: usize = MAX_VERTICES;
-
-/// The convex hull of up to eight points, widened by a radius.
+/// Where the corners of a shape are, for [`LaneOutline`].
 #[derive(Clone, Copy)]
-struct Outline {
-    points: Row,
-    /// Normal `i` belongs to the edge from point `i` to the next, which may have no length.
-    normals: Row,
-    count: usize,
-    radius: f32,
-    /// About half its width plus half its height.
-    size: f32,
+pub(crate) struct Outline<'a> {
+    polygon: &'a Polygon,
+    /// The middle of the box, and what differences from it are multiplied with.
+    center: Vec2,
+    scale: Vec2,
 }
 
-/// Vectors side by side, so that one instruction works on several.
-#[derive(Clone, Copy)]
-struct Row {
-    x: [f32; MAX_POINTS],
-    y: [f32; MAX_POINTS],
+impl<'a> Outline<'a> {
+    pub(crate) const UNIT_BOX: Self =
+        Self { polygon: &Polygon::UNIT_BOX, center: Vec2::ZERO, scale: Vec2::new(1.0, 1.0) };
+
+    /// That of a shape of a class, of whose box these are the middle and the half extents. Anything but a general
+    /// polygon is a box of half extents 1, stretched.
+    #[inline]
+    pub(crate) fn of(shape: &'a Shape, class: ShapeClass, center: Vec2, half: Vec2) -> Self {
+        match shape {
+            Shape::Polygon(polygon) if class == ShapeClass::General => {
+                Self { polygon, center, ..Self::UNIT_BOX }
+            }
+            _ => Self { scale: half, ..Self::UNIT_BOX },
+        }
+    }
 }
 
-impl Row {
-    fn new(vectors: &[Vec2; MAX_POINTS], map: impl Fn(Vec2) -> Vec2) -> Self {
-        let mut row = Self { x: [0.0; MAX_POINTS], y: [0.0; MAX_POINTS] };
-        for (i, &vector) in vectors.iter().enumerate() {
-            Vec2 { x: row.x[i], y: row.y[i] } = map(vector);
+/// Four corners of each outline, from a first one on, or the normals of their faces.
+#[derive(Clone, Copy)]
+struct Four<'a, const NORMALS: bool> {
+    outlines: &'a [Outline<'a>],
+    first: usize,
+}
+
+impl<const NORMALS: bool> RowSource for Four<'_, NORMALS> {
+    #[inline(always)]
+    fn read(self, index: u32) -> Row {
+        let Outline { polygon, center, scale } = self.outlines[index as usize];
+        let (corners, normals) = polygon.padded();
+        let vectors = if NORMALS { normals } else { corners };
+        let mut row = [0.0; 8];
+        for (i, &Vec2 { x, y }) in vectors[self.first..][..4].iter().enumerate() {
+            row[2 * i] = if NORMALS { x } else { (x - center.x) * scale.x };
+            row[2 * i + 1] = if NORMALS { y } else { (y - center.y) * scale.y };
         }
         row
     }
-
-    fn at(&self, i: usize) -> Vec2 {
-        Vec2::new(self.x[i], self.y[i])
-    }
 }
 
-/// Collides any two shapes by the general method; meant for those with a general polygon.
-pub(crate) fn collide_general(
-    a: &Shape,
-    b: &Shape,
-    b_in_a: Transform,
-    max_separation: f32,
-) -> Manifold {
-    collide_outlines(&Outline::of(a, Transform::IDENTITY), &Outline::of(b, b_in_a), max_separation)
+/// Convex polygons of up to eight corners, one a lane, in the frame of the box of A.
+#[derive(Clone, Copy)]
+struct LaneOutline<L> {
+    /// With the first once more at the end.
+    corners: [[L; 2]; MAX_VERTICES + 1],
+    /// Normal `i` belongs to the edge from corner `i` to the next, which may have no length.
+    normals: [[L; 2]; MAX_VERTICES],
+    /// Of the lane that has most. Places that a lane does not need repeat its first ones.
+    count: usize,
 }
 
-fn collide_outlines(a: &Outline, b: &Outline, max_separation: f32) -> Manifold {
-    let bias = AXIS_BIAS * if a.size < b.size { a.size } else { b.size };
-    let noise = NOISE * (a.size + b.size);
-
-    // No point is nearer than the shapes are along any axis.
-    let too_far = max_separation + (a.radius + b.radius);
-    let (face_a, separation_a) = a.best_face(b, bias);
-    if separation_a > too_far {
-        return Manifold::EMPTY;
-    }
-    let (face_b, separation_b) = b.best_face(a, bias);
-    if separation_b > too_far {
-        return Manifold::EMPTY;
-    }
-    let flipped = separation_b > separation_a + bias;
-    let (reference, other, face) = if flipped { (b, a, face_b) } else { (a, b, face_a) };
-
-    let other_face = other.facing(reference.normals.at(face));
-    let normal = reference.nearest_direction(face, other, other_face, noise);
-    let (normal, face_a, face_b) =
-        if flipped { (-normal, other_face, face) } else { (normal, face, other_face) };
-    overlap(
-        a,
-        face_a,
-        b,
-        face_b,
-        normal,
-        Limits { max_separation, width: MIN_WIDTH * (a.size + b.size) },
-    )
+/// A face of each outline: its number, normal and ends, anticlockwise.
+#[derive(Clone, Copy)]
+struct Face<L> {
+    number: L,
+    normal: [L; 2],
+    start: [L; 2],
+    end: [L; 2],
 }
 
-impl Outline {
-    fn of(shape: &Shape, frame: Transform) -> Self {
-        match shape {
-            Shape::Polygon(polygon) => {
-                let (points, normals) = polygon.padded();
-                Self::new(points, normals, polygon.vertices().len(), polygon.radius(), frame)
-            }
-            Shape::Circle { .. }
-            | Shape::Aabb { .. }
-            | Shape::Capsule { .. }
-            | Shape::Segment { .. } => {
-                Self::of_box(&RoundedBox::of(shape).unwrap_or_default(), frame)
-            }
-        }
-    }
-
-    fn of_box(rounded: &RoundedBox, frame: Transform) -> Self {
-        let Vec2 { x, y } = rounded.half_extents;
-        let corners = [Vec2::new(x, -y), Vec2::new(x, y), Vec2::new(-x, y), Vec2::new(-x, -y)];
-        let normals = [Vec2::X, Vec2::Y, -Vec2::X, -Vec2::Y];
-        let frame = frame.compose(rounded.frame);
-        Self::new(&pad(&corners), &pad(&normals), corners.len(), rounded.radius, frame)
-    }
-
-    /// Points and normals beyond the first `count` repeat the first.
-    #[inline]
-    fn new(
-        points: &[Vec2; MAX_POINTS],
-        normals: &[Vec2; MAX_POINTS],
-        count: usize,
-        radius: f32,
-        frame: Transform,
-    ) -> Self {
-        let (mut low, mut high) = (points[0], points[0]);
-        for &point in points {
-            (low, high) = (low.min(point), high.max(point));
-        }
+impl<L: Lanes> Face<L> {
+    #[inline(always)]
+    fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
         Self {
-            points: Row::new(points, |point| frame.apply(point)),
-            normals: Row::new(normals, |normal| frame.q.rotate(normal)),
-            count,
-            radius,
-            size: radius + 0.5 * ((high.x - low.x) + (high.y - low.y)),
+            number: L::select(mask, yes.number, no.number),
+            normal: either(mask, yes.normal, no.normal),
+            start: either(mask, yes.start, no.start),
+            end: either(mask, yes.end, no.end),
         }
-    }
-
-    /// The face that separates this outline from `other` most, and by how much.
-    fn best_face(&self, other: &Self, bias: f32) -> (usize, f32) {
-        let separations = self.separations(other);
-        let mut best = (0, f32::NEG_INFINITY);
-        for (face, &separation) in separations[..self.count].iter().enumerate() {
-            if separation > best.1 + bias {
-                best = (face, separation);
-            }
-        }
-        best
-    }
-
-    /// How far each face separates this outline from `other`: a loop over all faces at once.
-    #[inline]
-    fn separations(&self, other: &Self) -> [f32; MAX_POINTS] {
-        let Row { x, y } = &self.normals;
-        let mut lowest = [f32::INFINITY; MAX_POINTS];
-        for point in (0..other.count).map(|i| other.points.at(i)) {
-            for (face, lowest) in lowest.iter_mut().enumerate() {
-                let height = x[face] * point.x + y[face] * point.y;
-                *lowest = if height < *lowest { height } else { *lowest };
-            }
-        }
-        for (face, lowest) in lowest.iter_mut().enumerate() {
-            *lowest -= x[face] * self.points.x[face] + y[face] * self.points.y[face];
-        }
-        lowest
-    }
-
-    /// The face most opposed to a direction; the first of equal ones.
-    fn facing(&self, direction: Vec2) -> usize {
-        least_by(self.count, |face| direction.dot(self.normals.at(face))).0
-    }
-
-    /// Both ends of a face, anticlockwise.
-    fn edge(&self, face: usize) -> [Vec2; 2] {
-        let next = if face + 1 < self.count { face + 1 } else { 0 };
-        [self.points.at(face), self.points.at(next)]
-    }
-
-    /// The normal of `face`, unless the cores are apart and the lowest end of the other's edge lies
-    /// beside it; then the direction from the face's end to the nearest point of that edge.
-    fn nearest_direction(&self, face: usize, other: &Self, other_face: usize, noise: f32) -> Vec2 {
-        let normal = self.normals.at(face);
-        let tangent = normal.perp();
-        let [start, end] = self.edge(face);
-        let edge = other.edge(other_face);
-        let lowest = if normal.dot(edge[1]) < normal.dot(edge[0]) { edge[1] } else { edge[0] };
-        let corner = if tangent.dot(lowest - end) > 0.0 {
-            end
-        } else if tangent.dot(lowest - start) < 0.0 {
-            start
-        } else {
-            return normal;
-        };
-        let line = nearest_on_segment(edge, corner) - corner;
-        let (direction, length) = line.direction_and_length();
-        let usable = normal.dot(line) > 0.0 && length > noise && length < f32::INFINITY;
-        if usable { direction } else { normal }
     }
 }
 
-/// Fills up with the first.
-fn pad(vectors: &[Vec2]) -> [Vec2; MAX_POINTS] {
-    core::array::from_fn(|i| if i < vectors.len() { vectors[i] } else { vectors[0] })
-}
+impl<L: Lanes> LaneOutline<L> {
+    /// The first outlines of a list, seen from the parent of the frame that they are in.
+    #[inline(always)]
+    fn gather(token: L::Token, outlines: &[Outline<'_>], frame: Frame<L>) -> Self {
+        let outlines = &outlines[..L::WIDTH];
+        let mut count = 0;
+        for outline in outlines {
+            let own = outline.polygon.vertices().len();
+            count = if own > count { own } else { count };
+        }
+        let ([a, b, c, d], [e, f, g, h]) = four(token, outlines, 0, frame);
+        let corners = [a, b, c, d, a, b, c, d, a];
+        let mut outline = Self { corners, normals: [e, f, g, h, e, f, g, h], count };
+        if count > 4 {
+            let (corners, normals) = four(token, outlines, 4, frame);
+            outline.corners[4..8].copy_from_slice(&corners);
+            outline.normals[4..].copy_from_slice(&normals);
+        }
+        outline
+    }
 
-fn nearest_on_segment([a, b]: [Vec2; 2], point: Vec2) -> Vec2 {
-    let edge = b - a;
-    let (along, length_sq) = (edge.dot(point - a), edge.length_sq());
-    if along >= length_sq && length_sq > 0.0 {
-        b
-    } else if along > 0.0 {
-        a + edge * (along / length_sq)
-    } else {
-        a
+    #[inline(always)]
+    fn count(&self) -> usize {
+        if self.count < MAX_VERTICES { self.count } else { MAX_VERTICES }
+    }
+
+    #[inline(always)]
+    fn face(&self, face: usize, number: L) -> Face<L> {
+        Face {
+            number,
+            normal: self.normals[face],
+            start: self.corners[face],
+            end: self.corners[face + 1],
+        }
+    }
+
+    /// The face that separates this outline from `other` most, and by how much. A later face replaces an earlier one
+    /// only if it does so by the bias more.
+    #[inline(always)]
+    fn best_face(&self, token: L::Token, other: &Self, bias: L) -> (Face<L>, L) {
+        let (mut number, one) = (L::splat(token, 0.0), L::splat(token, 1.0));
+        let (mut best, mut most) = (self.face(0, number), self.separation(0, other));
+        for i in 1..self.count() {
+            number = number + one;
+            let separation = self.separation(i, other);
+            let better = separation.gt(most + bias);
+            best = Face::select(better, &self.face(i, number), &best);
+            most = L::select(better, separation, most);
+        }
+        (best, most)
+    }
+
+    /// How far a face separates this outline from `other`.
+    #[inline(always)]
+    fn separation(&self, face: usize, other: &Self) -> L {
+        let normal = self.normals[face];
+        let mut lowest = dot(normal, other.corners[0]);
+        for i in 1..other.count() {
+            lowest = dot(normal, other.corners[i]).min(lowest);
+        }
+        lowest - dot(normal, self.corners[face])
+    }
+
+    /// The face most opposed to a direction; the first of equal ones. Lanes where `flipped` is set take `self`, the
+    /// others `other`.
+    #[inline(always)]
+    fn facing(
+        &self,
+        token: L::Token,
+        other: &Self,
+        flipped: L::Mask,
+        direction: [L; 2],
+    ) -> Face<L> {
+        let (mut number, one) = (L::splat(token, 0.0), L::splat(token, 1.0));
+        let mut least = Face::select(flipped, &self.face(0, number), &other.face(0, number));
+        let mut slope = dot(direction, least.normal);
+        let (own, others) = (self.count(), other.count());
+        for i in 1..if own > others { own } else { others } {
+            number = number + one;
+            let face = Face::select(flipped, &self.face(i, number), &other.face(i, number));
+            let steeper = dot(direction, face.normal);
+            let better = steeper.lt(slope);
+            least = Face::select(better, &face, &least);
+            slope = L::select(better, steeper, slope);
+        }
+        least
     }
 }
 
-struct Limits {
-    max_separation: f32,
-    /// Narrower than this is one point.
-    width: f32,
+/// Where an outline is: place and rotation; `None` where it is already.
+type Frame<L> = Option<[[L; 2]; 2]>;
+
+/// Four corners and four normals, from a first one on.
+#[inline(always)]
+fn four<L: Lanes>(
+    token: L::Token,
+    outlines: &[Outline<'_>],
+    first: usize,
+    frame: Frame<L>,
+) -> ([[L; 2]; 4], [[L; 2]; 4]) {
+    const LANES: [u32; BLOCK] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+    let mut corners = in_twos(L::gather(token, Four::<false> { outlines, first }, &LANES));
+    let mut normals = in_twos(L::gather(token, Four::<true> { outlines, first }, &LANES));
+    if let Some([place, [c, s]]) = frame {
+        for [x, y] in &mut corners {
+            (*x, *y) = ((c * *x - s * *y) + place[0], (s * *x + c * *y) + place[1]);
+        }
+        for [x, y] in &mut normals {
+            (*x, *y) = (c * *x - s * *y, s * *x + c * *y);
+        }
+    }
+    (corners, normals)
+}
+
+#[inline(always)]
+fn in_twos<L: Lanes>([a, b, c, d, e, f, g, h]: [L; 8]) -> [[L; 2]; 4] {
+    [[a, b], [c, d], [e, f], [g, h]]
+}
+
+#[inline(always)]
+fn either<L: Lanes>(mask: L::Mask, yes: [L; 2], no: [L; 2]) -> [L; 2] {
+    [L::select(mask, yes[0], no[0]), L::select(mask, yes[1], no[1])]
+}
+
+#[inline(always)]
+fn dot<L: Lanes>(a: [L; 2], b: [L; 2]) -> L {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+#[inline(always)]
+fn sub<L: Lanes>(a: [L; 2], b: [L; 2]) -> [L; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+/// Pairs of shapes with a general polygon.
+#[inline(always)]
+pub(crate) fn general<L: Lanes>(
+    token: L::Token,
+    pair: &LanePair<L>,
+    [a, b]: [&[Outline<'_>]; 2],
+    max_separation: L,
+) -> LaneManifold<L> {
+    let scale = Scale::of(token, pair);
+    let a = &LaneOutline::gather(token, a, None);
+    let b = &LaneOutline::gather(token, b, Some([pair.p, pair.q]));
+    let (face_a, separation_a) = a.best_face(token, b, scale.bias);
+    let (face_b, separation_b) = b.best_face(token, a, scale.bias);
+    let flipped = separation_b.gt(separation_a + scale.bias);
+    let reference = Face::select(flipped, &face_b, &face_a);
+    let other = a.facing(token, b, flipped, reference.normal);
+    let out = nearest_direction(token, &reference, &other, scale.noise);
+    let normal = either(flipped, [-out[0], -out[1]], out);
+    let face_a = Face::select(flipped, &other, &reference);
+    let face_b = Face::select(flipped, &reference, &other);
+    overlap(token, pair, [&face_a, &face_b], normal, (max_separation, &scale))
+}
+
+/// The normal of `face`, unless the cores are apart and the lowest end of the other's edge lies
+/// beside it; then the direction from the face's end to the nearest point of that edge.
+#[inline(always)]
+fn nearest_direction<L: Lanes>(
+    token: L::Token,
+    face: &Face<L>,
+    other: &Face<L>,
+    noise: L,
+) -> [L; 2] {
+    let (zero, one) = (L::splat(token, 0.0), L::splat(token, 1.0));
+    let tangent = [-face.normal[1], face.normal[0]];
+    let edge = sub(other.end, other.start);
+    // The lower end, along the tangent, and the end of the face on its side.
+    let falls = dot(face.normal, edge).lt(zero);
+    let lowest = dot(tangent, either(falls, other.end, other.start));
+    let after = lowest.gt(dot(tangent, face.end));
+    let beside = L::or(after, lowest.lt(dot(tangent, face.start)));
+    let corner = either(after, face.end, face.start);
+
+    let length_sq = dot(edge, edge);
+    let along = dot(edge, sub(corner, other.start));
+    let part = along.clamp(zero, length_sq) / L::select(length_sq.gt(zero), length_sq, one);
+    let line = sub([other.start[0] + edge[0] * part, other.start[1] + edge[1] * part], corner);
+    let length = dot(line, line).sqrt();
+    let usable = L::and(length.gt(noise), length.lt(L::splat(token, f32::INFINITY)));
+    let usable = L::and(L::and(beside, dot(face.normal, line).gt(zero)), usable);
+    let inv_length = one / L::select(usable, length, one);
+    either(usable, [line[0] * inv_length, line[1] * inv_length], face.normal)
 }
 
 /// Both edges seen along the normal: the ends of the overlap of their shadows are the points.
-fn overlap(
-    a: &Outline,
-    face_a: usize,
-    b: &Outline,
-    face_b: usize,
-    normal: Vec2,
-    limits: Limits,
-) -> Manifold {
-    let across = normal.perp();
+#[inline(always)]
+fn overlap<L: Lanes>(
+    token: L::Token,
+    pair: &LanePair<L>,
+    [a, b]: [&Face<L>; 2],
+    normal: [L; 2],
+    (max_separation, scale): (L, &Scale<L>),
+) -> LaneManifold<L> {
+    let half = L::splat(token, 0.5);
+    let across = [-normal[1], normal[0]];
     // Anticlockwise along A's face is up across the normal; along B's it is down.
-    let lower = Profile::of(a.edge(face_a), normal, across);
-    let [end, start] = b.edge(face_b);
-    let upper = Profile::of([-end, -start], normal, across).mirrored();
-
-    let mut low = if lower.low > upper.low { lower.low } else { upper.low };
-    let mut high = if lower.high < upper.high { lower.high } else { upper.high };
-    if high < low {
-        low = 0.5 * (low + high);
-        high = low;
-    }
-    let ends = if high - low > limits.width { [Some(low), Some(high)] } else { [Some(low), None] };
-    let mut manifold = Manifold::EMPTY;
+    let below = Profile::of(token, [a.start, a.end], normal, across, L::splat(token, 1.0));
+    let above = Profile::of(token, [b.end, b.start], normal, across, L::splat(token, -1.0));
+    let (low, high) = (below.low.max(above.low), below.high.min(above.high));
+    let (middle, crossed) = (half * (low + high), high.lt(low));
+    let ends = [L::select(crossed, middle, low), L::select(crossed, middle, high)];
+    let wide = (ends[1] - ends[0]).gt(scale.width);
+    let lift = pair.a[2] - pair.b[2];
+    let mut points = [[L::splat(token, 0.0); 2]; 2];
+    let mut separation = [L::splat(token, ABSENT); 2];
     for (i, at) in ends.into_iter().enumerate() {
-        let Some(at) = at else { continue };
-        let (below, above) = (lower.height(at), upper.height(at));
-        let separation = (above - below) - (a.radius + b.radius);
-        if separation <= limits.max_separation {
-            let height = 0.5 * ((above + below) + (a.radius - b.radius));
-            let id = (face_a * 2 * MAX_POINTS + face_b * 2 + i) as u16;
-            manifold.normal = normal;
-            manifold.push(ManifoldPoint { point: normal * height + across * at, separation, id });
-        }
+        let (below, above) = (below.height(at), above.height(at));
+        let gap = (above - below) - scale.radius;
+        let height = half * ((above + below) + lift);
+        let near = gap.le(max_separation);
+        let there = if i == 0 { near } else { L::and(near, wide) };
+        let point = [normal[0] * height + across[0] * at, normal[1] * height + across[1] * at];
+        points[i] = either(there, point, points[i]);
+        separation[i] = L::select(there, gap, separation[i]);
     }
-    manifold
+    let faces = L::splat(token, MAX_VERTICES as f32) * a.number + b.number;
+    let first = L::splat(token, 2.0) * faces;
+    LaneManifold { normal, points, separation, id: [first, first + L::splat(token, 1.0)] }
 }
 
 /// The height of an edge along the normal, over the line across it.
-struct Profile {
-    low: f32,
-    high: f32,
-    start: f32,
-    slope: f32,
+struct Profile<L> {
+    low: L,
+    high: L,
+    start: L,
+    slope: L,
 }
 
-impl Profile {
-    /// Of an edge whose second end is the one further across.
-    fn of([start, end]: [Vec2; 2], normal: Vec2, across: Vec2) -> Self {
-        let edge = end - start;
-        let (width, rise) = (across.dot(edge), normal.dot(edge));
-        let (low, height) = (across.dot(start), normal.dot(start));
-        if width > MIN_SINE * edge.length() {
-            return Self { low, high: low + width, start: height, slope: rise / width };
+impl<L: Lanes> Profile<L> {
+    /// Of an edge whose second end is the one further across. Of one that is too steep, or without length, its end
+    /// that is furthest out counts alone; `out` is 1 or -1, along the normal.
+    #[inline(always)]
+    fn of(
+        token: L::Token,
+        [start, end]: [[L; 2]; 2],
+        normal: [L; 2],
+        across: [L; 2],
+        out: L,
+    ) -> Self {
+        let (zero, one) = (L::splat(token, 0.0), L::splat(token, 1.0));
+        let edge = sub(end, start);
+        let (width, rise) = (dot(across, edge), dot(normal, edge));
+        let flat = width.gt(L::splat(token, MIN_SINE) * dot(edge, edge).sqrt());
+        let second = L::and((rise * out).gt(zero), L::not(flat));
+        let (low, height) = (dot(across, start), dot(normal, start));
+        let low = low + L::select(second, width, zero);
+        Self {
+            low,
+            high: low + L::select(flat, width, zero),
+            start: height + L::select(second, rise, zero),
+            slope: L::select(flat, rise, zero) / L::select(flat, width, one),
         }
-        // Too steep, or without length: its highest end alone.
-        let (low, height) = if rise > 0.0 { (low + width, height + rise) } else { (low, height) };
-        Self { low, high: low, start: height, slope: 0.0 }
     }
 
-    /// The profile of the edge turned about the origin by half a turn.
-    fn mirrored(self) -> Self {
-        let start = -(self.start + (self.high - self.low) * self.slope);
-        Self { low: -self.high, high: -self.low, start, slope: self.slope }
-    }
-
-    fn height(&self, at: f32) -> f32 {
+    #[inline(always)]
+    fn height(&self, at: L) -> L {
         self.start + (at - self.low) * self.slope
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{Random, oracle_of_points};
+    use super::super::tests::{Random, oracle};
+    use super::super::{Manifold, collide};
     use super::*;
-    use crate::math::{Rot, sin_cos};
+    use crate::math::{Rot, Transform, sin_cos};
 
-    /// Corners of a random convex polygon: points on an ellipse, some of them close together.
-    fn random_outline(random: &mut Random, frame: Transform) -> Outline {
+    /// A random convex polygon: corners on an ellipse anywhere, some of them close together.
+    fn random_polygon(random: &mut Random) -> Shape {
         let count = 3 + (random.next() * 5.99) as usize;
         let (x, y) = (random.range(0.2, 1.5), random.range(0.2, 1.5));
-        let mut angles: Vec<f32> = (0..count)
-            .map(|i| (i as f32 + random.range(0.0, 0.9)) * core::f32::consts::TAU / count as f32)
-            .collect();
-        angles.dedup();
-        let points: Vec<Vec2> = angles
-            .iter()
-            .map(|&angle| {
-                let (s, c) = sin_cos(angle);
-                Vec2::new(x * c, y * s)
-            })
-            .collect();
-        let normals: Vec<Vec2> = (0..count)
-            .map(|i| -(points[(i + 1) % count] - points[i]).perp().normalized())
-            .collect();
-        let radius = if random.next() < 0.5 { 0.0 } else { random.range(0.01, 0.5) };
-        Outline::new(&pad(&points), &pad(&normals), points.len(), radius, frame)
-    }
-
-    fn oracle(a: &Outline, b: &Outline) -> f64 {
-        let points = |outline: &Outline| {
-            let points = (0..outline.count).map(|i| outline.points.at(i));
-            points.map(|p| [p.x.into(), p.y.into()]).collect::<Vec<_>>()
+        let middle = random.vec(2.0);
+        let mut corner = |i: usize| {
+            let angle = (i as f32 + random.range(0.0, 0.9)) / count as f32;
+            let (s, c) = sin_cos(angle * core::f32::consts::TAU);
+            middle + Vec2::new(x * c, y * s)
         };
-        oracle_of_points(&points(a), &points(b)) - f64::from(a.radius) - f64::from(b.radius)
+        let corners: Vec<Vec2> = (0..count).map(&mut corner).collect();
+        let radius = if random.next() < 0.5 { 0.0 } else { random.range(0.01, 0.5) };
+        Polygon::hull(&corners).unwrap().rounded(radius).unwrap().into()
     }
 
     #[test]
     fn polygons_agree_with_the_oracle() {
         let mut random = Random(4242);
         for _ in 0..20_000 {
-            let a = random_outline(&mut random, Transform::IDENTITY);
-            let frame = Transform::new(random.vec(3.0), random.rot());
-            let b = if random.next() < 0.7 {
-                random_outline(&mut random, frame)
-            } else {
-                let half = random.range(0.0, 1.0);
-                let half_extents = Vec2::new(if half < 0.3 { 0.0 } else { half }, 0.0);
-                let rounded = RoundedBox { half_extents, radius: 0.2, ..RoundedBox::default() };
-                Outline::of_box(&rounded, frame)
+            let a = random_polygon(&mut random);
+            let b_in_a = Transform::new(random.vec(3.0), random.rot());
+            let half = random.range(0.1, 1.0) * Vec2::X;
+            let b = match (random.next() * 10.0) as u32 {
+                0 => Shape::Circle { radius: 0.2 },
+                1 => Shape::Capsule { a: -half, b: half, radius: 0.2 },
+                2 => Shape::rect(half.x, 0.3).unwrap(),
+                _ => random_polygon(&mut random),
             };
-            for (a, b) in [(&a, &b), (&b, &a)] {
-                let manifold = collide_outlines(a, b, 100.0);
-                let expected = oracle(a, b);
+            for (a, b, b_in_a) in [(&a, &b, b_in_a), (&b, &a, b_in_a.inverse())] {
+                let manifold = collide(a, b, b_in_a, 100.0);
+                let expected = oracle(a, b, b_in_a);
                 let found = f64::from(manifold.deepest().unwrap().separation);
                 assert!((found - expected).abs() < 3.0e-3, "{found} is not {expected}");
                 assert!((manifold.normal.length() - 1.0).abs() < 1e-5);
@@ -361,25 +405,23 @@ mod tests {
     #[test]
     fn a_triangle_standing_on_a_box_has_two_points() {
         let corners = [Vec2::new(-0.5, 0.0), Vec2::new(0.5, 0.0), Vec2::new(0.0, 1.0)];
-        let side = Vec2::new(2.0, 1.0).normalized();
-        let normals = [-Vec2::Y, side, Vec2::new(-side.x, side.y)];
+        let triangle = Polygon::convex(&corners).unwrap().into();
         let frame = Transform::new(Vec2::new(0.25, 1.0), Rot::IDENTITY);
-        let triangle = Outline::new(&pad(&corners), &pad(&normals), 3, 0.0, frame);
-        let half_extents = Vec2::new(10.0, 1.0);
-        let floor = RoundedBox { half_extents, ..RoundedBox::default() };
-        let floor = Outline::of_box(&floor, Transform::IDENTITY);
-        let manifold = collide_outlines(&floor, &triangle, 0.02);
+        let floor = Shape::rect(10.0, 1.0).unwrap();
+        let manifold = collide(&floor, &triangle, frame, 0.02);
         assert_eq!(manifold.normal, Vec2::Y);
-        let points: Vec<Vec2> = manifold.points().iter().map(|point| point.point).collect();
-        assert_eq!(points, [Vec2::new(0.75, 1.0), Vec2::new(-0.25, 1.0)]);
+        let mut across: Vec<f32> = manifold.points().iter().map(|point| point.point.x).collect();
+        across.sort_by(f32::total_cmp);
+        assert_eq!(across, [-0.25, 0.75]);
+        assert!(manifold.points().iter().all(|point| (point.point.y - 1.0).abs() < 1e-6));
     }
 
     #[test]
     fn input_that_is_not_finite_gives_no_points() {
-        let shape = Shape::Circle { radius: 1.0 };
+        let shape = Polygon::regular(5, 1.0).unwrap().into();
         for bad in [f32::NAN, f32::INFINITY] {
             let frame = Transform::new(Vec2::new(bad, 0.0), Rot::IDENTITY);
-            assert_eq!(collide_general(&shape, &shape, frame, 1.0), Manifold::EMPTY);
+            assert_eq!(collide(&shape, &shape, frame, 1.0), Manifold::EMPTY);
         }
     }
 }

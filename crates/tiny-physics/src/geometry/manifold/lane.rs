@@ -1,6 +1,6 @@
 //! Input and output of the lane kernels.
 
-use crate::simd::Lanes;
+use crate::simd::{BLOCK, Lanes};
 
 /// Separation of a point that is not there.
 pub(crate) const ABSENT: f32 = f32::MAX;
@@ -28,11 +28,30 @@ pub(crate) struct LaneManifold<L> {
     /// Metres, negative is overlap; [`ABSENT`] for a point that is not there. Either of the two can
     /// be the missing one: a point keeps its place as long as its features face each other.
     pub separation: [L; 2],
-    /// Feature ids, 0 to 31; that of the second point is that of the first plus one.
+    /// Feature ids, 0 to 127; that of the second point is that of the first plus one.
     pub id: [L; 2],
 }
 
 impl<L: Lanes> LaneManifold<L> {
+    /// Into ten rows: normal, points, separations, ids.
+    #[inline(always)]
+    pub fn store(&self, rows: &mut [[f32; BLOCK]]) {
+        for k in 0..2 {
+            self.normal[k].store(&mut rows[k]);
+            self.points[0][k].store(&mut rows[2 + k]);
+            self.points[1][k].store(&mut rows[4 + k]);
+            self.separation[k].store(&mut rows[6 + k]);
+            self.id[k].store(&mut rows[8 + k]);
+        }
+    }
+
+    /// From ten rows.
+    #[inline(always)]
+    pub fn load(token: L::Token, rows: &[[f32; BLOCK]]) -> Self {
+        let load = |k: usize| [L::load(token, &rows[k]), L::load(token, &rows[k + 1])];
+        Self { normal: load(0), points: [load(2), load(4)], separation: load(6), id: load(8) }
+    }
+
     /// A manifold of one point in the first place, if it is near enough.
     #[inline(always)]
     pub fn single(

@@ -7,8 +7,8 @@
 //! Every shape but the general polygon is a *rounded box* ([`RoundedBox`]): a core box of half
 //! extents `(hx, hy)` and a radius around it. A circle is `(0, 0)`, a capsule `(h, 0)`. The kernels
 //! ([`box_box`] and its relatives) are written once over lanes and branch-free; the public
-//! [`collide`] is their one-lane instance. Pairs with a general polygon take the scalar path in
-//! `general`, which is the same method over a list of vertices.
+//! [`collide`] is their one-lane instance. Pairs with a general polygon have a kernel of their own
+//! ([`general`]), which is the method of the boxes' over lists of corners.
 //!
 //! # Method
 //!
@@ -45,6 +45,6 @@ pub(crate) use class::{PairClass, RoundedBox, ShapeClass};
 pub use collide::collide;
 pub use contact::{Contact, contact};
 pub(crate) use face::{collide_face, face_of, nearest_vertex, point_gap, support_height};
-pub(crate) use general::collide_general;
+pub(crate) use general::{Outline, general};
 pub(crate) use lane::{LaneManifold, LanePair};
 pub use points::{Manifold, ManifoldPoint};

@@ -1,6 +1,6 @@
 //! Every pair of shapes against an oracle in 64 bits, and the properties that a solver relies on.
 
-use super::general::collide_general;
+use super::collide::collide_as;
 use super::*;
 use crate::geometry::{Polygon, Shape};
 use crate::math::{Rot, Transform, Vec2};
@@ -64,14 +64,14 @@ fn core(shape: &Shape, frame: Transform) -> (Vec<Point>, f64) {
 }
 
 /// Separation of two shapes: the distance, or minus the least shift that parts them.
-fn oracle(a: &Shape, b: &Shape, b_in_a: Transform) -> f64 {
+pub(super) fn oracle(a: &Shape, b: &Shape, b_in_a: Transform) -> f64 {
     let (a, radius_a) = core(a, Transform::IDENTITY);
     let (b, radius_b) = core(b, b_in_a);
     oracle_of_points(&a, &b) - radius_a - radius_b
 }
 
 /// The same of two convex hulls: separating axes while they overlap, else all distances.
-pub(super) fn oracle_of_points(a: &[Point], b: &[Point]) -> f64 {
+fn oracle_of_points(a: &[Point], b: &[Point]) -> f64 {
     let mut axes = Vec::new();
     for points in [a, b] {
         for i in 0..points.len() {
@@ -191,7 +191,7 @@ fn moving_along_the_normal_makes_shapes_just_touch() {
 #[test]
 fn the_general_path_agrees_with_the_oracle_too() {
     for_random_pairs(300, |a, b, b_in_a, _| {
-        let manifold = collide_general(a, b, b_in_a, FAR);
+        let manifold = collide_as(PairClass::General, [a, b], b_in_a, FAR);
         let (found, expected) = (separation(&manifold), oracle(a, b, b_in_a));
         assert!(
             (found - expected).abs() < TOLERANCE,
@@ -340,6 +340,11 @@ fn a_corner_direction_is_continuous_with_the_face_direction() {
 /// Pairs by how many half extents their shapes have: two of a box, one of a capsule, none of a circle.
 const PAIRS: [[usize; 2]; 6] = [[2, 2], [2, 1], [2, 0], [1, 1], [1, 0], [0, 0]];
 
+/// Polygons of 3 to 8 corners, in turn.
+fn polygons() -> [Shape; BLOCK + 1] {
+    core::array::from_fn(|i| Polygon::regular(3 + i * 5 % 6, 0.5 + 0.1 * i as f32).unwrap().into())
+}
+
 /// Sixteen pairs in structure-of-arrays form: ten rows of numbers.
 type Rows = [[f32; BLOCK]; 10];
 
@@ -347,6 +352,8 @@ type Rows = [[f32; BLOCK]; 10];
 struct CollideBlock<'a> {
     class: PairClass,
     rows: &'a Rows,
+    /// For pairs of general polygons: of shapes A, and from the second one on of shapes B.
+    polygons: &'a [Shape; BLOCK + 1],
     max_separation: f32,
 }
 
@@ -356,6 +363,11 @@ impl LaneKernel for CollideBlock<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, token: L::Token) -> Self::Output {
         let mut out = [[0.0; BLOCK]; 10];
+        let outlines: [_; BLOCK + 1] = core::array::from_fn(|i| {
+            let class = if i % 3 == 0 { ShapeClass::Box } else { ShapeClass::General };
+            let middle = Vec2::new(0.1 * i as f32, -0.2);
+            Outline::of(&self.polygons[i], class, middle, Vec2::new(0.7, 0.0))
+        });
         for i in (0..BLOCK).step_by(L::WIDTH) {
             let r = self.rows;
             let pair = LanePair {
@@ -372,7 +384,17 @@ impl LaneKernel for CollideBlock<'_> {
                     L::load(token, &r[9][i..]),
                 ],
             };
-            let m = self.class.collide(token, &pair, L::splat(token, self.max_separation));
+            let most = L::splat(token, self.max_separation);
+            let m = match self.class {
+                PairClass::BoxBox => box_box(token, &pair, most),
+                PairClass::BoxCircle => box_circle(token, &pair, most),
+                PairClass::CapsuleCircle => capsule_circle(token, &pair, most),
+                PairClass::CircleCircle => circle_circle(token, &pair, most),
+                PairClass::General => {
+                    let outlines = [&outlines[i..], &outlines[i + 1..]];
+                    general(token, &pair, outlines, most)
+                }
+            };
             let [[ax, ay], [bx, by]] = m.points;
             let values = [
                 m.normal[0],
@@ -429,7 +451,7 @@ fn for_random_blocks(rounds: u32, mut check: impl FnMut(PairClass, &Rows)) {
         for extents in PAIRS {
             let [a, b] =
                 extents.map(|n| [ShapeClass::Circle, ShapeClass::Capsule, ShapeClass::Box][n]);
-            let class = PairClass::of(a, b);
+            let class = if round % 3 == 0 { PairClass::General } else { PairClass::of(a, b) };
             let mut rows = [[0.0; BLOCK]; 10];
             for lane in 0..BLOCK {
                 let hostile = round % 2 == 1;
@@ -452,7 +474,8 @@ fn for_random_blocks(rounds: u32, mut check: impl FnMut(PairClass, &Rows)) {
 #[test]
 fn every_level_gives_the_same_bits() {
     for_random_blocks(200, |class, rows| {
-        let kernel = || CollideBlock { class, rows, max_separation: 0.3 };
+        let polygons = &polygons();
+        let kernel = || CollideBlock { class, rows, polygons, max_separation: 0.3 };
         let expected = kernel().run::<f32>(());
         for level in SimdLevel::available() {
             let found = dispatch(level, kernel());
@@ -467,7 +490,8 @@ fn every_level_gives_the_same_bits() {
 #[test]
 fn hostile_input_gives_a_unit_normal_and_no_nan() {
     for_random_blocks(2000, |class, rows| {
-        let out = CollideBlock { class, rows, max_separation: 0.3 }.run::<f32>(());
+        let polygons = &polygons();
+        let out = CollideBlock { class, rows, polygons, max_separation: 0.3 }.run::<f32>(());
         for lane in 0..BLOCK {
             let normal = Vec2::new(out[0][lane], out[1][lane]);
             let input: Vec<f32> = rows.iter().map(|row| row[lane]).collect();

@@ -7,7 +7,7 @@ use crate::dynamics::{
 use crate::footprint::footprint;
 use crate::geometry::manifold::{self, Manifold};
 use crate::geometry::{LINEAR_SLOP, Sweep, ToiState, time_of_impact_within};
-use crate::math::{Pose, Transform, Vec2};
+use crate::math::{Rot, Transform, Vec2};
 use crate::simd::BLOCK;
 use crate::stages::ahead::{Found, HARMLESS, Ways};
 use crate::stages::boxes::{self, Way};
@@ -396,6 +396,8 @@ struct Meeting<'a> {
     way: Vec2,
     /// Of the shapes.
     sweeps: [Sweep; 2],
+    /// How far they reach from the centres of mass of their bodies, metres.
+    extents: [f32; 2],
 }
 
 impl Look<'_> {
@@ -448,12 +450,25 @@ impl Look<'_> {
 
     fn meeting(&self, contact: &Contact) -> Meeting<'_> {
         let Scene { bodies, shapes, .. } = self.scene;
-        let record = |shape: u32| &shapes.records[shape as usize];
-        let shapes = [record(contact.shape_a), record(contact.shape_b)];
-        let courses =
-            [contact.body_a, contact.body_b].map(|body| self.known.course(self.scene, body));
-        let poses = [contact.body_a, contact.body_b].map(|body| bodies.poses[body as usize]);
-        Meeting::new(shapes, courses, poses)
+        let [shape_a, shape_b] = [contact.shape_a, contact.shape_b];
+        let shapes_of = [shape_a, shape_b].map(|shape| &shapes.records[shape as usize]);
+        let both = [contact.body_a, contact.body_b];
+        let courses = both.map(|body| self.known.course(self.scene, body));
+        let [pose_a, pose_b] = both.map(|body| bodies.poses[body as usize]);
+        let between = pose_b.p.relative_to(pose_a.p);
+        let way = courses[1].motion - courses[0].motion;
+        let sweep = |k: usize, q: Rot, place: Vec2, way: Vec2| {
+            let frame = Transform::new(place, q);
+            Sweep::new(frame, Vec2::ZERO, way, courses[k].turn).child(shapes_of[k].central)
+        };
+        Meeting {
+            shapes: shapes_of,
+            courses,
+            between,
+            way,
+            sweeps: [sweep(0, pose_a.q, Vec2::ZERO, Vec2::ZERO), sweep(1, pose_b.q, between, way)],
+            extents: [shapes.reach(shape_a), shapes.reach(shape_b)],
+        }
     }
 
     /// The manifold at a fraction of the step, without what only seams make; nothing where that is all.
@@ -476,18 +491,7 @@ impl Look<'_> {
     }
 }
 
-impl<'a> Meeting<'a> {
-    fn new(shapes: [&'a ShapeRecord; 2], courses: [Course; 2], poses: [Pose; 2]) -> Self {
-        let between = poses[1].p.relative_to(poses[0].p);
-        let way = courses[1].motion - courses[0].motion;
-        let sweep = |k: usize, place: Vec2, way: Vec2| {
-            let frame = Transform::new(place, poses[k].q);
-            Sweep::new(frame, Vec2::ZERO, way, courses[k].turn).child(shapes[k].central)
-        };
-        let sweeps = [sweep(0, Vec2::ZERO, Vec2::ZERO), sweep(1, between, way)];
-        Self { shapes, courses, between, way, sweeps }
-    }
-
+impl Meeting<'_> {
     /// In the frame of shape A.
     fn manifold(&self, fraction: f32, reach: f32) -> Manifold {
         let [frame_a, frame_b] = self.sweeps.map(|sweep| sweep.at(fraction));
@@ -497,13 +501,13 @@ impl<'a> Meeting<'a> {
 
     /// How far a point can come nearer in the step, metres.
     fn longest_way(&self) -> f32 {
-        let turned = |k: usize| self.courses[k].turn.abs() * extent(self.shapes[k]);
+        let turned = |k: usize| self.courses[k].turn.abs() * self.extents[k];
         self.way.length() + turned(0) + turned(1)
     }
 
     /// Do the disks around the shapes meet on their ways?
     fn comes_near(&self) -> bool {
-        let room = extent(self.shapes[0]) + extent(self.shapes[1]);
+        let room = self.extents[0] + self.extents[1];
         let (way_sq, on) = (self.way.length_sq(), -self.between.dot(self.way));
         let nearest = if on <= 0.0 || way_sq == 0.0 {
             self.between
@@ -540,12 +544,6 @@ impl<'a> Meeting<'a> {
         }
         prediction
     }
-}
-
-/// How far a shape reaches from the centre of mass of its body, metres.
-fn extent(record: &ShapeRecord) -> f32 {
-    let core = record.shape.core();
-    record.central.p.length() + core.reach(Vec2::ZERO) + core.radius
 }
 
 impl Prediction {
