@@ -411,24 +411,25 @@ impl Graph {
 
     /// Has the impulses of a contact summed up in this step.
     pub(crate) fn watch(&mut self, contact: &Contact) {
-        if let Some((bucket, slot)) = self.solved(contact) {
-            bucket.heads[slot / BLOCK].flags |= flags::HIT;
+        if let Some((bucket, slot)) = self.solved_at(contact) {
+            self.buckets.list_mut()[bucket].heads[slot / BLOCK].flags |= flags::HIT;
         }
     }
 
     /// Did a contact that was watched push in this step?
-    pub(crate) fn has_pushed(&mut self, contact: &Contact) -> bool {
-        self.solved(contact).is_some_and(|(bucket, slot)| {
-            let (surface, lane) = (&bucket.surfaces[slot / BLOCK], slot % BLOCK);
+    pub(crate) fn has_pushed(&self, contact: &Contact) -> bool {
+        self.solved_at(contact).is_some_and(|(bucket, slot)| {
+            let surface = &self.buckets.list()[bucket].surfaces[slot / BLOCK];
+            let lane = slot % BLOCK;
             surface.total_1[lane] > 0.0 || surface.total_2[lane] > 0.0
         })
     }
 
-    /// Where a contact is that the solver visits.
-    fn solved(&mut self, contact: &Contact) -> Option<(&mut Bucket, usize)> {
+    /// Where a contact is that the solver visits: bucket in the list, and slot.
+    pub(crate) fn solved_at(&self, contact: &Contact) -> Option<(usize, usize)> {
         match contact.place {
             Place::Graph { colour, slot } if colour as usize != IDLE => {
-                Some((self.bucket_mut(colour.into(), contact.class), slot as usize))
+                Some((self.buckets.position(key(colour.into(), contact.class)), slot as usize))
             }
             _ => None,
         }

@@ -17,14 +17,12 @@
 //!
 //! These contacts are taken out of their lanes for the length of the substeps, and put back with their impulses.
 
-use super::contact_solver::{Parameters, Pass};
+use super::contact_solver::{Constants, Parameters, Pass, normal_impulse};
 use super::islands::Stores;
 use super::joint_solver::trees;
 use super::passivity::may_drive;
-use crate::dynamics::{
-    Bodies, ConstraintBlock, JointTree, Joints, NULL, Slot, SurfaceBlock, flags,
-};
-use crate::simd::{BLOCK, Row, SimdLevel};
+use crate::dynamics::{Bodies, Bucket, JointTree, Joints, NULL, Slot, flags};
+use crate::simd::{BLOCK, Lanes, Row, SimdLevel};
 
 /// Numbers that the answers of a tree may have: touched bodies times bodies. Others stay with the lanes.
 const MOST_ANSWERS: usize = 1024;
@@ -36,10 +34,11 @@ const TURNS: usize = 2;
 /// 44 mm/s with friction in its hinges, with 2.5 at 30.
 const HEAVIEST: f32 = 2.5;
 
-type Three = [f32; 3];
+/// Along x, along y, and about the middle.
+type Planar = [f32; 3];
 
 /// An angular impulse, on A and on B.
-const ABOUT: [Three; 2] = [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]];
+const ABOUT: [Planar; 2] = [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]];
 
 /// The answers of a tree to impulses on its touched bodies.
 #[derive(Debug, Default)]
@@ -49,19 +48,32 @@ struct Answers {
     /// Nodes that something touches.
     touched: Vec<u32>,
     /// For each of them, for each body: changes of velocity per impulse along x, y and about the middle.
-    columns: Vec<[Three; 3]>,
+    columns: Vec<[Planar; 3]>,
     /// The limits that held then.
     limits: Vec<i8>,
+}
+
+/// Which answers are of a body's tree, and its place among the nodes and the touched ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct OfTree {
+    answers: u32,
+    node: u32,
+    touched: u32,
+}
+
+/// A contact of a tree, by bucket in the graph's list and slot in it, and which of its bodies is the tree's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Found {
+    at: (usize, usize),
+    side: usize,
+    of_tree: OfTree,
 }
 
 /// One of the two bodies of a contact.
 #[derive(Clone, Copy, Debug)]
 struct Side {
     body: u32,
-    /// Which answers are of its tree, and its place among the nodes and the touched ones; NULL for a body of no tree.
-    answers: u32,
-    node: u32,
-    touched: u32,
+    of_tree: Option<OfTree>,
     /// Later substeps warm start it here.
     jointed: bool,
 }
@@ -86,9 +98,7 @@ struct Point {
 /// A contact with a body of a tree.
 #[derive(Clone, Copy, Debug)]
 struct Touch {
-    /// Bucket in the graph's list, and slot in it.
-    bucket: usize,
-    slot: usize,
+    at: (usize, usize),
     sides: [Side; 2],
     normal: [f32; 2],
     friction: f32,
@@ -102,110 +112,79 @@ struct Touch {
 /// The contacts of trees of a pace. Found anew each step; kept for its memory.
 #[derive(Debug, Default)]
 pub(crate) struct TreeContacts {
-    /// By body: tree and node, sorted.
-    nodes: Vec<(u32, u32, u32)>,
     answers: Vec<Answers>,
     used: usize,
+    found: Vec<Found>,
     touches: Vec<Touch>,
 }
 
 crate::footprint::footprint!(Answers { bodies, touched, columns, limits } none { tree });
-crate::footprint::footprint!(TreeContacts { nodes, touches } each { answers } none { used });
+crate::footprint::footprint!(TreeContacts { found, touches } each { answers } none { used });
 
 impl TreeContacts {
     /// Takes the contacts of trees out of the lanes of a pace.
     pub(crate) fn take(&mut self, pace: usize, stores: &mut Stores<'_>) {
         self.touches.clear();
-        self.list_trees(pace, &stores.joint_graph.forest.trees, stores.joints);
-        if self.nodes.is_empty() {
-            return;
-        }
-        let range = stores.graph.range_of_pace(pace);
-        self.note_touched(stores, range.clone());
-        let Stores { bodies, graph, .. } = stores;
-        for at in range {
-            let bucket = &mut graph.buckets.list_mut()[at];
-            for slot in 0..bucket.contacts.len() {
-                let (a, b) = bucket.bodies(slot);
-                let sides = [self.side(bodies, a), self.side(bodies, b)];
-                if sides.iter().all(|side| side.answers == NULL) {
-                    continue;
-                }
-                let (block, lane) = (slot / BLOCK, slot % BLOCK);
-                let flags = bucket.heads[block].flags;
-                let (constraint, surface) =
-                    (&mut bucket.constraints[block], &bucket.surfaces[block]);
-                let touch = Touch::read((at, slot), sides, (constraint, surface, flags), lane);
-                (constraint.body_a[lane], constraint.body_b[lane]) = (0, 0);
-                self.touches.push(touch);
-            }
-        }
-    }
-
-    fn list_trees(&mut self, pace: usize, trees: &[JointTree], joints: &Joints) {
-        self.nodes.clear();
+        self.found.clear();
         self.used = 0;
-        for (index, tree) in trees.iter().enumerate() {
-            if tree.pace != pace || tree.links.is_empty() || is_driven(tree, joints) {
-                continue;
-            }
-            let at = self.used as u32;
-            if self.used == self.answers.len() {
-                self.answers.push(Answers::default());
-            }
-            let answers = &mut self.answers[self.used];
-            self.used += 1;
-            answers.tree = index as u32;
-            answers.touched.clear();
-            answers.limits.clear();
-            answers.bodies.clear();
-            answers.bodies.extend(tree.nodes[..tree.dynamic].iter().map(|node| node.body));
-            let nodes = answers.bodies.iter().enumerate();
-            self.nodes.extend(nodes.map(|(node, &body)| (body, at, node as u32)));
-        }
-        self.nodes.sort_unstable();
-    }
-
-    fn find(&self, body: u32) -> Option<(u32, u32)> {
-        let at = self.nodes.binary_search_by_key(&body, |node| node.0).ok()?;
-        Some((self.nodes[at].1, self.nodes[at].2))
-    }
-
-    /// Notes which nodes are touched; trees with too many are forgotten.
-    fn note_touched(&mut self, stores: &Stores<'_>, range: core::ops::Range<usize>) {
-        for bucket in &stores.graph.buckets.list()[range] {
-            for slot in 0..bucket.contacts.len() {
-                let (a, b) = bucket.bodies(slot);
-                for (answers, node) in [self.find(a), self.find(b)].into_iter().flatten() {
-                    self.answers[answers as usize].touched.push(node);
-                }
+        for (index, tree) in stores.joint_graph.forest.trees.iter().enumerate() {
+            let here = tree.pace == pace && !tree.links.is_empty();
+            if here
+                && stores.bodies.infos[tree.nodes[0].body as usize].awake
+                && !is_driven(tree, stores.joints)
+            {
+                self.find(index as u32, tree, stores);
             }
         }
-        for answers in &mut self.answers[..self.used] {
-            answers.touched.sort_unstable();
-            answers.touched.dedup();
-            if answers.touched.len() * answers.bodies.len() > MOST_ANSWERS {
-                answers.touched.clear();
+        self.found.sort_unstable();
+        let Stores { bodies, graph, .. } = stores;
+        for sides_of_trees in self.found.chunk_by(|a, b| a.at == b.at) {
+            let at = sides_of_trees[0].at;
+            let bucket = &mut graph.buckets.list_mut()[at.0];
+            let both = bucket.bodies(at.1);
+            let mut sides = [both.0, both.1].map(|body| Side::alone(bodies, body));
+            for found in sides_of_trees {
+                sides[found.side] = Side { of_tree: Some(found.of_tree), ..sides[found.side] };
             }
+            self.touches.push(Touch::take(bucket, at, sides));
         }
     }
 
-    fn side(&self, bodies: &Bodies, body: u32) -> Side {
-        let jointed = bodies.infos[body as usize].first_joint != NULL;
-        let none = Side { body, answers: NULL, node: NULL, touched: NULL, jointed };
-        let Some((answers, node)) = self.find(body) else { return none };
-        match self.answers[answers as usize].touched.binary_search(&node) {
-            Ok(touched) => Side { answers, node, touched: touched as u32, ..none },
-            Err(_) => none,
+    /// Finds what touches a tree. One with too many contacts is left out.
+    fn find(&mut self, index: u32, tree: &JointTree, stores: &Stores<'_>) {
+        let (first, tree_answers) = (self.found.len(), self.used as u32);
+        if self.used == self.answers.len() {
+            self.answers.push(Answers::default());
         }
+        let answers = &mut self.answers[self.used];
+        answers.begin(index, tree);
+        for (node, &body) in answers.bodies.iter().enumerate() {
+            let of_tree = OfTree {
+                answers: tree_answers,
+                node: node as u32,
+                touched: answers.touched.len() as u32,
+            };
+            let before = self.found.len();
+            let first_contact = stores.bodies.infos[body as usize].first_contact;
+            for (contact, side) in stores.contacts.of_body(first_contact) {
+                let contact = &stores.contacts.records[contact as usize];
+                let at = stores.graph.solved_at(contact);
+                self.found.extend(at.map(|at| Found { at, side: side as usize, of_tree }));
+            }
+            if self.found.len() > before {
+                answers.touched.push(node as u32);
+            }
+        }
+        if answers.touched.len() * answers.bodies.len() > MOST_ANSWERS {
+            self.found.truncate(first);
+        }
+        self.used += usize::from(self.found.len() > first);
     }
 
     /// Puts the contacts back into their lanes.
     pub(crate) fn give_back(&self, stores: &mut Stores<'_>) {
         for touch in &self.touches {
-            let bucket = &mut stores.graph.buckets.list_mut()[touch.bucket];
-            let (block, lane) = (touch.slot / BLOCK, touch.slot % BLOCK);
-            touch.write(&mut bucket.constraints[block], &mut bucket.surfaces[block], lane);
+            touch.give_back(&mut stores.graph.buckets.list_mut()[touch.at.0]);
         }
     }
 
@@ -246,6 +225,7 @@ impl TreeContacts {
         if pass == Pass::Solve {
             self.update(level, rows, forest);
         }
+        let constants = Constants::new((), parameters);
         let Self { answers, touches, .. } = self;
         for touch in touches {
             match pass {
@@ -253,13 +233,13 @@ impl TreeContacts {
                 Pass::WarmStartJointed => touch.warm_start(rows, false),
                 Pass::Solve => {
                     for _ in 0..TURNS {
-                        touch.solve::<true>(parameters, answers, rows);
+                        touch.solve::<true>(&constants, answers, rows);
                     }
                 }
                 Pass::Relax | Pass::RelaxLast => {
                     touch.rub(answers, rows);
                     for _ in 0..TURNS {
-                        touch.solve::<false>(parameters, answers, rows);
+                        touch.solve::<false>(&constants, answers, rows);
                     }
                     for point in &mut touch.points {
                         point.load = point.impulse;
@@ -274,12 +254,12 @@ impl TreeContacts {
 }
 
 impl Touch {
-    fn read(
-        (bucket, slot): (usize, usize),
-        sides: [Side; 2],
-        (constraint, surface, flags): (&ConstraintBlock, &SurfaceBlock, u8),
-        lane: usize,
-    ) -> Self {
+    /// Takes a contact out of its lane: the kernels find bodies there that nothing moves.
+    fn take(bucket: &mut Bucket, at: (usize, usize), sides: [Side; 2]) -> Self {
+        let (block, lane) = (at.1 / BLOCK, at.1 % BLOCK);
+        let flags = bucket.heads[block].flags;
+        let (constraint, surface) = (&mut bucket.constraints[block], &bucket.surfaces[block]);
+        (constraint.body_a[lane], constraint.body_b[lane]) = (0, 0);
         let totals = [surface.total_1[lane], surface.total_2[lane]];
         let mut points = [Point::default(); 2];
         for ((point, lanes), total) in points.iter_mut().zip(&constraint.points).zip(totals) {
@@ -299,8 +279,7 @@ impl Touch {
         }
         let asked = |flag: u8, value: f32| if flags & flag != 0 { value } else { 0.0 };
         Self {
-            bucket,
-            slot,
+            at,
             sides,
             normal: [constraint.normal_x[lane], constraint.normal_y[lane]],
             friction: constraint.friction[lane],
@@ -312,7 +291,9 @@ impl Touch {
         }
     }
 
-    fn write(&self, constraint: &mut ConstraintBlock, surface: &mut SurfaceBlock, lane: usize) {
+    fn give_back(&self, bucket: &mut Bucket) {
+        let (block, lane) = (self.at.1 / BLOCK, self.at.1 % BLOCK);
+        let (constraint, surface) = (&mut bucket.constraints[block], &mut bucket.surfaces[block]);
         constraint.body_a[lane] = self.sides[0].body;
         constraint.body_b[lane] = self.sides[1].body;
         for (point, lanes) in self.points.iter().zip(&mut constraint.points) {
@@ -326,7 +307,7 @@ impl Touch {
     }
 
     /// Directions of impulses along the normal, the tangent or about: on A and on B.
-    fn along(direction: [f32; 2], arms: [f32; 2]) -> [Three; 2] {
+    fn along(direction: [f32; 2], arms: [f32; 2]) -> [Planar; 2] {
         let [x, y] = direction;
         [[-x, -y, -arms[0]], [x, y, arms[1]]]
     }
@@ -339,7 +320,7 @@ impl Touch {
     fn weigh(&mut self, answers: &[Answers], rows: &[Row]) {
         let (normal, tangent) = (self.normal, self.tangent());
         let sides = self.sides;
-        let mass = |on: [Three; 2], alone: f32| {
+        let mass = |on: [Planar; 2], alone: f32| {
             let (give, most) = (give(&sides, on, answers, rows), HEAVIEST * alone);
             if give * most > 1.0 { 1.0 / give } else { most }
         };
@@ -368,31 +349,19 @@ impl Touch {
     /// Normal impulses; see the kernels of [`super::contact_solver`].
     fn solve<const BIAS: bool>(
         &mut self,
-        parameters: &Parameters,
+        constants: &Constants<f32>,
         answers: &[Answers],
         rows: &mut [Row],
     ) {
         let Self { sides, normal, points, .. } = self;
         let fixed = sides.iter().any(|side| rows[side.body as usize][Slot::INV_MASS] == 0.0);
-        let soft = if fixed { parameters.static_soft } else { parameters.soft };
+        let soft = if fixed { constants.static_soft } else { constants.soft };
         for point in points.iter_mut().filter(|point| point.there) {
             let on = Self::along(*normal, point.arms);
             let s = point.separation + read(sides, on, rows, Slot::DX);
-            let velocity = read(sides, on, rows, Slot::VX);
-            let (apart, mass, old) = (s > 0.0, point.mass, point.impulse);
-            let impulse = if apart {
-                old - mass * (velocity + s * parameters.inv_h)
-            } else if BIAS {
-                let rigid = velocity < -parameters.fast_approach;
-                let velocity = if rigid { velocity } else { soft.mass_scale * velocity };
-                let decay = soft.impulse_scale * old;
-                let bound = greater(parameters.push_rate * s, -parameters.push_speed);
-                let push = mass * (soft.bias_rate * soft.mass_scale * s);
-                old - mass * velocity - greater(push, mass * bound - decay) - decay
-            } else {
-                old - mass * velocity
-            };
-            point.impulse = greater(impulse, 0.0);
+            let moving = [s, read(sides, on, rows, Slot::VX)];
+            let old = point.impulse;
+            point.impulse = normal_impulse::<f32, BIAS>(constants, soft, moving, point.mass, old);
             push(sides, on, point.impulse - old, answers, rows);
         }
     }
@@ -405,7 +374,7 @@ impl Touch {
             let velocity = read(&self.sides, on, rows, Slot::VX) + self.belt;
             let limit = self.friction * point.load;
             let old = point.rub;
-            point.rub = clamp(old - point.tangent_mass * velocity, limit);
+            point.rub = Lanes::clamp(old - point.tangent_mass * velocity, -limit, limit);
             push(&self.sides, on, point.rub - old, answers, rows);
         }
         if self.rolling > 0.0 {
@@ -414,7 +383,7 @@ impl Touch {
             let (give, old) = (inverse(0) + inverse(1), self.rolling_impulse);
             let mass = if give > 0.0 { 1.0 / give } else { 0.0 };
             let wanted = old - mass * read(&self.sides, ABOUT, rows, Slot::VX);
-            self.rolling_impulse = clamp(wanted, limit);
+            self.rolling_impulse = Lanes::clamp(wanted, -limit, limit);
             push(&self.sides, ABOUT, self.rolling_impulse - old, answers, rows);
         }
     }
@@ -430,7 +399,7 @@ fn is_driven(tree: &JointTree, joints: &Joints) -> bool {
 }
 
 /// What a direction reads of three numbers of the rows of both bodies.
-fn read(sides: &[Side; 2], on: [Three; 2], rows: &[Row], first: usize) -> f32 {
+fn read(sides: &[Side; 2], on: [Planar; 2], rows: &[Row], first: usize) -> f32 {
     let [a, b] = [0, 1].map(|k: usize| {
         let row = &rows[sides[k].body as usize];
         on[k][0] * row[first] + on[k][1] * row[first + 1] + on[k][2] * row[first + 2]
@@ -439,61 +408,49 @@ fn read(sides: &[Side; 2], on: [Three; 2], rows: &[Row], first: usize) -> f32 {
 }
 
 /// Velocity along a direction per impulse along it.
-fn give(sides: &[Side; 2], on: [Three; 2], answers: &[Answers], rows: &[Row]) -> f32 {
-    let own = [0, 1].map(|k: usize| {
-        let side = sides[k];
-        if side.answers == NULL {
-            let row = &rows[side.body as usize];
+fn give(sides: &[Side; 2], on: [Planar; 2], answers: &[Answers], rows: &[Row]) -> f32 {
+    let own = [0, 1].map(|k: usize| match sides[k].of_tree {
+        None => {
+            let row = &rows[sides[k].body as usize];
             let [x, y, turn] = on[k];
-            return row[Slot::INV_MASS] * (x * x + y * y) + row[Slot::INV_INERTIA] * turn * turn;
+            row[Slot::INV_MASS] * (x * x + y * y) + row[Slot::INV_INERTIA] * turn * turn
         }
-        let answers = &answers[side.answers as usize];
-        dot(on[k], answers.change(side.touched, side.node, on[k]))
+        Some(at) => dot(on[k], answers[at.answers as usize].change(at.touched, at.node, on[k])),
     });
-    let both = if sides[0].answers != NULL && sides[0].answers == sides[1].answers {
-        let answers = &answers[sides[0].answers as usize];
-        2.0 * dot(on[0], answers.change(sides[1].touched, sides[0].node, on[1]))
-    } else {
-        0.0
+    let both = match [sides[0].of_tree, sides[1].of_tree] {
+        [Some(a), Some(b)] if a.answers == b.answers => {
+            let answers = &answers[a.answers as usize];
+            2.0 * dot(on[0], answers.change(b.touched, a.node, on[1]))
+        }
+        _ => 0.0,
     };
     own[0] + own[1] + both
 }
 
-/// Of zeros of both signs the second: what platforms differ in.
-fn greater(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
-}
-
-/// At most `most` either way.
-fn clamp(value: f32, most: f32) -> f32 {
-    let value = greater(value, -most);
-    if value < most { value } else { most }
-}
-
-fn dot(a: Three, b: Three) -> f32 {
+fn dot(a: Planar, b: Planar) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn push_body(row: &mut Row, on: Three, impulse: f32) {
+fn push_body(row: &mut Row, on: Planar, impulse: f32) {
     row[Slot::VX] += row[Slot::INV_MASS] * (on[0] * impulse);
     row[Slot::VY] += row[Slot::INV_MASS] * (on[1] * impulse);
     row[Slot::W] += row[Slot::INV_INERTIA] * (on[2] * impulse);
 }
 
 /// Applies an impulse to both bodies, and to the trees that they are of.
-fn push(sides: &[Side; 2], on: [Three; 2], impulse: f32, answers: &[Answers], rows: &mut [Row]) {
+fn push(sides: &[Side; 2], on: [Planar; 2], impulse: f32, answers: &[Answers], rows: &mut [Row]) {
     if impulse == 0.0 {
         return;
     }
     for (side, on) in sides.iter().zip(on) {
-        if side.answers == NULL {
+        let Some(at) = side.of_tree else {
             push_body(&mut rows[side.body as usize], on, impulse);
             continue;
-        }
-        let answers = &answers[side.answers as usize];
+        };
+        let answers = &answers[at.answers as usize];
         let force = on.map(|x| x * impulse);
         for (node, &body) in answers.bodies.iter().enumerate() {
-            let change = answers.change(side.touched, node as u32, force);
+            let change = answers.change(at.touched, node as u32, force);
             let row = &mut rows[body as usize];
             for k in 0..3 {
                 row[Slot::VX + k] += change[k];
@@ -502,9 +459,26 @@ fn push(sides: &[Side; 2], on: [Three; 2], impulse: f32, answers: &[Answers], ro
     }
 }
 
+impl Side {
+    /// A body by itself.
+    fn alone(bodies: &Bodies, body: u32) -> Self {
+        let jointed = bodies.infos[body as usize].first_joint != NULL;
+        Self { body, of_tree: None, jointed }
+    }
+}
+
 impl Answers {
+    /// Begins anew for a tree that nothing touches yet.
+    fn begin(&mut self, index: u32, tree: &JointTree) {
+        self.tree = index;
+        self.touched.clear();
+        self.limits.clear();
+        self.bodies.clear();
+        self.bodies.extend(tree.nodes[..tree.dynamic].iter().map(|node| node.body));
+    }
+
     /// Change of a node's velocity where an impulse acts on a touched one.
-    fn change(&self, touched: u32, node: u32, impulse: Three) -> Three {
+    fn change(&self, touched: u32, node: u32, impulse: Planar) -> Planar {
         let columns = &self.columns[touched as usize * self.bodies.len() + node as usize];
         core::array::from_fn(|k| {
             columns[0][k] * impulse[0] + columns[1][k] * impulse[1] + columns[2][k] * impulse[2]

@@ -41,8 +41,10 @@ use crate::dynamics::{
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
 use crate::threads::{SharedRows, Team};
 use friction::{roll, solve_friction, solve_rolling};
+pub(super) use normals::normal_impulse;
 use normals::solve_normals;
-use pair::{ALL_BODIES, Constants, Pair, Stride};
+pub(super) use pair::Constants;
+use pair::{ALL_BODIES, Pair, Stride};
 
 /// Coefficients of a soft constraint for one substep length.
 #[derive(Clone, Copy, Debug, PartialEq)]

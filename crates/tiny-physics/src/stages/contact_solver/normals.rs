@@ -1,6 +1,6 @@
 //! Normal impulses: one point, or both of a manifold at once.
 
-use super::pair::{Pair, Stride};
+use super::pair::{Constants, Pair, Stride};
 use crate::dynamics::{ConstraintBlock, PointLanes, Slot};
 use crate::simd::Lanes;
 
@@ -26,15 +26,29 @@ fn solve_normal<L: Lanes, const BIAS: bool>(
     stride: &Stride<'_, L>,
     pair: &mut Pair<L>,
     point: &mut PointLanes,
-    [bias_rate, mass_scale, impulse_scale]: [L; 3],
+    soft: [L; 3],
 ) -> L {
-    let constants = stride.constants;
     let (arm_a, arm_b) = (stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b));
     let mass = stride.load(&point.normal_mass);
     let old = stride.load(&point.normal_impulse);
     let s = pair.separation(stride.load(&point.separation), arm_a, arm_b);
-    let apart = s.gt(constants.zero);
     let velocity = pair.normal_velocity(arm_a, arm_b);
+    let impulse = normal_impulse::<L, BIAS>(stride.constants, soft, [s, velocity], mass, old);
+    stride.store(impulse, &mut point.normal_impulse);
+    pair.push(impulse - old, arm_a, arm_b);
+    impulse
+}
+
+/// The accumulated impulse of a point by itself, from its separation and relative velocity, effective mass and impulse so far.
+#[inline(always)]
+pub(in crate::stages) fn normal_impulse<L: Lanes, const BIAS: bool>(
+    constants: &Constants<L>,
+    [bias_rate, mass_scale, impulse_scale]: [L; 3],
+    [s, velocity]: [L; 2],
+    mass: L,
+    old: L,
+) -> L {
+    let apart = s.gt(constants.zero);
     let impulse = if BIAS {
         let rigid = L::or(apart, velocity.lt(constants.fast));
         let velocity = L::select(rigid, velocity, mass_scale * velocity);
@@ -51,10 +65,7 @@ fn solve_normal<L: Lanes, const BIAS: bool>(
         let bias = L::select(apart, s * constants.inv_h, constants.zero);
         old - mass * (velocity + bias)
     };
-    let impulse = impulse.max(constants.zero);
-    stride.store(impulse, &mut point.normal_impulse);
-    pair.push(impulse - old, arm_a, arm_b);
-    impulse
+    impulse.max(constants.zero)
 }
 
 /// Normal impulses of both points at once: a stack stands as straight as it was built.

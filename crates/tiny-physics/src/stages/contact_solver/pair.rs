@@ -6,19 +6,19 @@ use crate::simd::{BLOCK, Lanes};
 use crate::threads::SharedRows;
 
 /// The parameters in lanes.
-pub(super) struct Constants<L> {
-    pub(super) zero: L,
-    pub(super) inv_h: L,
-    pub(super) push: L,
-    pub(super) push_rate: L,
-    pub(super) fast: L,
-    pub(super) soft: [L; 3],
-    pub(super) static_soft: [L; 3],
+pub(in crate::stages) struct Constants<L> {
+    pub(in crate::stages) zero: L,
+    pub(in crate::stages) inv_h: L,
+    pub(in crate::stages) push: L,
+    pub(in crate::stages) push_rate: L,
+    pub(in crate::stages) fast: L,
+    pub(in crate::stages) soft: [L; 3],
+    pub(in crate::stages) static_soft: [L; 3],
 }
 
 impl<L: Lanes> Constants<L> {
     #[inline(always)]
-    pub(super) fn new(token: L::Token, parameters: &Parameters) -> Self {
+    pub(in crate::stages) fn new(token: L::Token, parameters: &Parameters) -> Self {
         let splat = |value| L::splat(token, value);
         let soft = |s: Softness| {
             [splat(s.bias_rate * s.mass_scale), splat(s.mass_scale), splat(s.impulse_scale)]
