@@ -63,9 +63,16 @@ pub(in crate::stages) fn normal_impulse<L: Lanes, const BIAS: bool>(
         old - mass * velocity - push - decay
     } else {
         let bias = L::select(apart, s * constants.inv_h, constants.zero);
-        old - mass * (velocity + bias)
+        old - relaxed(constants, apart, mass, old) * (velocity + bias)
     };
     impulse.max(constants.zero)
+}
+
+/// Effective mass of a point in the relax pass. What is apart and has not pushed is left to the next substep: it may be
+/// the first of the next step, in which the point bounces from the speed that it has now.
+#[inline(always)]
+fn relaxed<L: Lanes>(constants: &Constants<L>, apart: L::Mask, mass: L, old: L) -> L {
+    L::select(L::and(apart, old.eq(constants.zero)), constants.zero, mass)
 }
 
 /// Normal impulses of both points at once: a stack stands as straight as it was built.
@@ -169,7 +176,7 @@ impl<L: Lanes> Normal<L> {
                 arm_b,
                 old,
                 diagonal: k,
-                mass,
+                mass: relaxed(constants, apart, mass, old),
                 demand: velocity + bias - k * old,
             };
         }
