@@ -89,48 +89,11 @@ fn solve_both<L: Lanes, const BIAS: bool>(
     block: &mut ConstraintBlock,
     [push_rate, mass_scale, _]: [L; 3],
 ) -> [L; 2] {
-    let zero = stride.constants.zero;
     let one = L::splat(stride.token, 1.0);
     let inv_scale = if BIAS { one / mass_scale } else { one };
     let soft = [push_rate, mass_scale, inv_scale];
-    let k12 = {
-        let [first, second] = &block.points;
-        let inv_mass = pair.a[Slot::INV_MASS] + pair.b[Slot::INV_MASS];
-        let turn_a = stride.load(&first.normal_arm_a) * stride.load(&second.normal_arm_a);
-        let turn_b = stride.load(&first.normal_arm_b) * stride.load(&second.normal_arm_b);
-        inv_mass + pair.a[Slot::INV_INERTIA] * turn_a + pair.b[Slot::INV_INERTIA] * turn_b
-    };
-    let first = Normal::load::<BIAS>(stride, pair, &block.points[0], soft);
-    let second = Normal::load::<BIAS>(stride, pair, &block.points[1], soft);
-    let q = [first.demand - k12 * second.old, second.demand - k12 * first.old];
-
-    let product = first.diagonal * second.diagonal;
-    let determinant = product - k12 * k12;
-    let least = L::splat(stride.token, LEAST_DETERMINANT) * product;
-    let exist = L::and(first.mass.gt(zero), second.mass.gt(zero));
-    let sound = L::and(exist, determinant.gt(least));
-    let inverse = one / L::select(sound, determinant, one);
-    let both = [
-        (k12 * q[1] - second.diagonal * q[0]) * inverse,
-        (k12 * q[0] - first.diagonal * q[1]) * inverse,
-    ];
-    let both_push = L::and(zero.le(both[0]), zero.le(both[1]));
-    let alone = [(-(first.mass * q[0])).max(zero), (-(second.mass * q[1])).max(zero)];
-    let first_holds = zero.le(q[1] + k12 * alone[0]);
-    let alone = [L::select(first_holds, alone[0], zero), L::select(first_holds, zero, alone[1])];
-    let turn_1 = (-(first.mass * (q[0] + k12 * second.old))).max(zero);
-    let turn_2 = (-(second.mass * (q[1] + k12 * turn_1))).max(zero);
-
-    let choose =
-        |k: usize, in_turn: L| L::select(sound, L::select(both_push, both[k], alone[k]), in_turn);
-    let impulses = [choose(0, turn_1), choose(1, turn_2)];
-    for (point, (normal, impulse)) in
-        block.points.iter_mut().zip([first, second].into_iter().zip(impulses))
-    {
-        stride.store(impulse, &mut point.normal_impulse);
-        pair.push(impulse - normal.old, normal.arm_a, normal.arm_b);
-    }
-    impulses
+    let normals = [0, 1].map(|k: usize| Normal::load::<BIAS>(stride, pair, &block.points[k], soft));
+    Normal::solve_both(&normals, stride, pair, block, LEAST_DETERMINANT)
 }
 
 /// Determinants below this part of the diagonal's product count as singular: card houses, whose points
@@ -138,18 +101,65 @@ fn solve_both<L: Lanes, const BIAS: bool>(
 const LEAST_DETERMINANT: f32 = 0.01;
 
 /// One of two points as [`solve_both`] needs it.
-struct Normal<L> {
-    arm_a: L,
-    arm_b: L,
-    old: L,
+pub(super) struct Normal<L> {
+    pub(super) arm_a: L,
+    pub(super) arm_b: L,
+    pub(super) old: L,
     /// Diagonal of A, and its inverse; zero where there is no point.
-    diagonal: L,
-    mass: L,
+    pub(super) diagonal: L,
+    pub(super) mass: L,
     /// v + bias / mass_scale - K p_old, without the other point's part.
-    demand: L,
+    pub(super) demand: L,
 }
 
 impl<L: Lanes> Normal<L> {
+    /// Solves the complementarity problem of both points of a manifold and applies the impulses; gives these. Points whose
+    /// determinant is below that part of the diagonal's product go one after the other.
+    #[inline(always)]
+    pub(super) fn solve_both(
+        [first, second]: &[Self; 2],
+        stride: &Stride<'_, L>,
+        pair: &mut Pair<L>,
+        block: &mut ConstraintBlock,
+        least_determinant: f32,
+    ) -> [L; 2] {
+        let zero = stride.constants.zero;
+        let one = L::splat(stride.token, 1.0);
+        let k12 = {
+            let inv_mass = pair.a[Slot::INV_MASS] + pair.b[Slot::INV_MASS];
+            let (turn_a, turn_b) = (first.arm_a * second.arm_a, first.arm_b * second.arm_b);
+            inv_mass + pair.a[Slot::INV_INERTIA] * turn_a + pair.b[Slot::INV_INERTIA] * turn_b
+        };
+        let q = [first.demand - k12 * second.old, second.demand - k12 * first.old];
+        let product = first.diagonal * second.diagonal;
+        let determinant = product - k12 * k12;
+        let least = L::splat(stride.token, least_determinant) * product;
+        let exist = L::and(first.mass.gt(zero), second.mass.gt(zero));
+        let sound = L::and(exist, determinant.gt(least));
+        let inverse = one / L::select(sound, determinant, one);
+        let both = [
+            (k12 * q[1] - second.diagonal * q[0]) * inverse,
+            (k12 * q[0] - first.diagonal * q[1]) * inverse,
+        ];
+        let both_push = L::and(zero.le(both[0]), zero.le(both[1]));
+        let alone = [(-(first.mass * q[0])).max(zero), (-(second.mass * q[1])).max(zero)];
+        let first_holds = zero.le(q[1] + k12 * alone[0]);
+        let alone =
+            [L::select(first_holds, alone[0], zero), L::select(first_holds, zero, alone[1])];
+        let turn_1 = (-(first.mass * (q[0] + k12 * second.old))).max(zero);
+        let turn_2 = (-(second.mass * (q[1] + k12 * turn_1))).max(zero);
+
+        let choose = |k: usize, in_turn: L| {
+            L::select(sound, L::select(both_push, both[k], alone[k]), in_turn)
+        };
+        let impulses = [choose(0, turn_1), choose(1, turn_2)];
+        for (k, normal) in [first, second].into_iter().enumerate() {
+            stride.store(impulses[k], &mut block.points[k].normal_impulse);
+            pair.push(impulses[k] - normal.old, normal.arm_a, normal.arm_b);
+        }
+        impulses
+    }
+
     #[inline(always)]
     fn load<const BIAS: bool>(
         stride: &Stride<'_, L>,
@@ -159,11 +169,7 @@ impl<L: Lanes> Normal<L> {
     ) -> Self {
         let constants = stride.constants;
         let (arm_a, arm_b) = (stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b));
-        let (a, b) = (&pair.a, &pair.b);
-        let k = a[Slot::INV_MASS]
-            + b[Slot::INV_MASS]
-            + a[Slot::INV_INERTIA] * arm_a * arm_a
-            + b[Slot::INV_INERTIA] * arm_b * arm_b;
+        let k = pair.response(arm_a, arm_b);
         let (mass, old) = (stride.load(&point.normal_mass), stride.load(&point.normal_impulse));
         let s = pair.separation(stride.load(&point.separation), arm_a, arm_b);
         let velocity = pair.normal_velocity(arm_a, arm_b);

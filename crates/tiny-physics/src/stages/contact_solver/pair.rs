@@ -121,6 +121,16 @@ impl<L: Lanes> Pair<L> {
             + (arm_b * b[Slot::DA] - arm_a * a[Slot::DA])
     }
 
+    /// Velocity along the normal per impulse along it.
+    #[inline(always)]
+    pub(super) fn response(&self, arm_a: L, arm_b: L) -> L {
+        let (a, b) = (&self.a, &self.b);
+        a[Slot::INV_MASS]
+            + b[Slot::INV_MASS]
+            + a[Slot::INV_INERTIA] * arm_a * arm_a
+            + b[Slot::INV_INERTIA] * arm_b * arm_b
+    }
+
     /// Applies an impulse along the normal.
     #[inline(always)]
     pub(super) fn push(&mut self, impulse: L, arm_a: L, arm_b: L) {

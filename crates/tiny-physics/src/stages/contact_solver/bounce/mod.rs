@@ -11,6 +11,7 @@
 mod search;
 
 use super::friction::solve_friction;
+use super::normals::Normal;
 use super::pair::{Constants, Pair, Stride};
 use super::{CHUNK, Parameters};
 use crate::dynamics::{Bodies, ConstraintBlock, Graph, LaneBlock, Schedule, flags, is_overflow};
@@ -25,6 +26,9 @@ const ROUNDS: usize = 8;
 /// Iterations in each of them, for points that hit at the same time. Stopping where nothing changes by more than
 /// 1 mm/s was tried: among thousands of bodies that hit each other it never came before the last.
 const ITERATIONS: usize = 8;
+/// See [`Normal::solve_both`]: much less than where points have to carry, as two that are near to each other gain what they
+/// have not come to in the last iteration.
+const LEAST_DETERMINANT: f32 = 1e-4;
 /// Fewer hits than this are no reason to wake threads for copying them.
 const MANY: usize = 128;
 /// What would leave more slowly than this part of the threshold is not handed on; of what is hardly bouncy more, in
@@ -270,17 +274,18 @@ fn leave<L: Lanes>(stride: &Stride<'_, L>, block: &mut ConstraintBlock, aims: &A
     let zero = stride.constants.zero;
     let mut pair = Pair::load(stride, block);
     let friction = stride.load(&block.friction);
-    for (point, targets) in block.points.iter_mut().zip(&aims.targets) {
+    let normals = [0, 1].map(|k: usize| {
+        let (point, target) = (&block.points[k], stride.load(&aims.targets[k]));
         let (arm_a, arm_b) = (stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b));
-        let target = stride.load(targets);
-        let old = stride.load(&point.normal_impulse);
-        let missing = target - pair.normal_velocity(arm_a, arm_b);
-        let impulse = (old + stride.load(&point.normal_mass) * missing).max(zero);
+        let (old, diagonal) = (stride.load(&point.normal_impulse), pair.response(arm_a, arm_b));
         // What does not hit keeps its nothing, and so is not rubbed.
-        let impulse = L::select(zero.lt(target), impulse, old);
-        stride.store(impulse, &mut point.normal_impulse);
+        let mass = L::select(zero.lt(target), stride.load(&point.normal_mass), zero);
+        let demand = pair.normal_velocity(arm_a, arm_b) - target - diagonal * old;
+        Normal { arm_a, arm_b, old, diagonal, mass, demand }
+    });
+    let impulses = Normal::solve_both(&normals, stride, &mut pair, block, LEAST_DETERMINANT);
+    for (point, impulse) in block.points.iter_mut().zip(impulses) {
         stride.store(impulse, &mut point.load);
-        pair.push(impulse - old, arm_a, arm_b);
         solve_friction(stride, &mut pair, point, friction, Some(&aims.tangent_speed));
     }
     pair.store(stride, block);

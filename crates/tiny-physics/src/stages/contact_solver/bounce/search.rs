@@ -39,6 +39,10 @@ pub(super) struct Search<'a> {
 /// gravity, and those that touch a wall aslant, keep what speed they have, and what lies on the ground lies.
 const SHORT: f32 = 0.13;
 
+/// So much of the speed at which something leaves is lost, so that rounding heats nothing: without it a gas of elastic
+/// balls gains 2e-5 of its energy in ten minutes.
+const LOST: f32 = 2.4e-7;
+
 impl Search<'_> {
     /// Lists what bounces, in the order of the runs.
     pub(super) fn run<'h>(
@@ -192,7 +196,8 @@ fn aim<L: Lanes>(
         if first {
             fast = L::or(fast, velocity.lt(zero - threshold));
         }
-        let fallen = closing.max(zero) * splat(0.5 * inv_h * dt * dt);
+        // As the substeps add it up: n (n + 1) / 2 times.
+        let fallen = closing.max(zero) * splat(0.5 * dt * (dt * inv_h + 1.0));
         let arrives = (s + velocity * splat(dt)).lt(fallen);
         let hits = L::and(L::and(fast, arrives), zero.lt(stride.load(&point.normal_mass)));
         let late = splat(0.5) * closing;
@@ -200,6 +205,7 @@ fn aim<L: Lanes>(
         let approach = late - velocity;
         let meet = approach * approach + fall;
         let speed = (restitution * restitution * meet - fall).max(zero).sqrt() + late;
+        let speed = speed * splat(1.0 - LOST);
         stride.store(L::select(L::and(hits, zero.lt(meet)), speed, zero), targets);
     }
 }
