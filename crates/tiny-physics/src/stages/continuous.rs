@@ -8,7 +8,7 @@
 //! taken: a corner that turns away as fast as the middle comes gives the solver nothing to push.
 
 use super::boxes::{self, Moved, Way};
-use super::finalize::FastBody;
+use super::finalize::{self, FastBody};
 use super::one_way;
 use super::pairs::PairRule;
 use super::surfaces::{self, Ground, Seams};
@@ -170,7 +170,7 @@ impl Scene<'_> {
                 broad_phase.each_of(ProxyKind::Dynamic, &path, mask, |other| {
                     let body = shapes.records[other as usize].body;
                     let hit = &bodies.infos[body as usize];
-                    if hit.awake && way > super::finalize::SAFE_FRACTION * hit.min_extent {
+                    if hit.awake && way > finalize::SAFE_FRACTION * hit.min_extent {
                         fast.push(FastBody::of_step(bodies, body));
                     }
                 });
@@ -344,6 +344,9 @@ impl Search<'_> {
         );
         // How it moves seen from the other.
         let relative = body.translation() - their.translation();
+        if course.from == 0.0 && their.angle == 0.0 && self.cannot_jump(relative) {
+            return None;
+        }
         let motion = their.child(other.central);
         let center = body.start + body.rotation.rotate(record.central.p);
         let turn = bodies.poses[other.body as usize].q;
@@ -381,6 +384,13 @@ impl Search<'_> {
         let (fraction, normal) = inner.first_fraction(&other.shape, &motion, first, length_unit)?;
         let lost = self.driving_velocity(inner.relative_way(&motion), normal);
         Some(Meeting { fraction, body: other.body, lost })
+    }
+
+    /// Does the body move so little, seen from something that does not turn, that its contact is all that is needed?
+    fn cannot_jump(&self, relative: Vec2) -> bool {
+        let info = &self.scene.bodies.infos[self.fast.body as usize];
+        let reach = relative.length() + finalize::turned_reach(self.fast.turn, info);
+        reach <= finalize::SAFE_FRACTION * info.min_extent
     }
 
     /// The part of the body's velocity that drives its middle, which goes by `way` relative to the other, along a

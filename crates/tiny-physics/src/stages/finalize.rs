@@ -155,7 +155,7 @@ fn finalize_body(body: FinalBody<'_>, boxes: Boxes<'_>, options: Options, found:
 /// How far turning takes the outline of a body into what was free before, metres: no further than its points
 /// go, nor than they stick out of the disk that it has in any case.
 #[inline]
-fn turned_reach(turn: f32, info: &BodyInfo) -> f32 {
+pub(super) fn turned_reach(turn: f32, info: &BodyInfo) -> f32 {
     let (way, rim) = (turn.abs() * info.max_extent, info.max_extent - info.min_extent);
     if way < rim { way } else { rim }
 }
