@@ -263,6 +263,11 @@ impl Bodies {
         if self.is_dynamic(dynamic) { self.infos[dynamic as usize].pace.into() } else { PLAIN }
     }
 
+    /// Is the body dynamic and awake?
+    pub(crate) fn is_solved(&self, index: u32) -> bool {
+        self.is_dynamic(index) && self.infos[index as usize].awake
+    }
+
     /// Linear velocity of the centre of mass.
     #[inline]
     pub(crate) fn velocity(&self, index: u32) -> Vec2 {

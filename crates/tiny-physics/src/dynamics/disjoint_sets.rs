@@ -13,10 +13,15 @@ pub(crate) struct DisjointSets {
 crate::footprint::footprint!(DisjointSets { parents });
 
 impl DisjointSets {
-    /// Puts each of the numbers below `count` into a set of its own.
-    pub(crate) fn reset(&mut self, count: usize) {
-        self.parents.clear();
-        self.parents.extend(0..count as u32);
+    /// Puts each of some numbers below `count` into a set of its own. The others are not to be asked for or joined: to go
+    /// past them costs nothing.
+    pub(crate) fn reset(&mut self, count: usize, numbers: impl IntoIterator<Item = u32>) {
+        if self.parents.len() < count {
+            self.parents.resize(count, 0);
+        }
+        for number in numbers {
+            self.parents[number as usize] = number;
+        }
     }
 
     /// The smallest number of the set that a number is in.
@@ -45,15 +50,16 @@ mod tests {
     #[test]
     fn join_tells_whether_two_sets_became_one() {
         let mut sets = DisjointSets::default();
-        sets.reset(5);
+        sets.reset(5, 0..5);
         assert!(sets.join(3, 4));
         assert!(sets.join(1, 3));
         assert!(!sets.join(4, 1), "3 joins them");
         assert!(!sets.join(2, 2));
         let roots: Vec<u32> = (0..5).map(|at| sets.root(at)).collect();
         assert_eq!(roots, [0, 1, 2, 1, 1]);
-        sets.reset(2);
+        sets.reset(2, 0..2);
         assert_eq!(sets.root(1), 1, "what was joined is forgotten");
+        assert_eq!(sets.root(4), 1, "of those alone that are named");
     }
 
     /// Random pairs against labels that are rewritten one by one.
@@ -67,7 +73,7 @@ mod tests {
         };
         let mut sets = DisjointSets::default();
         for _ in 0..20 {
-            sets.reset(COUNT as usize);
+            sets.reset(COUNT as usize, 0..COUNT);
             let mut labels: Vec<u32> = (0..COUNT).collect();
             for _ in 0..60 {
                 let (a, b) = (random(), random());

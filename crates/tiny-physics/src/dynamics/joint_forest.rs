@@ -421,7 +421,8 @@ fn plant(
         return None;
     }
     let mut sets = DisjointSets::default();
-    sets.reset(component.bodies.len());
+    let count = component.bodies.len();
+    sets.reset(count, 0..count as u32);
     let (mut spanning, mut anchors) = (Vec::new(), Vec::new());
     for joint in &component.joints {
         if inner(joint) {

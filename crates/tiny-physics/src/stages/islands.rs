@@ -22,17 +22,17 @@ pub(crate) struct Islands {
 crate::footprint::footprint!(Islands { sets });
 
 impl Islands {
-    /// Joins all dynamic bodies that touch or are joined.
+    /// Joins all awake dynamic bodies that touch or are joined.
     pub(crate) fn find_all(&mut self, bodies: &Bodies, graph: &Graph, joints: &Joints) {
-        self.sets.reset(bodies.infos.len());
+        self.sets.reset(bodies.infos.len(), bodies.awake.iter().copied());
         for (a, b) in touching(graph).chain(joints.pairs()) {
-            if bodies.is_dynamic(a) && bodies.is_dynamic(b) {
+            if bodies.is_solved(a) && bodies.is_solved(b) {
                 self.sets.join(a, b);
             }
         }
     }
 
-    /// The body with the smallest index of the island that a body is in.
+    /// The body with the smallest index of the island that an awake body is in.
     pub(crate) fn root(&mut self, body: u32) -> u32 {
         self.sets.root(body)
     }

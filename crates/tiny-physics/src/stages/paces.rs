@@ -12,8 +12,8 @@ use super::islands::{Islands, Stores};
 use super::passivity::may_drive;
 use crate::describe::BodyKind;
 use crate::dynamics::{
-    Bodies, Bucket, Graph, JOINTED, NULL, PLAIN, Place, PointLanes, REFINEMENT, ROUNDS, TreeNode,
-    WATCHED, next_edge, pace_at,
+    Bodies, Bucket, Graph, JOINTED, JointTree, NULL, PLAIN, Place, PointLanes, REFINEMENT, ROUNDS,
+    TreeNode, WATCHED, next_edge, pace_at,
 };
 use crate::math::Vec2;
 use crate::simd::BLOCK;
@@ -219,8 +219,8 @@ impl Island {
 fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
     let Stores { bodies, contacts, graph, joints, joint_graph } = stores;
     let Memory { islands, found, .. } = memory;
-    found.clear();
     found.resize(bodies.infos.len(), Island::default());
+    bodies.awake.iter().for_each(|&body| found[body as usize] = Island::default());
     for &body in bodies.awake.iter().filter(|&&body| bodies.is_dynamic(body)) {
         let island = &mut found[islands.root(body) as usize];
         island.bodies += 1;
@@ -229,11 +229,13 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         island.joined += usize::from(info.first_joint != NULL);
     }
     for record in joints.tying().filter(|record| !may_drive(&record.def)) {
-        if bodies.is_dynamic(record.body_a) && bodies.is_dynamic(record.body_b) {
+        if bodies.is_solved(record.body_a) && bodies.is_solved(record.body_b) {
             found[islands.root(record.body_a) as usize].joints += 1;
         }
     }
-    for tree in joint_graph.forest.trees.iter().filter(|tree| !tree.links.is_empty()) {
+    let is_awake = |tree: &JointTree| bodies.infos[tree.nodes[0].body as usize].awake;
+    let trees = joint_graph.forest.trees.iter().filter(|tree| !tree.links.is_empty());
+    for tree in trees.filter(|tree| is_awake(tree)) {
         let touches = |node: &TreeNode| {
             let mut of_body = contacts.of_body(bodies.infos[node.body as usize].first_contact);
             of_body.any(|(index, _)| contacts.records[index as usize].touching)
@@ -247,13 +249,13 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         let scale = refinement * rules.inv_h / rules.omega_squared;
         for slot in 0..bucket.contacts.len() {
             let (a, b) = bucket.bodies(slot);
-            let body = if bodies.is_dynamic(a) { a } else { b };
-            let island = &mut found[islands.root(body) as usize];
-            island.touches = true;
-            if !(bodies.is_dynamic(a) && bodies.is_dynamic(b)) {
+            let body = if bodies.is_solved(a) { a } else { b };
+            if !bodies.is_solved(body) {
                 continue;
             }
-            if island.bodies > rules.most_bodies {
+            let island = &mut found[islands.root(body) as usize];
+            island.touches = true;
+            if !(bodies.is_solved(a) && bodies.is_solved(b)) || island.bodies > rules.most_bodies {
                 continue;
             }
             let speed = (bodies.velocity(b) - bodies.velocity(a)).length();
@@ -300,8 +302,8 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         }
     }
     order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    loads.clear();
     loads.resize(bodies.infos.len(), 0.0);
+    bodies.awake.iter().for_each(|&body| loads[body as usize] = 0.0);
     for &(top, body) in order.iter() {
         let info = &bodies.infos[body as usize];
         below.clear();
@@ -314,7 +316,7 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         let weight = info.mass * info.gravity_scale.abs() * rules.gravity.length();
         let share = (weight + loads[body as usize]) / below.len().max(1) as f32;
         let inverse_mass = bodies.inverse_masses(body).0;
-        for &other in below.iter().filter(|&&other| bodies.is_dynamic(other)) {
+        for &other in below.iter().filter(|&&other| bodies.is_solved(other)) {
             loads[other as usize] += share;
             let compliance = (inverse_mass + bodies.inverse_masses(other).0) / rules.omega_squared;
             let island = &mut found[islands.root(body) as usize];

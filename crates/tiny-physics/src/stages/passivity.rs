@@ -132,14 +132,14 @@ impl Memory {
                 ((record.body_a, record.body_b), may_drive(&record.def))
             })
         };
-        sets.reset(bodies.infos.len());
+        sets.reset(bodies.infos.len(), listed.iter().copied());
         for ((a, b), _) in touching().chain(joined()) {
-            if bodies.is_dynamic(a) && bodies.is_dynamic(b) {
+            if bodies.is_solved(a) && bodies.is_solved(b) {
                 sets.join(a, b);
             }
         }
-        numbers.clear();
         numbers.resize(bodies.infos.len(), NULL);
+        listed.iter().for_each(|&body| numbers[body as usize] = NULL);
         islands.clear();
         members.clear();
         for &body in listed.iter().filter(|&&body| bodies.is_dynamic(body)) {
@@ -153,9 +153,10 @@ impl Memory {
         }
         for ((a, b), drives) in touching().chain(joined()) {
             let (mover, body) = if bodies.is_dynamic(a) { (b, a) } else { (a, b) };
-            let Some(island) = islands.get_mut(numbers[sets.root(body) as usize] as usize) else {
+            if !bodies.is_solved(body) {
                 continue;
-            };
+            }
+            let island = &mut islands[numbers[sets.root(body) as usize] as usize];
             island.driven |= drives;
             if !bodies.is_dynamic(mover) {
                 let row = &bodies.rows[mover as usize];

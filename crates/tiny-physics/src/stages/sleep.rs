@@ -45,8 +45,8 @@ pub(crate) fn find_resting(
     }
     let Sets { islands: sets, restless, resting } = sets;
     sets.find_all(bodies, graph, joints);
-    restless.clear();
     restless.resize(bodies.infos.len(), false);
+    bodies.awake.iter().for_each(|&body| restless[body as usize] = false);
     let touching = islands::touching(graph).chain(joints.pairs());
     for (a, b) in touching {
         match (bodies.is_dynamic(a), bodies.is_dynamic(b)) {
