@@ -132,9 +132,12 @@ impl Memory {
                 ((record.body_a, record.body_b), may_drive(&record.def))
             })
         };
+        // A contact that has just begun may join what is of two paces until the next step.
+        let is_here =
+            |body| bodies.is_solved(body) && usize::from(bodies.infos[body as usize].pace) == pace;
         sets.reset(bodies.infos.len(), listed.iter().copied());
         for ((a, b), _) in touching().chain(joined()) {
-            if bodies.is_solved(a) && bodies.is_solved(b) {
+            if is_here(a) && is_here(b) {
                 sets.join(a, b);
             }
         }
@@ -152,8 +155,8 @@ impl Memory {
             members.push((body, *number));
         }
         for ((a, b), drives) in touching().chain(joined()) {
-            let (mover, body) = if bodies.is_dynamic(a) { (b, a) } else { (a, b) };
-            if !bodies.is_solved(body) {
+            let (mover, body) = if is_here(a) { (b, a) } else { (a, b) };
+            if !is_here(body) {
                 continue;
             }
             let island = &mut islands[numbers[sets.root(body) as usize] as usize];

@@ -130,7 +130,8 @@ fn a_belt_brings_a_box_to_its_speed() {
         let belt = rect(50.0, 5.0).tangent_speed(2.0);
         world.add_body(RigidBody::fixed().position(Vec2::new(0.0, -5.0)).shape(belt)).unwrap();
         let box_ = add(&mut world, 0.0, 0.5, shape);
-        run(&mut world, 120);
+        // The hexagon tips at first: the friction of the belt is more than its foot is wide for.
+        run(&mut world, 240);
         let velocity = world.body(box_).unwrap().velocity();
         assert!((velocity.x - 2.0).abs() < 0.02, "{velocity:?}");
     }
