@@ -1,6 +1,7 @@
 //! Bodies: hot rows for the solver, poses, and everything else.
 
 use super::pace::{JOINTED, PLAIN};
+use super::places::{claim, put};
 use crate::codec::{Data, Generations, Reader, Sink, kept_as_described, record, store};
 use crate::describe::{BodyKind, Locks, RigidBody};
 use crate::error::Error;
@@ -193,24 +194,15 @@ impl Bodies {
         self.count += 1;
         info.alive = true;
         info.generation = self.generations.next();
-        if let Some(index) = self.free.pop() {
-            let i = index as usize;
-            self.infos[i] = info;
-            self.poses[i] = pose;
-            self.previous[i] = pose;
-            self.rows[i] = [0.0; 8];
-            self.motions[i] = Motion::default();
-            index
-        } else {
-            self.infos.push(info);
-            self.poses.push(pose);
-            self.previous.push(pose);
-            self.rows.push([0.0; 8]);
-            self.motions.push(Motion::default());
-            self.starts.push([0.0; 4]);
-            self.awake_places.push(NULL);
-            self.infos.len() as u32 - 1
-        }
+        let index = claim(&mut self.free, self.infos.len());
+        put(&mut self.infos, index, info);
+        put(&mut self.poses, index, pose);
+        put(&mut self.previous, index, pose);
+        put(&mut self.rows, index, [0.0; 8]);
+        put(&mut self.motions, index, Motion::default());
+        put(&mut self.starts, index, [0.0; 4]);
+        put(&mut self.awake_places, index, NULL);
+        index
     }
 
     /// Takes a record out. The caller has unlinked everything that refers to it.

@@ -4,6 +4,7 @@ use super::bodies::Bodies;
 use super::coloured::Place;
 use super::edges::{self, edges};
 use super::pair_table::PairTable;
+use super::places::{claim, put};
 use crate::codec::{bad, record, store};
 use crate::error::Error;
 use crate::geometry::manifold::PairClass;
@@ -80,13 +81,8 @@ impl Contacts {
     /// Puts a record in: into the pair table and both bodies' lists.
     pub(crate) fn insert(&mut self, bodies: &mut Bodies, contact: Contact) -> u32 {
         let (shape_a, shape_b) = (contact.shape_a, contact.shape_b);
-        let index = if let Some(index) = self.free.pop() {
-            self.records[index as usize] = contact;
-            index
-        } else {
-            self.records.push(contact);
-            self.records.len() as u32 - 1
-        };
+        let index = claim(&mut self.free, self.records.len());
+        put(&mut self.records, index, contact);
         let is_new = self.pairs.insert(shape_a, shape_b, index);
         debug_assert!(is_new, "the pair has a contact already");
         edges::link(&mut self.records, bodies, index);

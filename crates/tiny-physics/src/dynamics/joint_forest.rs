@@ -15,10 +15,10 @@ use super::coloured::{Place, TREES, colour_at, place_of};
 use super::disjoint_sets::DisjointSets;
 use super::joint_blocks::{Axis, JointClass};
 use super::joints::{JointRecord, Joints};
-use crate::codec::{Data, Reader, Sink, clone_by_field};
+use super::places::{claim, put};
+use crate::codec::clone_by_field;
 use crate::describe::{JointDef, JointKind};
-use crate::error::Error;
-use crate::footprint::{Footprint, MemoryUse, footprint};
+use crate::footprint::footprint;
 use crate::simd::Three;
 
 /// Fewer joints than these are solved in lanes.
@@ -141,6 +141,7 @@ impl TreeLink {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct TreeAxis {
     pub(crate) link: u32,
+    /// In trees the first limit's impulse is that of both, the lower's less the upper's: at most one of them pushes.
     pub(crate) axis: Axis<f64>,
     /// Speed, greatest impulse, impulse.
     pub(crate) motor: Option<[f64; 3]>,
@@ -202,16 +203,6 @@ impl PartialEq for JointForest {
     }
 }
 
-impl Data for JointForest {
-    fn save(&self, _: &mut Sink) {}
-    fn load(_: &mut Reader<'_>) -> Result<Self, Error> {
-        Ok(Self { all_dirty: true, ..Self::default() })
-    }
-    fn memory(&self) -> MemoryUse {
-        self.footprint()
-    }
-}
-
 /// Can a tree hold the joint? What it keeps in place has to be rigid, at the engine's own stiffness.
 pub(super) fn is_rigid(def: &JointDef) -> bool {
     def.softness.is_none()
@@ -228,14 +219,12 @@ pub(super) fn is_rigid(def: &JointDef) -> bool {
         }
 }
 
-/// Joints that have to change between the lanes and the trees, ascending; for trees with their places.
-#[derive(Debug, Default)]
-pub(super) struct Moves {
-    pub(super) into_trees: Vec<(u32, usize)>,
-    pub(super) into_lanes: Vec<u32>,
-}
-
 impl JointForest {
+    /// Notes that any joint may be new.
+    pub(super) fn note_all(&mut self) {
+        self.all_dirty = true;
+    }
+
     /// Notes that joints between two bodies have changed.
     pub(crate) fn note(&mut self, a: u32, b: u32) {
         self.dirty.extend([a, b]);
@@ -263,9 +252,9 @@ impl JointForest {
         self.free.push(tree);
     }
 
-    /// Plants the trees around all bodies whose joints have changed. Gives the joints that are in the wrong
-    /// place.
-    pub(super) fn grow(&mut self, bodies: &Bodies, joints: &Joints) -> Moves {
+    /// Plants the trees around all bodies whose joints have changed. Gives the joints that are in the wrong place: first
+    /// those that belong to a tree, with its place, then those that belong to the lanes; both ascending.
+    pub(super) fn grow(&mut self, bodies: &Bodies, joints: &Joints) -> Vec<(u32, Option<usize>)> {
         let mut dirty = core::mem::take(&mut self.dirty);
         if core::mem::take(&mut self.all_dirty) {
             dirty.clear();
@@ -276,7 +265,7 @@ impl JointForest {
         self.tree_of.resize(joints.records.len(), NULL);
         let mut walk = core::mem::take(&mut self.walk);
         walk.places.resize(bodies.infos.len(), NULL);
-        let mut moves = Moves::default();
+        let mut moves = Vec::new();
         let mut found = core::mem::take(&mut walk.found);
         for &body in &dirty {
             walk.collect(bodies, joints, body, &mut found);
@@ -291,10 +280,10 @@ impl JointForest {
                 let place = usize::from(colour);
                 if self.tree_of[joint as usize] == NULL {
                     if colour_at(place) == TREES {
-                        moves.into_lanes.push(joint);
+                        moves.push((joint, None));
                     }
                 } else if place != in_trees {
-                    moves.into_trees.push((joint, in_trees));
+                    moves.push((joint, Some(in_trees)));
                 }
             }
         }
@@ -303,8 +292,7 @@ impl JointForest {
         self.walk = walk;
         dirty.clear();
         self.dirty = dirty;
-        moves.into_trees.sort_unstable();
-        moves.into_lanes.sort_unstable();
+        moves.sort_unstable_by_key(|&(joint, place)| (place.is_none(), joint));
         moves
     }
 
@@ -313,15 +301,11 @@ impl JointForest {
         if tree.links.is_empty() {
             return;
         }
-        let index = self.free.pop().unwrap_or(self.trees.len() as u32);
+        let index = claim(&mut self.free, self.trees.len());
         for link in &tree.links {
             self.tree_of[link.joint as usize] = index;
         }
-        if index as usize == self.trees.len() {
-            self.trees.push(tree);
-        } else {
-            self.trees[index as usize] = tree;
-        }
+        put(&mut self.trees, index, tree);
     }
 }
 

@@ -243,11 +243,17 @@ store! {
         pub(crate) count: usize,
         /// A joint has come in that joins bodies of different paces.
         pub(crate) mixed: bool,
-        pub(crate) forest: JointForest,
+        pub(crate) forest: JointForest as derived,
     }
+    load with JointGraph::forget_forest
 }
 
 impl JointGraph {
+    fn forget_forest(&mut self) -> Result<(), Error> {
+        self.forest.note_all();
+        Ok(())
+    }
+
     /// Where the joints of a pace are, until one comes or goes.
     pub(crate) fn places_of(&self, pace: usize) -> JointPlaces {
         let start_of = |place| self.colours.range(0..place).end;
@@ -292,10 +298,7 @@ impl JointGraph {
 
     /// The pace at which a joint is solved.
     pub(crate) fn pace_of(&self, record: &JointRecord) -> usize {
-        match record.place {
-            Place::Graph { colour, .. } => pace_at(colour.into()),
-            Place::Asleep => PLAIN,
-        }
+        record.lanes().map_or(PLAIN, |(place, ..)| pace_at(place))
     }
 
     /// Joints that are awake and have something to solve.
@@ -354,28 +357,25 @@ impl JointGraph {
     /// Takes a joint's lanes away.
     fn take(&mut self, bodies: &mut Bodies, joints: &mut Joints, index: u32) {
         let record = &mut joints.records[index as usize];
-        let Place::Graph { colour, slot } = record.place else { return };
-        let Some(class) = record.class() else { return };
-        record.place = Place::Asleep;
+        let Some((place, class, slot)) = record.lanes() else { return };
+        let at = core::mem::replace(&mut record.place, Place::Asleep);
         let ends = [record.body_a, record.body_b];
-        let moved = with_bucket!(&mut self.colours[usize::from(colour)], class, bucket => {
+        let moved = with_bucket!(&mut self.colours[place], class, bucket => {
             record.saved = bucket.saved(slot);
             bucket.swap_remove(slot)
         });
         if let Some(moved) = moved {
-            joints.records[moved as usize].place = Place::Graph { colour, slot };
+            joints.records[moved as usize].place = at;
         }
-        self.colours.close(colour.into());
-        give_colour_back(bodies, ends, colour.into(), |info| &mut info.joint_colours);
+        self.colours.close(place);
+        give_colour_back(bodies, ends, place, |info| &mut info.joint_colours);
         self.count -= 1;
     }
 
     /// What a joint has accumulated in the last substep, in the order of its block; nothing while it sleeps.
     pub(crate) fn impulses(&self, record: &JointRecord) -> Impulses {
-        let (Place::Graph { colour, slot }, Some(class)) = (record.place, record.class()) else {
-            return Impulses::default();
-        };
-        with_bucket!(&self.colours[usize::from(colour)], class, bucket => bucket.saved(slot))
+        let Some((place, class, slot)) = record.lanes() else { return Impulses::default() };
+        with_bucket!(&self.colours[place], class, bucket => bucket.saved(slot))
     }
 
     /// Brings the forest up to date, and moves joints between lanes and trees.
@@ -383,14 +383,12 @@ impl JointGraph {
         if !self.forest.is_stale() {
             return;
         }
-        let moves = self.forest.grow(bodies, joints);
-        for (index, place) in moves.into_trees {
+        for (index, place) in self.forest.grow(bodies, joints) {
             self.take(bodies, joints, index);
-            self.put(joints, index, place);
-        }
-        for index in moves.into_lanes {
-            self.take(bodies, joints, index);
-            self.put_in_lanes(bodies, joints, index);
+            match place {
+                Some(place) => self.put(joints, index, place),
+                None => self.put_in_lanes(bodies, joints, index),
+            }
         }
     }
 
@@ -435,11 +433,8 @@ impl JointGraph {
     /// Notes that the lanes of a joint no longer follow from its description: that has changed, or the
     /// centre of mass of a body has.
     fn mark_stale(&mut self, joints: &Joints, index: u32) {
-        let record = &joints.records[index as usize];
-        let (Place::Graph { colour, slot }, Some(class)) = (record.place, record.class()) else {
-            return;
-        };
-        with_bucket!(&mut self.colours[usize::from(colour)], class, bucket => bucket.mark_stale(slot));
+        let Some((place, class, slot)) = joints.records[index as usize].lanes() else { return };
+        with_bucket!(&mut self.colours[place], class, bucket => bucket.mark_stale(slot));
         self.any_stale = true;
     }
 }

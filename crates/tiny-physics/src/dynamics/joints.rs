@@ -4,6 +4,7 @@ use super::bodies::{Bodies, NULL};
 use super::coloured::Place;
 use super::edges::{self, edges};
 use super::joint_blocks::{Impulses, JointClass};
+use super::places::{claim, put};
 use crate::codec::{Generations, record, store};
 use crate::describe::JointDef;
 use crate::math::Vec2;
@@ -44,6 +45,12 @@ impl JointRecord {
     pub(crate) fn scale_saved(&mut self, factor: f32) {
         let count = if self.class() == Some(JointClass::Gear) { 1 } else { self.saved.len() };
         self.saved[..count].iter_mut().for_each(|impulse| *impulse *= factor);
+    }
+
+    /// Where it has lanes: place, class, slot.
+    pub(crate) fn lanes(&self) -> Option<(usize, JointClass, u32)> {
+        let Place::Graph { colour, slot } = self.place else { return None };
+        self.class().map(|class| (colour.into(), class, slot))
     }
 
     /// Which kernel solves it; `None` where there is nothing to solve.
@@ -92,13 +99,8 @@ impl Joints {
         self.count += 1;
         record.alive = true;
         record.generation = self.generations.next();
-        let index = if let Some(index) = self.free.pop() {
-            self.records[index as usize] = record;
-            index
-        } else {
-            self.records.push(record);
-            self.records.len() as u32 - 1
-        };
+        let index = claim(&mut self.free, self.records.len());
+        put(&mut self.records, index, record);
         edges::link(&mut self.records, bodies, index);
         self.note_breakable(index);
         index

@@ -17,6 +17,7 @@ mod joint_graph;
 mod joints;
 mod pace;
 mod pair_table;
+mod places;
 mod schedule;
 mod sensors;
 mod shapes;

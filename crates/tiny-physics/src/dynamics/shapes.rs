@@ -1,6 +1,7 @@
 //! Shapes: what hangs on bodies.
 
 use super::bodies::NULL;
+use super::places::{claim, put};
 use crate::broad_phase::ProxyId;
 use crate::codec::{Generations, kept_as_described, record, store};
 use crate::describe::{ChainLink, Filter, Material, ShapeDef};
@@ -130,11 +131,16 @@ impl Shapes {
         (0..self.records.len() as u32).filter(|&i| self.records[i as usize].alive)
     }
 
-    pub(crate) fn insert(&mut self, record: ShapeRecord) -> u32 {
-        let guards = guard::of(&record);
-        let index = self.insert_record(record);
-        self.guards.resize(self.records.len(), 0);
-        self.guards[index as usize] = guards;
+    pub(crate) fn insert(&mut self, mut record: ShapeRecord) -> u32 {
+        self.count += 1;
+        record.alive = true;
+        record.generation = self.generations.next();
+        let index = claim(&mut self.free, self.records.len());
+        put(&mut self.guards, index, guard::of(&record));
+        put(&mut self.records, index, record);
+        put(&mut self.rows, index, [0.0; 8]);
+        put(&mut self.tight, index, Aabb::EMPTY);
+        put(&mut self.fat, index, Aabb::EMPTY);
         index
     }
 
@@ -148,25 +154,6 @@ impl Shapes {
     pub(crate) fn mark_row(&mut self, index: u32) {
         let value = &mut self.rows[index as usize][7];
         *value = guard::exact(*value) + if self.guards[index as usize] != 0 { 2.0 } else { 0.0 };
-    }
-
-    fn insert_record(&mut self, mut record: ShapeRecord) -> u32 {
-        self.count += 1;
-        record.alive = true;
-        record.generation = self.generations.next();
-        if let Some(index) = self.free.pop() {
-            self.records[index as usize] = record;
-            self.rows[index as usize] = [0.0; 8];
-            self.tight[index as usize] = Aabb::EMPTY;
-            self.fat[index as usize] = Aabb::EMPTY;
-            index
-        } else {
-            self.records.push(record);
-            self.rows.push([0.0; 8]);
-            self.tight.push(Aabb::EMPTY);
-            self.fat.push(Aabb::EMPTY);
-            self.records.len() as u32 - 1
-        }
     }
 
     pub(crate) fn remove(&mut self, index: u32) {

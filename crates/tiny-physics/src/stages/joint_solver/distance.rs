@@ -11,7 +11,7 @@ use super::axis::{AxisDef, Coordinate, Give};
 use super::parts::{Pair, Row, Soft, Stride, cross, dot, scale, slow_turn};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
-use crate::dynamics::{DistanceBlock, TreeLink};
+use crate::dynamics::{AxisLanes, DistanceBlock, TreeLink};
 use crate::math::Vec2;
 use crate::simd::{BLOCK, Lanes};
 
@@ -46,6 +46,11 @@ fn outward<L: Lanes>(stride: &Stride<L>, pair: &Pair<L>, length: L, direction: [
 }
 
 impl JointKernel for DistanceBlock {
+    #[inline(always)]
+    fn axis(&self) -> Option<&AxisLanes> {
+        Some(&self.axis)
+    }
+
     fn tie(&self, stride: &Stride<f64>, pair: &Pair<f64>, link: &mut TreeLink) {
         let (length, row) = length_row(stride, pair);
         link.hold(&row, length - stride.load(&self.length.length));
@@ -72,11 +77,6 @@ impl JointKernel for DistanceBlock {
     fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let (_, row) = length_row(stride, pair);
         pair.apply_along(&row, stride.load(&self.rod.impulse) + self.axis.total(stride));
-    }
-
-    #[inline(always)]
-    fn has_extras(&self) -> bool {
-        self.axis.any_used()
     }
 
     #[inline(always)]

@@ -29,31 +29,22 @@ fn shorten<L: Lanes>(stride: &Stride<L>, impulse: [L; 2], max: L) -> [L; 2] {
     scale(impulse, L::select(long, factor, stride.one))
 }
 
+/// The springs of a mouse joint as a motor joint has them; that itself.
+fn as_motor(kind: JointKind) -> JointKind {
+    let JointKind::Mouse { spring, max_force, .. } = kind else { return kind };
+    JointKind::Motor {
+        velocity: Vec2::ZERO,
+        max_force: 0.0,
+        angular_velocity: 0.0,
+        max_torque: 0.0,
+        linear_spring: Some(spring),
+        max_spring_force: max_force,
+        angular_spring: None,
+        max_spring_torque: 0.0,
+    }
+}
+
 impl DriveBlock {
-    fn describe_springs(
-        &mut self,
-        lane: usize,
-        rates: &Rates,
-        linear: Option<Spring>,
-        angular: Option<Spring>,
-    ) {
-        for (spring, soft) in [(linear, &mut self.linear), (angular, &mut self.angular)] {
-            let [push, mass_scale, impulse_scale] = rates.spring(spring);
-            soft.push[lane] = push;
-            soft.mass_scale[lane] = mass_scale;
-            soft.impulse_scale[lane] = impulse_scale;
-        }
-    }
-
-    fn describe_mouse(&mut self, lane: usize, target: DVec2) {
-        self.drive.mouse[lane] = 1.0;
-        self.drive.target_x[lane] = target.x;
-        self.drive.target_y[lane] = target.y;
-        self.frame.body_a[lane] = 0;
-        self.frame.local_a_x[lane] = 0.0;
-        self.frame.local_a_y[lane] = 0.0;
-    }
-
     /// Change of the angular impulses.
     #[inline(always)]
     fn solve_angle<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &Pair<L>) -> L {
@@ -119,45 +110,41 @@ impl DriveBlock {
 impl JointKernel for DriveBlock {
     fn describe(&mut self, lane: usize, def: &JointDef, rates: &Rates) {
         describe_angle(&mut self.angle, lane, def);
-        match def.kind {
-            JointKind::Motor {
-                velocity,
-                max_force,
-                angular_velocity,
-                max_torque,
-                linear_spring,
-                max_spring_force,
-                angular_spring,
-                max_spring_torque,
-            } => {
-                self.describe_springs(lane, rates, linear_spring, angular_spring);
-                let drive = &mut self.drive;
-                drive.mouse[lane] = 0.0;
-                drive.velocity_x[lane] = velocity.x;
-                drive.velocity_y[lane] = velocity.y;
-                drive.velocity_max[lane] = max_force * rates.h;
-                drive.angular_velocity[lane] = angular_velocity;
-                drive.angular_max[lane] = max_torque * rates.h;
-                drive.spring_max[lane] =
-                    if linear_spring.is_some() { max_spring_force * rates.h } else { 0.0 };
-                drive.twist_max[lane] =
-                    if angular_spring.is_some() { max_spring_torque * rates.h } else { 0.0 };
-            }
-            JointKind::Mouse { target, spring, max_force } => {
-                self.describe_springs(lane, rates, Some(spring), None);
-                // w' = w / (1 + damping h)
-                let lost = MOUSE_TURN_DAMPING * rates.h;
-                self.angular.mass_scale[lane] = lost / (1.0 + lost);
-                self.angular.impulse_scale[lane] = 1.0 / (1.0 + lost);
-                self.describe_mouse(lane, target);
-                let drive = &mut self.drive;
-                drive.velocity_max[lane] = 0.0;
-                drive.angular_velocity[lane] = 0.0;
-                drive.angular_max[lane] = 0.0;
-                drive.twist_max[lane] = f32::MAX;
-                drive.spring_max[lane] = max_force * rates.h;
-            }
-            _ => {}
+        let JointKind::Motor {
+            velocity,
+            max_force,
+            angular_velocity,
+            max_torque,
+            linear_spring,
+            max_spring_force,
+            angular_spring,
+            max_spring_torque,
+        } = as_motor(def.kind)
+        else {
+            return;
+        };
+        self.linear.write(lane, rates.spring(linear_spring));
+        self.angular.write(lane, rates.spring(angular_spring));
+        let most = |spring: Option<Spring>, max: f32| spring.map_or(0.0, |_| max * rates.h);
+        let drive = &mut self.drive;
+        drive.mouse[lane] = 0.0;
+        (drive.velocity_x[lane], drive.velocity_y[lane]) = (velocity.x, velocity.y);
+        drive.velocity_max[lane] = max_force * rates.h;
+        drive.angular_velocity[lane] = angular_velocity;
+        drive.angular_max[lane] = max_torque * rates.h;
+        drive.spring_max[lane] = most(linear_spring, max_spring_force);
+        drive.twist_max[lane] = most(angular_spring, max_spring_torque);
+        if let JointKind::Mouse { target, .. } = def.kind {
+            drive.mouse[lane] = 1.0;
+            (drive.target_x[lane], drive.target_y[lane]) = (target.x, target.y);
+            // w' = w / (1 + damping h)
+            let lost = MOUSE_TURN_DAMPING * rates.h;
+            self.angular.mass_scale[lane] = lost / (1.0 + lost);
+            self.angular.impulse_scale[lane] = 1.0 / (1.0 + lost);
+            drive.twist_max[lane] = f32::MAX;
+            let frame = &mut self.frame;
+            frame.body_a[lane] = 0;
+            (frame.local_a_x[lane], frame.local_a_y[lane]) = (0.0, 0.0);
         }
     }
 

@@ -42,7 +42,7 @@ mod tests;
 use crate::describe::{BodyKind, JointDef};
 use crate::dynamics::{
     AxisLanes, BodyInfo, FrameLanes, JointBlocks, JointBucket, JointGraph, JointLanes, JointLoad,
-    Joints, Place, REFINEMENT, TreeLink, joint_classes, pace_at, with_bucket,
+    Joints, REFINEMENT, TreeLink, joint_classes, pace_at, with_bucket,
 };
 use crate::math::{Pose, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_baseline, dispatch_narrow};
@@ -63,7 +63,8 @@ pub(crate) enum Pass {
 
 /// What the solver does with a class of joints.
 trait JointKernel: JointLanes {
-    /// What acts along the free coordinate of joints that trees hold. Its impulses are the last.
+    /// What acts along the free coordinate. Its impulses are the last.
+    #[inline(always)]
     fn axis(&self) -> Option<&AxisLanes> {
         None
     }
@@ -83,10 +84,6 @@ trait JointKernel: JointLanes {
     fn prepare<L: Lanes>(&mut self, _stride: &Stride<L>, _start: &Start<L>, _poses: &[Pose]) {}
     /// Applies the impulses of the substep before.
     fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>);
-    /// Is the part used that joints of the class rarely have? Asked once a block and pass.
-    fn has_extras(&self) -> bool {
-        false
-    }
     /// Corrects the velocities, with bias or (relax) without.
     fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>);
     /// Takes the motion of the step over.
@@ -261,7 +258,10 @@ impl<B: JointKernel> LaneKernel for RunPass<'_, B> {
     fn run<L: Lanes>(self, token: L::Token) {
         let Self { pass, substep, rows, blocks, count } = self;
         for (index, block) in blocks.iter_mut().enumerate() {
-            let extras = block.has_extras();
+            let extras = match block.axis() {
+                Some(axis) => axis.any_used(),
+                None => false,
+            };
             for at in (0..BLOCK.min(count - index * BLOCK)).step_by(L::WIDTH) {
                 let stride = Stride::<L> { extras, ..Stride::new(token, at, substep) };
                 if pass == Pass::Finish {
@@ -285,10 +285,8 @@ impl<B: JointKernel> LaneKernel for RunPass<'_, B> {
 pub(crate) fn load(graph: &JointGraph, joints: &Joints, index: u32, inv_h: f32) -> JointLoad {
     let record = &joints.records[index as usize];
     let inv_h = inv_h * REFINEMENT[graph.pace_of(record)] as f32;
-    let (Place::Graph { colour, slot }, Some(class)) = (record.place, record.class()) else {
-        return JointLoad::default();
-    };
-    let colour = &graph.colours[usize::from(colour)];
+    let Some((place, class, slot)) = record.lanes() else { return JointLoad::default() };
+    let colour = &graph.colours[place];
     let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
     let (force, torque) = with_bucket!(colour, class, bucket => bucket.blocks[block].impulse(lane));
     JointLoad { force: force * inv_h, torque: torque * inv_h }

@@ -511,8 +511,8 @@ impl<L: Lanes> Pair<L> {
     /// The Jacobian of the gap along a direction, from a point on A (see [`Self::row_on_a`]) to the anchor on B.
     #[inline(always)]
     pub(super) fn row(&self, from_a: [L; 2], direction: [L; 2]) -> Row<L> {
-        let [arm_a, arm_b] = [from_a, self.anchor_b].map(|arm| cross(arm, direction));
-        let reach = [from_a, self.anchor_b].map(|arm| dot(arm, direction));
+        let (arm_a, arm_b) = (cross(from_a, direction), cross(self.anchor_b, direction));
+        let reach = [dot(from_a, direction), dot(self.anchor_b, direction)];
         Row { direction, arm_a, arm_b, reach }
     }
 

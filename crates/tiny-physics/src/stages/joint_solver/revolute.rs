@@ -22,6 +22,7 @@ fn near_zero(limits: Limits) -> Limits {
 }
 
 impl JointKernel for RevoluteBlock {
+    #[inline(always)]
     fn axis(&self) -> Option<&AxisLanes> {
         Some(&self.axis)
     }
@@ -60,11 +61,6 @@ impl JointKernel for RevoluteBlock {
     fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let impulse = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         pair.apply_at_anchors(impulse, self.axis.total(stride));
-    }
-
-    #[inline(always)]
-    fn has_extras(&self) -> bool {
-        self.axis.any_used()
     }
 
     #[inline(always)]

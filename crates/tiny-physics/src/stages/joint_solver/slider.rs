@@ -76,6 +76,7 @@ impl SliderBlock {
 }
 
 impl JointKernel for SliderBlock {
+    #[inline(always)]
     fn axis(&self) -> Option<&AxisLanes> {
         Some(&self.axis)
     }
@@ -134,11 +135,6 @@ impl JointKernel for SliderBlock {
         let jacobians = Rows::new(pair, direction);
         let rigid = stride.load2(&self.rigid.impulse_x, &self.rigid.impulse_y);
         jacobians.apply(pair, self.axis.total(stride), rigid);
-    }
-
-    #[inline(always)]
-    fn has_extras(&self) -> bool {
-        self.axis.any_used()
     }
 
     #[inline(always)]

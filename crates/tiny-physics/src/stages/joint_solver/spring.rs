@@ -65,12 +65,16 @@ impl Rates {
         soft: &mut SoftLanes,
         lane: usize,
     ) {
-        let [push, mass_scale, impulse_scale] =
-            if spring.is_some() { self.spring(spring) } else { self.rigid(def) };
-        soft.push[lane] = push;
-        soft.mass_scale[lane] = mass_scale;
-        soft.impulse_scale[lane] = impulse_scale;
+        soft.write(lane, if spring.is_some() { self.spring(spring) } else { self.rigid(def) });
         soft.rigid[lane] = if spring.is_some() { 0.0 } else { 1.0 };
+    }
+}
+
+impl SoftLanes {
+    pub(super) fn write(&mut self, lane: usize, [push, mass_scale, impulse_scale]: Coefficients) {
+        self.push[lane] = push;
+        self.mass_scale[lane] = mass_scale;
+        self.impulse_scale[lane] = impulse_scale;
     }
 }
 

@@ -280,25 +280,6 @@ impl Rates {
         Self { stride: Stride::new((), 0, substep), push }
     }
 
-    /// Velocity that a limit asks for: within the substep it may be reached, but not passed. An overrun goes as it
-    /// does in lanes, softly while it is small, and no faster than what the limit has taken.
-    #[inline(always)]
-    fn limit_bias<const BIAS: bool>(&self, class: JointClass, room: f64, taken: f64) -> f64 {
-        let Stride { inv_h, snap, snap_turn, .. } = self.stride;
-        if room > 0.0 {
-            return room * inv_h;
-        }
-        let snap = if class == JointClass::Revolute { snap_turn } else { snap };
-        let (soft, firm) = (TOUCHED_PUSH * room, room + f64::from(axis::SOFT_OVERRUN));
-        let push = if firm < soft { firm } else { soft } * inv_h;
-        let least = -(snap + taken);
-        match BIAS {
-            false => 0.0,
-            true if push < least => least,
-            true => push,
-        }
-    }
-
     /// Velocity that the error of a rigid row asks for.
     fn rigid_bias(&self, error: f64) -> f64 {
         self.push * error * self.stride.inv_h
@@ -338,6 +319,9 @@ fn snap_share<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) -> f64 {
 }
 
 /// What is missing in the velocity at the lower (1) or upper (-1) limit; above 0 where it would be overrun.
+///
+/// Within the substep a limit may be reached, but not passed. An overrun goes as it does in lanes, softly while it is
+/// small, and no faster than what the limit has taken.
 #[inline(always)]
 fn overrun<const BIAS: bool>(
     link: &TreeLink,
@@ -346,11 +330,20 @@ fn overrun<const BIAS: bool>(
     side: f64,
     rates: &Rates,
 ) -> f64 {
-    let at = usize::from(side < 0.0);
-    let (velocity, stopped) = (side * velocity, axis.free * axis.axis.limits[at]);
-    let room = side * (link.value - axis.axis.ends[at]);
-    let taken = if velocity < 0.0 { stopped - velocity } else { stopped };
-    -(velocity + rates.limit_bias::<BIAS>(link.class, room, taken))
+    let Stride { inv_h, snap, snap_turn, .. } = rates.stride;
+    let end = axis.axis.ends[usize::from(side < 0.0)];
+    let (velocity, room) = (side * velocity, side * (link.value - end));
+    if room > 0.0 {
+        return -(velocity + room * inv_h);
+    }
+    let snap = if link.class == JointClass::Revolute { snap_turn } else { snap };
+    // The impulse is another's where it is below 0: at most one limit pushes.
+    let (coming, impulse) = (velocity.min(0.0), (side * axis.axis.limits[0]).max(0.0));
+    let least = coming - axis.free * impulse - snap;
+    let (soft, firm) = (TOUCHED_PUSH * room, room + f64::from(axis::SOFT_OVERRUN));
+    let push = if firm < soft { firm } else { soft } * inv_h;
+    let push = if push < least { least } else { push };
+    -(velocity + if BIAS { push } else { 0.0 })
 }
 
 /// Velocity along the free coordinate of a link.
@@ -358,22 +351,11 @@ fn velocity(link: &TreeLink, nodes: &[TreeNode]) -> f64 {
     rows::velocity(&link.coordinate.on, &nodes[link.a as usize], &nodes[link.b as usize])
 }
 
-/// The accumulated impulse of a limit.
-fn limit_impulse(axis: &mut TreeAxis, side: f64) -> &mut f64 {
-    &mut axis.axis.limits[usize::from(side < 0.0)]
-}
-
-/// Takes back what a limit has given.
+/// Takes back what limits have given.
 #[inline(always)]
-fn release<S: Simd>(
-    simd: S,
-    link: &TreeLink,
-    axis: &mut TreeAxis,
-    nodes: &mut [TreeNode],
-    side: f64,
-) {
-    let impulse = core::mem::take(limit_impulse(axis, side));
-    rows::push(simd, nodes, [link.a, link.b], &link.coordinate.on, -side * impulse);
+fn release<S: Simd>(simd: S, link: &TreeLink, axis: &mut TreeAxis, nodes: &mut [TreeNode]) {
+    let impulse = core::mem::take(&mut axis.axis.limits[0]);
+    rows::push(simd, nodes, [link.a, link.b], &link.coordinate.on, -impulse);
 }
 
 /// Begins with the limits that pushed or would be overrun.
@@ -383,18 +365,19 @@ fn begin_limits<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates:
     for axis in axes {
         let link = &mut links[axis.link as usize];
         let velocity = velocity(link, nodes);
-        let wants = |impulse: f64, side: f64| {
-            impulse > 0.0 || overrun::<BIAS>(link, axis, velocity, side, rates) > 0.0
+        let wants = |side: f64| {
+            side * axis.axis.limits[0] > 0.0
+                || overrun::<BIAS>(link, axis, velocity, side, rates) > 0.0
         };
-        let side = if wants(axis.axis.limits[0], 1.0) {
+        let side = if wants(1.0) {
             1.0
-        } else if wants(axis.axis.limits[1], -1.0) {
+        } else if wants(-1.0) {
             -1.0
         } else {
             0.0
         };
-        if side > 0.0 && axis.axis.limits[1] != 0.0 {
-            release(simd, link, axis, nodes, -1.0);
+        if side * axis.axis.limits[0] < 0.0 {
+            release(simd, link, axis, nodes);
         }
         if side != link.limit {
             link.limit = side;
@@ -411,8 +394,8 @@ fn change_limits<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates
     for axis in axes {
         let link = &mut links[axis.link as usize];
         if link.limit != 0.0 {
-            if *limit_impulse(axis, link.limit) < 0.0 {
-                release(simd, link, axis, nodes, link.limit);
+            if link.limit * axis.axis.limits[0] < 0.0 {
+                release(simd, link, axis, nodes);
                 link.limit = 0.0;
                 changed = true;
             }
@@ -453,7 +436,7 @@ fn demand<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rate
         if link.limit != 0.0 {
             let mut wanted = overrun::<BIAS>(link, axis, velocity(link, nodes), link.limit, rates);
             if BIAS {
-                wanted -= link.coordinate.compliance * *limit_impulse(axis, link.limit);
+                wanted -= link.coordinate.compliance * link.limit * axis.axis.limits[0];
             }
             link.rhs[link.rigid] = wanted;
         }
@@ -496,7 +479,8 @@ fn apply<S: Simd>(simd: S, tree: &mut JointTree) {
     for axis in axes {
         let link = &mut links[axis.link as usize];
         if link.limit != 0.0 {
-            *limit_impulse(axis, link.limit) += core::mem::take(&mut link.change[link.rigid]);
+            let change = core::mem::take(&mut link.change[link.rigid]);
+            axis.axis.limits[0] += link.limit * change;
         }
     }
     for link in links {

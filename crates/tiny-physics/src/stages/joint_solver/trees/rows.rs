@@ -5,7 +5,7 @@
 
 use super::factor::{dot3, invert};
 use crate::dynamics::{
-    FrameLanes, Impulses, JOINTED, JointColour, JointTree, Joints, Place, Slot, TreeAxis, TreeLink,
+    FrameLanes, Impulses, JOINTED, JointColour, JointTree, Joints, Slot, TreeAxis, TreeLink,
     TreeNode, TreeRow, with_bucket,
 };
 use crate::simd::{BLOCK, Simd, Three, add_times, times};
@@ -75,11 +75,9 @@ pub(super) fn prepare(tree: &mut JointTree, joints: &Joints) {
     axes.clear();
     (*begun, *fresh, *factored) = (false, false, false);
     for link in links {
-        let Place::Graph { slot, .. } = joints.records[link.joint as usize].place else {
-            debug_assert!(false, "a joint of a tree has no lanes");
-            continue;
-        };
-        link.slot = slot;
+        let lanes = joints.records[link.joint as usize].lanes();
+        debug_assert!(lanes.is_some(), "a joint of a tree has no lanes");
+        link.slot = lanes.map_or(link.slot, |(.., slot)| slot);
         link.limit = 0.0;
     }
 }
@@ -101,7 +99,8 @@ fn begin<B: JointKernel>(
     if let Some(lanes) = block.axis()
         && (motor.is_some() || lanes.used[stride.at] != 0.0)
     {
-        let axis = lanes.load(stride);
+        let mut axis = lanes.load(stride);
+        axis.limits = [axis.limits[0] - axis.limits[1], 0.0];
         axes.push(TreeAxis { link: index as u32, axis, motor, ..TreeAxis::default() });
     }
 }
@@ -125,7 +124,8 @@ fn give_back<B: JointKernel>(link: &TreeLink, axis: Option<&TreeAxis>, block: &m
         *saved = *impulse as f32;
     }
     if let Some(TreeAxis { axis, motor, .. }) = axis {
-        let impulses = [axis.spring, axis.motor, axis.limits[0], axis.limits[1]];
+        let [limit, _] = axis.limits;
+        let impulses = [axis.spring, axis.motor, limit.max(0.0), (-limit).max(0.0)];
         saved[B::IMPULSES - 4..B::IMPULSES]
             .copy_from_slice(&impulses.map(|impulse| impulse as f32));
         if let Some([.., impulse]) = motor {
