@@ -407,52 +407,44 @@ impl JointDef {
 impl JointKind {
     /// The motor, if it has one that is set: of a [`JointKind::Motor`] the angular part.
     pub fn motor(&self) -> Option<Motor> {
-        match *self {
-            Self::Distance { motor, .. }
-            | Self::Revolute { motor, .. }
-            | Self::Prismatic { motor, .. }
-            | Self::Wheel { motor, .. } => motor,
-            Self::Motor { angular_velocity: speed, max_torque: max, .. } => {
+        let mut kind = *self;
+        match (kind.axis(), *self) {
+            (Some((.., motor)), _) => *motor,
+            (_, Self::Motor { angular_velocity: speed, max_torque: max, .. }) => {
                 Some(Motor { speed, max })
             }
             _ => None,
         }
     }
 
-    pub(crate) fn set_motor(&mut self, value: Option<Motor>) -> bool {
+    /// What acts along the free coordinate of the kinds that have one.
+    fn axis(&mut self) -> Option<(&mut Option<Spring>, &mut Option<Limits>, &mut Option<Motor>)> {
         match self {
-            Self::Distance { motor, .. }
-            | Self::Revolute { motor, .. }
-            | Self::Prismatic { motor, .. }
-            | Self::Wheel { motor, .. } => *motor = value,
-            Self::Motor { angular_velocity, max_torque, .. } => {
-                (*angular_velocity, *max_torque) = value.map_or((0.0, 0.0), |m| (m.speed, m.max));
-            }
-            _ => return false,
+            Self::Distance { spring, limits, motor, .. }
+            | Self::Revolute { spring, limits, motor, .. }
+            | Self::Prismatic { spring, limits, motor, .. }
+            | Self::Wheel { spring, limits, motor } => Some((spring, limits, motor)),
+            _ => None,
         }
-        true
+    }
+
+    pub(crate) fn set_motor(&mut self, value: Option<Motor>) -> bool {
+        if let Self::Motor { angular_velocity, max_torque, .. } = self {
+            (*angular_velocity, *max_torque) = value.map_or((0.0, 0.0), |m| (m.speed, m.max));
+            return true;
+        }
+        self.axis().map(|(.., motor)| *motor = value).is_some()
     }
 
     pub(crate) fn set_limits(&mut self, value: Option<Limits>) -> bool {
-        match self {
-            Self::Distance { limits, .. }
-            | Self::Revolute { limits, .. }
-            | Self::Prismatic { limits, .. }
-            | Self::Wheel { limits, .. } => *limits = value,
-            _ => return false,
-        }
-        true
+        self.axis().map(|(_, limits, _)| *limits = value).is_some()
     }
 
     pub(crate) fn set_spring(&mut self, value: Option<Spring>) -> bool {
         match self {
-            Self::Distance { spring, .. }
-            | Self::Revolute { spring, .. }
-            | Self::Prismatic { spring, .. }
-            | Self::Wheel { spring, .. } => *spring = value,
             Self::Weld { linear, angular } => (*linear, *angular) = (value, value),
             Self::Mouse { spring, .. } => *spring = value.unwrap_or(*spring),
-            _ => return false,
+            _ => return self.axis().map(|(spring, ..)| *spring = value).is_some(),
         }
         true
     }
@@ -469,15 +461,12 @@ impl JointKind {
     }
 
     pub(crate) fn set_max_force(&mut self, value: f32) -> bool {
-        match self {
-            Self::Distance { motor: Some(motor), .. }
-            | Self::Revolute { motor: Some(motor), .. }
-            | Self::Prismatic { motor: Some(motor), .. }
-            | Self::Wheel { motor: Some(motor), .. } => motor.max = value,
-            Self::Motor { max_force, .. } | Self::Mouse { max_force, .. } => *max_force = value,
-            _ => return false,
+        if let Self::Motor { max_force, .. } | Self::Mouse { max_force, .. } = self {
+            *max_force = value;
+            return true;
         }
-        true
+        let motor = self.axis().and_then(|(.., motor)| motor.as_mut());
+        motor.map(|motor| motor.max = value).is_some()
     }
 
     fn validate(&self) -> Result<(), Error> {
