@@ -39,28 +39,15 @@ impl Shape {
     }
 
     /// Box around the turned core, relative to the frame's origin, and the radius to add.
-    #[inline]
     fn turned_core_box(&self, q: Rot) -> (Aabb, f32) {
-        match self {
-            Self::Circle { radius } => (Aabb::new(Vec2::ZERO, Vec2::ZERO), *radius),
-            Self::Aabb { half_extents } => {
-                let (c, s) = (q.c.abs(), q.s.abs());
-                let half = Vec2::new(
-                    c * half_extents.x + s * half_extents.y,
-                    s * half_extents.x + c * half_extents.y,
-                );
-                (Aabb::new(-half, half), 0.0)
-            }
-            Self::Capsule { a, b, radius } => (turned_box(&[*a, *b], q), *radius),
-            Self::Segment { a, b } => (turned_box(&[*a, *b], q), 0.0),
-            Self::Polygon(polygon) => (turned_box(polygon.padded().0, q), polygon.radius()),
-        }
+        let core = self.core();
+        (turned_box(core.points(), q), core.radius)
     }
 }
 
 /// Box around turned points.
 #[inline]
-pub(crate) fn turned_box<const N: usize>(points: &[Vec2; N], q: Rot) -> Aabb {
+pub(crate) fn turned_box(points: &[Vec2], q: Rot) -> Aabb {
     let mut bounds = Aabb::EMPTY;
     for point in points {
         let turned = q.rotate(*point);

@@ -132,6 +132,7 @@ fn search(a: &Moving<'_>, b: &Moving<'_>, goal: Goal) -> Toi {
             &a.along(&core_a, fraction, gap.normal),
             &b.along(&core_b, fraction, gap.normal),
             target,
+            max_fraction - fraction,
         );
         if fraction + step >= max_fraction {
             return end(ToiState::Separated, max_fraction);
@@ -210,18 +211,19 @@ struct Along {
     turn_acceleration: f32,
 }
 
-/// Part of the step for which the gap along the normal certainly stays above the target; see the top of the
-/// file.
-fn safe_step(a: &Along, b: &Along, target: f32) -> f32 {
+/// Part of the step, at least `rest` where it is that, for which the gap along the normal certainly stays above the
+/// target; see the top of the file.
+fn safe_step(a: &Along, b: &Along, target: f32, rest: f32) -> f32 {
     let k = a.turn_acceleration + b.turn_acceleration;
     let offset = a.radius + b.radius + target;
-    let (mut second_order, mut least_gap) = (f32::INFINITY, f32::INFINITY);
+    let (mut second_order, mut least_gap) = (rest, f32::INFINITY);
     for i in 0..a.count {
         for j in 0..b.count {
             let gap = b.places[j] - a.places[i] - offset;
-            let step = time_to_close(gap, a.speeds[i] - b.speeds[j], k);
-            if step < second_order {
-                second_order = step;
+            let closing = a.speeds[i] - b.speeds[j];
+            // Most pairs of points are still apart by then.
+            if gap <= 0.0 || gap < (closing + 0.5 * k * second_order) * second_order {
+                second_order = time_to_close(gap, closing, k);
             }
             if gap < least_gap {
                 least_gap = gap;

@@ -2,6 +2,7 @@
 
 use crate::broad_phase::BroadPhase;
 use crate::dynamics::{Bodies, Shapes, guard};
+use crate::geometry::{Polygon, Shape, turned_box};
 use crate::math::{Aabb, Pose, Vec2};
 use crate::simd::Row;
 use crate::threads::SharedSlice;
@@ -132,13 +133,25 @@ pub(crate) fn update(
 /// The box of a shape on a body whose centre of mass has this pose.
 pub(crate) fn shape_box(shapes: &Shapes, shape: u32, pose: Pose) -> Aabb {
     let row = &shapes.rows[shape as usize];
-    if guard::exact(row[7]) == 1.0 {
-        rounded_box(row, pose)
-    } else {
-        let record = &shapes.records[shape as usize];
-        record.shape.world_aabb(pose.compose(record.central))
+    let record = &shapes.records[shape as usize];
+    match &record.shape {
+        Shape::Polygon(polygon) if guard::exact(row[7]) != 1.0 => {
+            polygon_box(polygon, pose.compose(record.central))
+        }
+        _ => rounded_box(row, pose),
     }
 }
+
+/// The box of a polygon.
+fn polygon_box(polygon: &Polygon, pose: Pose) -> Aabb {
+    let turned = turned_box(polygon.vertices(), pose.q).grown(polygon.radius());
+    let near = pose.p.to_vec2();
+    let slack = (near.abs() + turned.min.abs().max(turned.max.abs())) * ROUNDING;
+    Aabb::new(near + turned.min - slack, near + turned.max + slack)
+}
+
+/// Rounding 64 bits to 32 and adding takes at most three halves of a last place; this is four.
+const ROUNDING: f32 = 2.0 * f32::EPSILON;
 
 /// The box of a rounded box.
 #[inline]
@@ -147,8 +160,7 @@ fn rounded_box(row: &Row, pose: Pose) -> Aabb {
     let (c, s) = (pose.q.c * row[2] - pose.q.s * row[3], pose.q.s * row[2] + pose.q.c * row[3]);
     let (c, s) = (c.abs(), s.abs());
     let extent = Vec2::new(c * row[4] + s * row[5] + row[6], s * row[4] + c * row[5] + row[6]);
-    // Rounding 64 bits to 32 and adding takes at most three halves of a last place; this is four.
     let near = center.to_vec2();
-    let slack = (near.abs() + extent) * (2.0 * f32::EPSILON);
+    let slack = (near.abs() + extent) * ROUNDING;
     Aabb::new(near - extent - slack, near + extent + slack)
 }

@@ -464,11 +464,12 @@ fn write_constraint<L: Lanes, K: PairKernel>(
     L::load(token, &manifold.friction[at..]).store(&mut constraint.friction[at..]);
 
     let old_id = [L::load(token, &manifold.id_1[at..]), L::load(token, &manifold.id_2[at..])];
-    let old = [0, 1].map(|k| {
-        let point = &constraint.points[k];
-        [L::load(token, &point.normal_impulse[at..]), L::load(token, &point.tangent_impulse[at..])]
-    });
     let zero = L::splat(token, 0.0);
+    let mut old = [[zero; 2]; 2];
+    for (old, point) in old.iter_mut().zip(&constraint.points) {
+        old[0] = L::load(token, &point.normal_impulse[at..]);
+        old[1] = L::load(token, &point.tangent_impulse[at..]);
+    }
     let mut approach = [zero; 2];
     for (k, approach) in approach.iter_mut().enumerate().take(K::POINTS) {
         let valid = geometry.valid[k];

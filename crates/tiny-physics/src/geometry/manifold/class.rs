@@ -108,7 +108,7 @@ impl RoundedBox {
 
     fn polygon(polygon: &Polygon) -> Self {
         let (half_extents, frame) = polygon.as_rect().unwrap_or_else(|| {
-            let bounds = turned_box(polygon.padded().0, Rot::IDENTITY);
+            let bounds = turned_box(polygon.vertices(), Rot::IDENTITY);
             (bounds.half_extents(), Transform::new(bounds.center(), Rot::IDENTITY))
         });
         Self { frame, half_extents, radius: polygon.radius() }
