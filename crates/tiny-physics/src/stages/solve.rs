@@ -28,8 +28,9 @@ const CONTACT_RATE_FRACTION: f32 = 0.22;
 const FAST_APPROACH: f32 = 10.0;
 /// What is deeper in than its load accounts for is pushed out at this rate, 1 / second.
 const PUSH_RATE: f32 = 20.0;
-/// Times more that the contacts of squeezed bodies are solved in a pass. In 400 random worlds 4 took the sum of the
-/// deepest overlaps from 14.3 m to 13.1, 12 and 32 no further.
+/// Times more that the contacts of squeezed bodies are solved in a pass, rigidly: softness goes by the lighter mass of a
+/// pair, and what is heavier would sink in. Of 30 pairs of light boxes in a row under a heavy one 22 went deeper than half
+/// their height with soft ones, 7 with rigid ones, 4 with 16 of them; but 16 hurt joints in random worlds.
 const HARD_ROUNDS: usize = 4;
 
 /// How a step is divided.
@@ -250,7 +251,7 @@ impl Solver {
                 joints(stores, joint_solver::Pass::Solve);
                 contacts(stores, Pass::Solve);
                 for _ in 0..hard_rounds {
-                    in_lanes(stores, Pass::Solve, hard_schedule);
+                    in_lanes(stores, Pass::Relax, hard_schedule);
                 }
             }
             integrate::positions(team, listed, stores.bodies, h, max_speed);
