@@ -92,7 +92,10 @@ fn solve_both<L: Lanes, const BIAS: bool>(
     let one = L::splat(stride.token, 1.0);
     let inv_scale = if BIAS { one / mass_scale } else { one };
     let soft = [push_rate, mass_scale, inv_scale];
-    let normals = [0, 1].map(|k: usize| Normal::load::<BIAS>(stride, pair, &block.points[k], soft));
+    // No closures: they are built without the lanes' instructions.
+    let [first, second] = &block.points;
+    let first = Normal::load::<BIAS>(stride, pair, first, soft);
+    let normals = [first, Normal::load::<BIAS>(stride, pair, second, soft)];
     Normal::solve_both(&normals, stride, pair, block, LEAST_DETERMINANT)
 }
 

@@ -14,7 +14,9 @@ use super::friction::solve_friction;
 use super::normals::Normal;
 use super::pair::{Constants, Pair, Stride};
 use super::{CHUNK, Parameters};
-use crate::dynamics::{Bodies, ConstraintBlock, Graph, LaneBlock, Schedule, flags, is_overflow};
+use crate::dynamics::{
+    Bodies, ConstraintBlock, Graph, LaneBlock, PointLanes, Schedule, flags, is_overflow,
+};
 use crate::footprint::footprint;
 use crate::geometry::manifold::PairClass;
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_narrow};
@@ -268,21 +270,29 @@ impl LaneKernel for Leave<'_> {
     }
 }
 
+/// A point that is to leave at a speed. What does not hit keeps its nothing, and so is not rubbed.
+#[inline(always)]
+fn leaving<L: Lanes>(
+    stride: &Stride<'_, L>,
+    pair: &Pair<L>,
+    point: &PointLanes,
+    targets: &[f32; BLOCK],
+) -> Normal<L> {
+    let (zero, target) = (stride.constants.zero, stride.load(targets));
+    let (arm_a, arm_b) = (stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b));
+    let (old, diagonal) = (stride.load(&point.normal_impulse), pair.response(arm_a, arm_b));
+    let mass = L::select(zero.lt(target), stride.load(&point.normal_mass), zero);
+    let demand = pair.normal_velocity(arm_a, arm_b) - target - diagonal * old;
+    Normal { arm_a, arm_b, old, diagonal, mass, demand }
+}
+
 /// Lets points leave at the speeds that the [`search`] found, rubbed by what that takes.
 #[inline(always)]
 fn leave<L: Lanes>(stride: &Stride<'_, L>, block: &mut ConstraintBlock, aims: &Aims) {
-    let zero = stride.constants.zero;
     let mut pair = Pair::load(stride, block);
     let friction = stride.load(&block.friction);
-    let normals = [0, 1].map(|k: usize| {
-        let (point, target) = (&block.points[k], stride.load(&aims.targets[k]));
-        let (arm_a, arm_b) = (stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b));
-        let (old, diagonal) = (stride.load(&point.normal_impulse), pair.response(arm_a, arm_b));
-        // What does not hit keeps its nothing, and so is not rubbed.
-        let mass = L::select(zero.lt(target), stride.load(&point.normal_mass), zero);
-        let demand = pair.normal_velocity(arm_a, arm_b) - target - diagonal * old;
-        Normal { arm_a, arm_b, old, diagonal, mass, demand }
-    });
+    let first = leaving(stride, &pair, &block.points[0], &aims.targets[0]);
+    let normals = [first, leaving(stride, &pair, &block.points[1], &aims.targets[1])];
     let impulses = Normal::solve_both(&normals, stride, &mut pair, block, LEAST_DETERMINANT);
     for (point, impulse) in block.points.iter_mut().zip(impulses) {
         stride.store(impulse, &mut point.load);
