@@ -7,17 +7,17 @@ use crate::math::{Aabb, DVec2, Pose, Rot, Transform, Vec2};
 impl Shape {
     /// Box around the shape seen from the parent frame, rounded to nearest.
     pub fn aabb(&self, frame: Transform) -> Aabb {
-        let (core, radius) = self.turned_core_box(frame.q);
-        let reach = Vec2::splat(radius);
-        Aabb::new(frame.p + core.min - reach, frame.p + core.max + reach)
+        let core = self.core();
+        let (turned, reach) = (turned_box(core.points(), frame.q), Vec2::splat(core.radius));
+        Aabb::new(frame.p + turned.min - reach, frame.p + turned.max + reach)
     }
 
     /// Box around the shape in the world, rounded outwards from 64 bits.
     pub fn world_aabb(&self, pose: Pose) -> Aabb {
-        let (core, radius) = self.turned_core_box(pose.q);
-        let reach = f64::from(radius);
-        let reach = DVec2::new(reach, reach);
-        Aabb::rounded_out(pose.p + core.min - reach, pose.p + core.max + reach)
+        let core = self.core();
+        let (turned, radius) = (turned_box(core.points(), pose.q), f64::from(core.radius));
+        let reach = DVec2::new(radius, radius);
+        Aabb::rounded_out(pose.p + turned.min - reach, pose.p + turned.max + reach)
     }
 
     /// Radius of the circle around the frame's origin that holds the shape, metres.
@@ -36,12 +36,6 @@ impl Shape {
         let center = self.mass_properties(1.0).center;
         let depth = |i: usize| core.normal(i).dot(core.points[i] - center);
         least_by(core.edge_count(), depth).1 + core.radius
-    }
-
-    /// Box around the turned core, relative to the frame's origin, and the radius to add.
-    fn turned_core_box(&self, q: Rot) -> (Aabb, f32) {
-        let core = self.core();
-        (turned_box(core.points(), q), core.radius)
     }
 }
 

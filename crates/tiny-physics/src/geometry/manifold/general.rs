@@ -101,8 +101,7 @@ impl<L: Lanes> LaneOutline<L> {
         let outlines = &outlines[..L::WIDTH];
         let mut count = 0;
         for outline in outlines {
-            let own = outline.polygon.vertices().len();
-            count = if own > count { own } else { count };
+            count = count.max(outline.polygon.vertices().len());
         }
         let ([a, b, c, d], [e, f, g, h]) = four(token, outlines, 0, frame);
         let corners = [a, b, c, d, a, b, c, d, a];

@@ -509,13 +509,8 @@ impl Meeting<'_> {
     fn comes_near(&self) -> bool {
         let room = self.extents[0] + self.extents[1];
         let (way_sq, on) = (self.way.length_sq(), -self.between.dot(self.way));
-        let nearest = if on <= 0.0 || way_sq == 0.0 {
-            self.between
-        } else if on >= way_sq {
-            self.between + self.way
-        } else {
-            self.between + self.way * (on / way_sq)
-        };
+        let part = if way_sq > 0.0 { (on / way_sq).clamp(0.0, 1.0) } else { 0.0 };
+        let nearest = self.between + self.way * part;
         nearest.length_sq() <= room * room
     }
 

@@ -93,9 +93,8 @@ fn solve_both<L: Lanes, const BIAS: bool>(
     let inv_scale = if BIAS { one / mass_scale } else { one };
     let soft = [push_rate, mass_scale, inv_scale];
     // No closures: they are built without the lanes' instructions.
-    let [first, second] = &block.points;
-    let first = Normal::load::<BIAS>(stride, pair, first, soft);
-    let normals = [first, Normal::load::<BIAS>(stride, pair, second, soft)];
+    let first = Normal::load::<BIAS>(stride, pair, &block.points[0], soft);
+    let normals = [first, Normal::load::<BIAS>(stride, pair, &block.points[1], soft)];
     Normal::solve_both(&normals, stride, pair, block, LEAST_DETERMINANT)
 }
 
