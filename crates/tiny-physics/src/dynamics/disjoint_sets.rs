@@ -16,9 +16,7 @@ impl DisjointSets {
     /// Puts each of some numbers below `count` into a set of its own. The others are not to be asked for or joined: to go
     /// past them costs nothing.
     pub(crate) fn reset(&mut self, count: usize, numbers: impl IntoIterator<Item = u32>) {
-        if self.parents.len() < count {
-            self.parents.resize(count, 0);
-        }
+        self.parents.resize(self.parents.len().max(count), 0);
         for number in numbers {
             self.parents[number as usize] = number;
         }

@@ -8,7 +8,7 @@
 //! `max` are compare-and-select, there is no fused multiply-add and no estimate, and nothing is summed
 //! across lanes.
 //!
-//! Functions over lanes must be `#[inline(always)]` (and take no closures in hot places): only then
+//! Functions over lanes must be `#[inline(always)]` (and hand no closures to `array::map` and its like): only then
 //! does the compiler build them with the instruction set of the kernel that they end up in.
 
 mod doubles;

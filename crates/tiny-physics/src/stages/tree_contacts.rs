@@ -159,11 +159,8 @@ impl TreeContacts {
         let answers = &mut self.answers[self.used];
         answers.begin(index, tree);
         for (node, &body) in answers.bodies.iter().enumerate() {
-            let of_tree = OfTree {
-                answers: tree_answers,
-                node: node as u32,
-                touched: answers.touched.len() as u32,
-            };
+            let touched = answers.touched.len() as u32;
+            let of_tree = OfTree { answers: tree_answers, node: node as u32, touched };
             let before = self.found.len();
             let first_contact = stores.bodies.infos[body as usize].first_contact;
             for (contact, side) in stores.contacts.of_body(first_contact) {

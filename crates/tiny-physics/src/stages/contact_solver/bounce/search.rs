@@ -76,7 +76,11 @@ impl Search<'_> {
         }
         let zero = stride.constants.zero;
         let moves = zero.lt(rows[Slot::INV_MASS] + rows[Slot::INV_INERTIA]);
-        gains.map(|gains| L::select(moves, L::load(stride.token, &gains), zero))
+        let mut moving = [zero; 3];
+        for (moving, gains) in moving.iter_mut().zip(&gains) {
+            *moving = L::select(moves, L::load(stride.token, gains), zero);
+        }
+        moving
     }
 
     /// Lanes whose points approach faster than the threshold, or, where nothing was pressed before, at all.
