@@ -18,10 +18,20 @@ enum Part {
     Chain,
     /// A chain that hangs from the floor body and was made far out of place.
     Apart,
+    /// Sliders beyond their limits, with a weight each.
+    Sliders,
 }
 
-const ALL: [Part; 7] =
-    [Part::Crates, Part::Balls, Part::Planks, Part::Stones, Part::Shot, Part::Chain, Part::Apart];
+const ALL: [Part; 8] = [
+    Part::Crates,
+    Part::Balls,
+    Part::Planks,
+    Part::Stones,
+    Part::Shot,
+    Part::Chain,
+    Part::Apart,
+    Part::Sliders,
+];
 
 /// Some of that falls on a floor with a step; all lengths are times `unit`.
 fn course(parts: &[Part], unit: f32, steps: usize) -> Course {
@@ -74,6 +84,17 @@ fn course(parts: &[Part], unit: f32, steps: usize) -> Course {
         world.add_joint(above.0, link, hinge).unwrap();
         bodies.push(link);
         above = (link, at(0.0, -0.5));
+    }
+    for i in 0..if parts.contains(&Part::Sliders) { 4 } else { 0 } {
+        let (x, over) = (13.0 + 1.5 * i as f32, 0.125 * (i + 1) as f32);
+        let body = |y| RigidBody::dynamic().position(at(x, y)).shape(sized(0.25, 0.25));
+        let slider = world.add_body(body(5.0 - over)).unwrap();
+        let weight = world.add_body(body(4.0 - over)).unwrap();
+        let down = JointDef::prismatic(Vec2::Y).limits(0.0, unit);
+        world.add_joint(floor, slider, down.anchors(at(x, 6.0), Vec2::ZERO)).unwrap();
+        let rod = JointDef::revolute().anchors(at(0.0, -0.5), at(0.0, 0.5));
+        world.add_joint(slider, weight, rod).unwrap();
+        bodies.extend([slider, weight]);
     }
     let mut course = Course::new();
     for step in 0..steps {

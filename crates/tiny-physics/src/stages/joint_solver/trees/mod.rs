@@ -330,17 +330,18 @@ fn overrun<const BIAS: bool>(
     side: f64,
     rates: &Rates,
 ) -> f64 {
-    let Stride { inv_h, snap, snap_turn, .. } = rates.stride;
+    let Stride { inv_h, snap, snap_turn, unit, .. } = rates.stride;
     let end = axis.axis.ends[usize::from(side < 0.0)];
     let (velocity, room) = (side * velocity, side * (link.value - end));
     if room > 0.0 {
         return -(velocity + room * inv_h);
     }
-    let snap = if link.class == JointClass::Revolute { snap_turn } else { snap };
+    let turns = link.class == JointClass::Revolute;
+    let (snap, unit) = if turns { (snap_turn, 1.0) } else { (snap, unit) };
     // The impulse is another's where it is below 0: at most one limit pushes.
     let (coming, impulse) = (velocity.min(0.0), (side * axis.axis.limits[0]).max(0.0));
     let least = coming - axis.free * impulse - snap;
-    let (soft, firm) = (TOUCHED_PUSH * room, room + f64::from(axis::SOFT_OVERRUN));
+    let (soft, firm) = (TOUCHED_PUSH * room, room + unit * f64::from(axis::SOFT_OVERRUN));
     let push = if firm < soft { firm } else { soft } * inv_h;
     let push = if push < least { least } else { push };
     -(velocity + if BIAS { push } else { 0.0 })
