@@ -22,10 +22,12 @@ use super::islands::Stores;
 use super::joint_solver::trees;
 use super::passivity::may_drive;
 use crate::dynamics::{Bodies, Bucket, JointTree, Joints, NULL, Slot, flags};
-use crate::simd::{BLOCK, Lanes, Row, SimdLevel};
+use crate::simd::{BLOCK, LaneKernel, Lanes, Row, SimdLevel, dispatch_narrow};
 
 /// Numbers that the answers of a tree may have: touched bodies times bodies. Others stay with the lanes.
 const MOST_ANSWERS: usize = 1024;
+/// What the numbers of a column are a multiple of: the widest lanes that work on them.
+const WIDEST: usize = 8;
 /// Times that the points of a contact are gone through in a pass.
 const TURNS: usize = 2;
 /// A contact counts as no heavier than so many times its two bodies alone. Along a taut rope a tree hardly gives way; with the
@@ -47,8 +49,10 @@ struct Answers {
     bodies: Vec<u32>,
     /// Nodes that something touches.
     touched: Vec<u32>,
-    /// For each of them, for each body: changes of velocity per impulse along x, y and about the middle.
-    columns: Vec<[Planar; 3]>,
+    /// For each of them a column per impulse along x, y and about the middle: changes of velocity body by body.
+    columns: Vec<f32>,
+    /// Velocities of the bodies during a pass, as long as a column.
+    velocities: Vec<f32>,
     /// The limits that held then.
     limits: Vec<i8>,
 }
@@ -82,6 +86,8 @@ struct Side {
 struct Point {
     there: bool,
     separation: f32,
+    /// That of the bodies' places now.
+    now: f32,
     /// Cross products of anchors with normal and tangent, on A and on B.
     arms: [f32; 2],
     tangent_arms: [f32; 2],
@@ -116,17 +122,18 @@ pub(crate) struct TreeContacts {
     used: usize,
     found: Vec<Found>,
     touches: Vec<Touch>,
+    last_pass: Option<Pass>,
 }
 
-crate::footprint::footprint!(Answers { bodies, touched, columns, limits } none { tree });
-crate::footprint::footprint!(TreeContacts { found, touches } each { answers } none { used });
+crate::footprint::footprint!(Answers { bodies, touched, columns, velocities, limits } none { tree });
+crate::footprint::footprint!(TreeContacts { found, touches } each { answers } none { used, last_pass });
 
 impl TreeContacts {
     /// Takes the contacts of trees out of the lanes of a pace.
     pub(crate) fn take(&mut self, pace: usize, stores: &mut Stores<'_>) {
         self.touches.clear();
         self.found.clear();
-        self.used = 0;
+        (self.used, self.last_pass) = (0, None);
         for (index, tree) in stores.joint_graph.forest.trees.iter().enumerate() {
             let here = tree.pace == pace && !tree.links.is_empty();
             if here
@@ -198,6 +205,7 @@ impl TreeContacts {
             answers.limits.clear();
             answers.limits.extend(limits());
             answers.columns.clear();
+            answers.columns.resize(3 * answers.touched.len() * answers.velocities.len(), 0.0);
             trees::answer(level, tree, &answers.touched, &mut answers.columns);
             any = true;
         }
@@ -222,28 +230,58 @@ impl TreeContacts {
         if pass == Pass::Solve {
             self.update(level, rows, forest);
         }
-        let constants = Constants::new((), parameters);
-        let Self { answers, touches, .. } = self;
+        let moved = matches!(
+            (self.last_pass.replace(pass), pass),
+            (Some(Pass::WarmStart), Pass::Solve)
+                | (Some(Pass::Solve), Pass::Relax | Pass::RelaxLast)
+        );
+        let Self { answers, touches, used, .. } = self;
+        if let Pass::WarmStart | Pass::WarmStartJointed = pass {
+            let first = pass == Pass::WarmStart;
+            touches.iter_mut().for_each(|touch| touch.warm_start(rows, first));
+            return;
+        }
+        if moved {
+            touches.iter_mut().for_each(|touch| touch.place(rows));
+        }
+        let (answers, constants) = (&mut answers[..*used], Constants::new((), parameters));
+        answers.iter_mut().for_each(|answers| answers.load(rows));
+        dispatch_narrow(level, RunPass { pass, constants, answers, touches, rows });
+        answers.iter().for_each(|answers| answers.store(rows));
+    }
+}
+
+/// A pass over all contacts.
+struct RunPass<'a> {
+    pass: Pass,
+    constants: Constants<f32>,
+    answers: &'a mut [Answers],
+    touches: &'a mut [Touch],
+    rows: &'a mut [Row],
+}
+
+impl LaneKernel for RunPass<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, token: L::Token) {
+        let Self { pass, constants, answers, touches, rows } = self;
+        let mut velocities = Velocities::<L> { token, answers, rows };
         for touch in touches {
-            match pass {
-                Pass::WarmStart => touch.warm_start(rows, true),
-                Pass::WarmStartJointed => touch.warm_start(rows, false),
-                Pass::Solve => {
-                    for _ in 0..TURNS {
-                        touch.solve::<true>(&constants, answers, rows);
-                    }
+            if pass == Pass::Solve {
+                for _ in 0..TURNS {
+                    touch.solve::<L, true>(&constants, &mut velocities);
                 }
-                Pass::Relax | Pass::RelaxLast => {
-                    touch.rub(answers, rows);
-                    for _ in 0..TURNS {
-                        touch.solve::<false>(&constants, answers, rows);
-                    }
-                    for point in &mut touch.points {
-                        point.load = point.impulse;
-                        if touch.hit && pass == Pass::RelaxLast {
-                            point.total += point.impulse;
-                        }
-                    }
+                continue;
+            }
+            touch.rub(&mut velocities);
+            for _ in 0..TURNS {
+                touch.solve::<L, false>(&constants, &mut velocities);
+            }
+            for point in &mut touch.points {
+                point.load = point.impulse;
+                if touch.hit && pass == Pass::RelaxLast {
+                    point.total += point.impulse;
                 }
             }
         }
@@ -263,6 +301,7 @@ impl Touch {
             *point = Point {
                 there: lanes.normal_mass[lane] > 0.0,
                 separation: lanes.separation[lane],
+                now: 0.0,
                 arms: [lanes.normal_arm_a[lane], lanes.normal_arm_b[lane]],
                 tangent_arms: [lanes.tangent_arm_a[lane], lanes.tangent_arm_b[lane]],
                 alone: [lanes.normal_mass[lane], lanes.tangent_mass[lane]],
@@ -304,6 +343,7 @@ impl Touch {
     }
 
     /// Directions of impulses along the normal, the tangent or about: on A and on B.
+    #[inline(always)]
     fn along(direction: [f32; 2], arms: [f32; 2]) -> [Planar; 2] {
         let [x, y] = direction;
         [[-x, -y, -arms[0]], [x, y, arms[1]]]
@@ -343,45 +383,111 @@ impl Touch {
         }
     }
 
+    /// Notes how far apart its bodies are.
+    fn place(&mut self, rows: &[Row]) {
+        for point in self.points.iter_mut().filter(|point| point.there) {
+            let on = Self::along(self.normal, point.arms);
+            let [a, b] = [0, 1].map(|k: usize| {
+                let [.., x, y, turn, _] = rows[self.sides[k].body as usize];
+                dot(on[k], [x, y, turn])
+            });
+            point.now = point.separation + (a + b);
+        }
+    }
+
     /// Normal impulses; see the kernels of [`super::contact_solver`].
-    fn solve<const BIAS: bool>(
+    #[inline(always)]
+    fn solve<L: Lanes, const BIAS: bool>(
         &mut self,
         constants: &Constants<f32>,
-        answers: &[Answers],
-        rows: &mut [Row],
+        velocities: &mut Velocities<'_, L>,
     ) {
-        let Self { sides, normal, points, .. } = self;
-        let fixed = sides.iter().any(|side| rows[side.body as usize][Slot::INV_MASS] == 0.0);
+        let Self { sides: [a, b], normal, points, .. } = self;
+        let fixed = velocities.is_fixed(a) || velocities.is_fixed(b);
         let soft = if fixed { constants.static_soft } else { constants.soft };
-        for point in points.iter_mut().filter(|point| point.there) {
+        for point in points {
+            if !point.there {
+                continue;
+            }
             let on = Self::along(*normal, point.arms);
-            let s = point.separation + read(sides, on, rows, Slot::DX);
-            let moving = [s, read(sides, on, rows, Slot::VX)];
+            let moving = [point.now, velocities.along(a, b, on)];
             let old = point.impulse;
             point.impulse = normal_impulse::<f32, BIAS>(constants, soft, moving, point.mass, old);
-            push(sides, on, point.impulse - old, answers, rows);
+            velocities.push(a, b, on, point.impulse - old);
         }
     }
 
     /// Friction and rolling resistance.
-    fn rub(&mut self, answers: &[Answers], rows: &mut [Row]) {
+    #[inline(always)]
+    fn rub<L: Lanes>(&mut self, velocities: &mut Velocities<'_, L>) {
         let tangent = self.tangent();
-        for point in self.points.iter_mut().filter(|point| point.there) {
+        let [a, b] = &self.sides;
+        for point in &mut self.points {
+            if !point.there {
+                continue;
+            }
             let on = Self::along(tangent, point.tangent_arms);
-            let velocity = read(&self.sides, on, rows, Slot::VX) + self.belt;
+            let velocity = velocities.along(a, b, on) + self.belt;
             let limit = self.friction * point.load;
             let old = point.rub;
             point.rub = Lanes::clamp(old - point.tangent_mass * velocity, -limit, limit);
-            push(&self.sides, on, point.rub - old, answers, rows);
+            velocities.push(a, b, on, point.rub - old);
         }
         if self.rolling > 0.0 {
             let limit = self.rolling * (self.points[0].load + self.points[1].load);
-            let inverse = |k: usize| rows[self.sides[k].body as usize][Slot::INV_INERTIA];
-            let (give, old) = (inverse(0) + inverse(1), self.rolling_impulse);
+            let inverse = |side: &Side| velocities.rows[side.body as usize][Slot::INV_INERTIA];
+            let (give, old) = (inverse(a) + inverse(b), self.rolling_impulse);
             let mass = if give > 0.0 { 1.0 / give } else { 0.0 };
-            let wanted = old - mass * read(&self.sides, ABOUT, rows, Slot::VX);
+            let wanted = old - mass * velocities.along(a, b, ABOUT);
             self.rolling_impulse = Lanes::clamp(wanted, -limit, limit);
-            push(&self.sides, ABOUT, self.rolling_impulse - old, answers, rows);
+            velocities.push(a, b, ABOUT, self.rolling_impulse - old);
+        }
+    }
+}
+
+/// The velocities of all bodies during a pass: those of trees with their answers.
+struct Velocities<'a, L: Lanes> {
+    token: L::Token,
+    answers: &'a mut [Answers],
+    rows: &'a mut [Row],
+}
+
+impl<L: Lanes> Velocities<'_, L> {
+    #[inline(always)]
+    fn is_fixed(&self, side: &Side) -> bool {
+        self.rows[side.body as usize][Slot::INV_MASS] == 0.0
+    }
+
+    #[inline(always)]
+    fn of(&self, side: &Side) -> Planar {
+        let (numbers, at) = match side.of_tree {
+            Some(at) => (&self.answers[at.answers as usize].velocities[..], 3 * at.node as usize),
+            None => (&self.rows[side.body as usize][..], Slot::VX),
+        };
+        let numbers = &numbers[at..at + 3];
+        [numbers[0], numbers[1], numbers[2]]
+    }
+
+    /// Along a direction on both bodies.
+    #[inline(always)]
+    fn along(&self, a: &Side, b: &Side, on: [Planar; 2]) -> f32 {
+        dot(on[0], self.of(a)) + dot(on[1], self.of(b))
+    }
+
+    /// Applies an impulse to both bodies, and to the trees that they are of.
+    #[inline(always)]
+    fn push(&mut self, a: &Side, b: &Side, on: [Planar; 2], impulse: f32) {
+        if impulse == 0.0 {
+            return;
+        }
+        for (side, [x, y, turn]) in [(a, on[0]), (b, on[1])] {
+            match side.of_tree {
+                None => push_body(&mut self.rows[side.body as usize], [x, y, turn], impulse),
+                Some(at) => {
+                    let force = [x * impulse, y * impulse, turn * impulse];
+                    self.answers[at.answers as usize].push::<L>(self.token, at.touched, force);
+                }
+            }
         }
     }
 }
@@ -393,15 +499,6 @@ fn is_driven(tree: &JointTree, joints: &Joints) -> bool {
         let def = &joints.records[link.joint as usize].def;
         may_drive(def) || def.kind.motor().is_some()
     })
-}
-
-/// What a direction reads of three numbers of the rows of both bodies.
-fn read(sides: &[Side; 2], on: [Planar; 2], rows: &[Row], first: usize) -> f32 {
-    let [a, b] = [0, 1].map(|k: usize| {
-        let row = &rows[sides[k].body as usize];
-        on[k][0] * row[first] + on[k][1] * row[first + 1] + on[k][2] * row[first + 2]
-    });
-    a + b
 }
 
 /// Velocity along a direction per impulse along it.
@@ -424,36 +521,16 @@ fn give(sides: &[Side; 2], on: [Planar; 2], answers: &[Answers], rows: &[Row]) -
     own[0] + own[1] + both
 }
 
+#[inline(always)]
 fn dot(a: Planar, b: Planar) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+#[inline(always)]
 fn push_body(row: &mut Row, on: Planar, impulse: f32) {
     row[Slot::VX] += row[Slot::INV_MASS] * (on[0] * impulse);
     row[Slot::VY] += row[Slot::INV_MASS] * (on[1] * impulse);
     row[Slot::W] += row[Slot::INV_INERTIA] * (on[2] * impulse);
-}
-
-/// Applies an impulse to both bodies, and to the trees that they are of.
-fn push(sides: &[Side; 2], on: [Planar; 2], impulse: f32, answers: &[Answers], rows: &mut [Row]) {
-    if impulse == 0.0 {
-        return;
-    }
-    for (side, on) in sides.iter().zip(on) {
-        let Some(at) = side.of_tree else {
-            push_body(&mut rows[side.body as usize], on, impulse);
-            continue;
-        };
-        let answers = &answers[at.answers as usize];
-        let force = on.map(|x| x * impulse);
-        for (node, &body) in answers.bodies.iter().enumerate() {
-            let change = answers.change(at.touched, node as u32, force);
-            let row = &mut rows[body as usize];
-            for k in 0..3 {
-                row[Slot::VX + k] += change[k];
-            }
-        }
-    }
 }
 
 impl Side {
@@ -472,13 +549,53 @@ impl Answers {
         self.limits.clear();
         self.bodies.clear();
         self.bodies.extend(tree.nodes[..tree.dynamic].iter().map(|node| node.body));
+        self.velocities.clear();
+        self.velocities.resize((3 * tree.dynamic).next_multiple_of(WIDEST), 0.0);
+    }
+
+    /// Gathers the velocities of the bodies.
+    fn load(&mut self, rows: &[Row]) {
+        for (velocity, &body) in self.velocities.chunks_exact_mut(3).zip(&self.bodies) {
+            velocity.copy_from_slice(&rows[body as usize][Slot::VX..Slot::VX + 3]);
+        }
+    }
+
+    fn store(&self, rows: &mut [Row]) {
+        for (velocity, &body) in self.velocities.chunks_exact(3).zip(&self.bodies) {
+            rows[body as usize][Slot::VX..Slot::VX + 3].copy_from_slice(velocity);
+        }
     }
 
     /// Change of a node's velocity where an impulse acts on a touched one.
     fn change(&self, touched: u32, node: u32, impulse: Planar) -> Planar {
-        let columns = &self.columns[touched as usize * self.bodies.len() + node as usize];
+        let length = self.velocities.len();
+        let of = |along: usize, k: usize| {
+            self.columns[(3 * touched as usize + along) * length + 3 * node as usize + k]
+        };
         core::array::from_fn(|k| {
-            columns[0][k] * impulse[0] + columns[1][k] * impulse[1] + columns[2][k] * impulse[2]
+            of(0, k) * impulse[0] + of(1, k) * impulse[1] + of(2, k) * impulse[2]
         })
+    }
+
+    /// Changes the velocities where an impulse acts on a touched node.
+    #[inline(always)]
+    fn push<L: Lanes>(&mut self, token: L::Token, touched: u32, [x, y, turn]: Planar) {
+        let length = self.velocities.len();
+        let columns = &self.columns[3 * touched as usize * length..][..3 * length];
+        let (along_x, others) = columns.split_at(length);
+        let (along_y, about) = others.split_at(length);
+        let [x, y, turn] = [L::splat(token, x), L::splat(token, y), L::splat(token, turn)];
+        let columns = along_x
+            .chunks_exact(L::WIDTH)
+            .zip(along_y.chunks_exact(L::WIDTH))
+            .zip(about.chunks_exact(L::WIDTH));
+        for (velocities, ((along_x, along_y), about)) in
+            self.velocities.chunks_exact_mut(L::WIDTH).zip(columns)
+        {
+            let change = L::load(token, along_x) * x
+                + L::load(token, along_y) * y
+                + L::load(token, about) * turn;
+            (L::load(token, velocities) + change).store(velocities);
+        }
     }
 }

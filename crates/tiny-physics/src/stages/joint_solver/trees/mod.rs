@@ -102,33 +102,25 @@ impl DoubleKernel for RunPass<'_> {
     }
 }
 
-/// How all bodies of a tree answer impulses on some of its nodes: for each of these, for each body, the changes of velocity per
-/// impulse along x, y and about.
-pub(crate) fn answer(
-    level: SimdLevel,
-    tree: &mut JointTree,
-    touched: &[u32],
-    columns: &mut Vec<[[f32; 3]; 3]>,
-) {
+/// How all bodies of a tree answer impulses on some of its nodes: for each of these three columns of equal length, per impulse along x,
+/// y and about, with the changes of velocity body by body.
+pub(crate) fn answer(level: SimdLevel, tree: &mut JointTree, touched: &[u32], columns: &mut [f32]) {
     dispatch_doubles(level, Answer(tree, touched, columns));
 }
 
-struct Answer<'a>(&'a mut JointTree, &'a [u32], &'a mut Vec<[[f32; 3]; 3]>);
+struct Answer<'a>(&'a mut JointTree, &'a [u32], &'a mut [f32]);
 
 impl DoubleKernel for Answer<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self(tree, touched, columns) = self;
         factor::factor(simd, tree);
-        for &node in touched {
-            let first = columns.len();
-            columns.resize(first + tree.dynamic, [[0.0; 3]; 3]);
-            for k in 0..3 {
-                factor::answer(simd, tree, node, k);
-                let all = columns[first..].iter_mut().zip(&tree.nodes);
-                all.for_each(|(columns, node)| {
-                    columns[k] = [0, 1, 2].map(|k: usize| node.dv[k] as f32)
-                });
+        let length = columns.len() / (3 * touched.len());
+        for (i, column) in columns.chunks_exact_mut(length).enumerate() {
+            factor::answer(simd, tree, touched[i / 3], i % 3);
+            for (column, node) in column.chunks_exact_mut(3).zip(&tree.nodes[..tree.dynamic]) {
+                (column[0], column[1], column[2]) =
+                    (node.dv[0] as f32, node.dv[1] as f32, node.dv[2] as f32);
             }
         }
     }
