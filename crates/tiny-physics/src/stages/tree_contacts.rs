@@ -26,8 +26,8 @@ use crate::simd::{BLOCK, LaneKernel, Lanes, Row, SimdLevel, dispatch_narrow};
 
 /// Numbers that the answers of a tree may have: touched bodies times bodies. Others stay with the lanes.
 const MOST_ANSWERS: usize = 1024;
-/// What the numbers of a column are a multiple of: the widest lanes that work on them.
-const WIDEST: usize = 8;
+/// Numbers of a column that are worked on together: as many as the widest lanes.
+type Chunk = [f32; 8];
 /// Times that the points of a contact are gone through in a pass.
 const TURNS: usize = 2;
 /// A contact counts as no heavier than so many times its two bodies alone. Along a taut rope a tree hardly gives way; with the
@@ -50,9 +50,9 @@ struct Answers {
     /// Nodes that something touches.
     touched: Vec<u32>,
     /// For each of them a column per impulse along x, y and about the middle: changes of velocity body by body.
-    columns: Vec<f32>,
+    columns: Vec<Chunk>,
     /// Velocities of the bodies during a pass, as long as a column.
-    velocities: Vec<f32>,
+    velocities: Vec<Chunk>,
     /// The limits that held then.
     limits: Vec<i8>,
 }
@@ -205,8 +205,8 @@ impl TreeContacts {
             answers.limits.clear();
             answers.limits.extend(limits());
             answers.columns.clear();
-            answers.columns.resize(3 * answers.touched.len() * answers.velocities.len(), 0.0);
-            trees::answer(level, tree, &answers.touched, &mut answers.columns);
+            answers.columns.resize(3 * answers.touched.len() * answers.velocities.len(), [0.0; _]);
+            trees::answer(level, tree, &answers.touched, answers.columns.as_flattened_mut());
             any = true;
         }
         if any {
@@ -461,7 +461,10 @@ impl<L: Lanes> Velocities<'_, L> {
     #[inline(always)]
     fn of(&self, side: &Side) -> Planar {
         let (numbers, at) = match side.of_tree {
-            Some(at) => (&self.answers[at.answers as usize].velocities[..], 3 * at.node as usize),
+            Some(at) => {
+                let answers = &self.answers[at.answers as usize];
+                (answers.velocities.as_flattened(), 3 * at.node as usize)
+            }
             None => (&self.rows[side.body as usize][..], Slot::VX),
         };
         let numbers = &numbers[at..at + 3];
@@ -550,52 +553,57 @@ impl Answers {
         self.bodies.clear();
         self.bodies.extend(tree.nodes[..tree.dynamic].iter().map(|node| node.body));
         self.velocities.clear();
-        self.velocities.resize((3 * tree.dynamic).next_multiple_of(WIDEST), 0.0);
+        self.velocities.resize((3 * tree.dynamic).div_ceil(Chunk::default().len()), [0.0; _]);
     }
 
     /// Gathers the velocities of the bodies.
     fn load(&mut self, rows: &[Row]) {
-        for (velocity, &body) in self.velocities.chunks_exact_mut(3).zip(&self.bodies) {
-            velocity.copy_from_slice(&rows[body as usize][Slot::VX..Slot::VX + 3]);
+        let (velocities, _) = self.velocities.as_flattened_mut().as_chunks_mut();
+        for (velocity, &body) in velocities.iter_mut().zip(&self.bodies) {
+            let [x, y, turn, ..] = rows[body as usize];
+            *velocity = [x, y, turn];
         }
     }
 
     fn store(&self, rows: &mut [Row]) {
-        for (velocity, &body) in self.velocities.chunks_exact(3).zip(&self.bodies) {
+        let (velocities, _) = self.velocities.as_flattened().as_chunks::<3>();
+        for (velocity, &body) in velocities.iter().zip(&self.bodies) {
             rows[body as usize][Slot::VX..Slot::VX + 3].copy_from_slice(velocity);
         }
     }
 
     /// Change of a node's velocity where an impulse acts on a touched one.
-    fn change(&self, touched: u32, node: u32, impulse: Planar) -> Planar {
-        let length = self.velocities.len();
-        let of = |along: usize, k: usize| {
-            self.columns[(3 * touched as usize + along) * length + 3 * node as usize + k]
-        };
+    fn change(&self, touched: u32, node: u32, [x, y, turn]: Planar) -> Planar {
+        let columns =
+            columns_of(&self.columns, self.velocities.len(), touched).map(<[Chunk]>::as_flattened);
         core::array::from_fn(|k| {
-            of(0, k) * impulse[0] + of(1, k) * impulse[1] + of(2, k) * impulse[2]
+            let [along_x, along_y, about] = columns.map(|column| column[3 * node as usize + k]);
+            along_x * x + along_y * y + about * turn
         })
     }
 
     /// Changes the velocities where an impulse acts on a touched node.
     #[inline(always)]
     fn push<L: Lanes>(&mut self, token: L::Token, touched: u32, [x, y, turn]: Planar) {
-        let length = self.velocities.len();
-        let columns = &self.columns[3 * touched as usize * length..][..3 * length];
-        let (along_x, others) = columns.split_at(length);
-        let (along_y, about) = others.split_at(length);
+        let Self { velocities, columns, .. } = self;
+        let [along_x, along_y, about] = columns_of(columns, velocities.len(), touched);
         let [x, y, turn] = [L::splat(token, x), L::splat(token, y), L::splat(token, turn)];
-        let columns = along_x
-            .chunks_exact(L::WIDTH)
-            .zip(along_y.chunks_exact(L::WIDTH))
-            .zip(about.chunks_exact(L::WIDTH));
-        for (velocities, ((along_x, along_y), about)) in
-            self.velocities.chunks_exact_mut(L::WIDTH).zip(columns)
-        {
-            let change = L::load(token, along_x) * x
-                + L::load(token, along_y) * y
-                + L::load(token, about) * turn;
-            (L::load(token, velocities) + change).store(velocities);
+        let columns = along_x.iter().zip(along_y).zip(about);
+        for (velocities, ((along_x, along_y), about)) in velocities.iter_mut().zip(columns) {
+            for at in (0..velocities.len()).step_by(L::WIDTH) {
+                let change = L::load(token, &along_x[at..]) * x
+                    + L::load(token, &along_y[at..]) * y
+                    + L::load(token, &about[at..]) * turn;
+                (L::load(token, &velocities[at..]) + change).store(&mut velocities[at..]);
+            }
         }
     }
+}
+
+/// The three columns of a touched node.
+#[inline(always)]
+fn columns_of(columns: &[Chunk], length: usize, touched: u32) -> [&[Chunk]; 3] {
+    let (along_x, others) = columns[3 * touched as usize * length..].split_at(length);
+    let (along_y, others) = others.split_at(length);
+    [along_x, along_y, &others[..length]]
 }

@@ -91,7 +91,7 @@ pub(super) fn factor<S: Simd>(simd: S, tree: &mut JointTree) {
     for node in &mut nodes[..*dynamic] {
         node.hat = mass(node, heavy);
     }
-    let rooted = links.first().is_some_and(|link| link.parent == NULL);
+    let rooted = is_rooted(links);
     for link in links.iter_mut().rev() {
         factor_link(simd, nodes, link);
     }
@@ -137,7 +137,10 @@ fn factor_link<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
 pub(super) fn solve<S: Simd>(simd: S, tree: &mut JointTree) {
     let moving = &mut tree.nodes[..tree.dynamic];
     moving.iter_mut().for_each(|node| node.g = [0.0; 4]);
-    sweep(simd, tree);
+    for link in tree.links.iter_mut().rev() {
+        gather(simd, &mut tree.nodes, link);
+    }
+    scatter_all(simd, tree);
 }
 
 /// Changes of velocities of all nodes for an impulse of one on a node: along x, y, or about.
@@ -147,16 +150,25 @@ pub(super) fn answer<S: Simd>(simd: S, tree: &mut JointTree, node: u32, k: usize
     moving.iter_mut().for_each(|node| node.g = [0.0; 4]);
     moving[node as usize].g[k] = 1.0;
     tree.links.iter_mut().for_each(|link| link.rhs = [0.0; 4]);
-    sweep(simd, tree);
+    // Nothing is felt but on the way to the root. Links are in the order of their children; the root has one if it has an anchor.
+    let mut at = node as usize;
+    let first = usize::from(!is_rooted(&tree.links));
+    while let Some(link) = at.checked_sub(first).and_then(|at| tree.links.get_mut(at)) {
+        gather(simd, &mut tree.nodes, link);
+        at = link.parent as usize;
+    }
+    scatter_all(simd, tree);
+}
+
+/// Has the root an anchor?
+fn is_rooted(links: &[TreeLink]) -> bool {
+    links.first().is_some_and(|link| link.parent == NULL)
 }
 
 #[inline(always)]
-fn sweep<S: Simd>(simd: S, tree: &mut JointTree) {
+fn scatter_all<S: Simd>(simd: S, tree: &mut JointTree) {
     let JointTree { nodes, links, .. } = tree;
-    for link in links.iter_mut().rev() {
-        gather(simd, nodes, link);
-    }
-    if links.first().is_some_and(|link| link.parent != NULL) {
+    if !is_rooted(links) {
         nodes[0].dv = times(simd, &nodes[0].hat, &nodes[0].g);
     }
     for link in links {
