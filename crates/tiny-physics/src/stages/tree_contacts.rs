@@ -22,12 +22,12 @@ use super::islands::Stores;
 use super::joint_solver::trees;
 use super::passivity::may_drive;
 use crate::dynamics::{Bodies, Bucket, JointTree, Joints, NULL, Slot, flags};
-use crate::simd::{BLOCK, LaneKernel, Lanes, Row, SimdLevel, dispatch_narrow};
+use crate::simd::{BLOCK, DoubleKernel, Lanes, Row, Simd, SimdLevel, dispatch_doubles};
 
 /// Numbers that the answers of a tree may have: touched bodies times bodies. Others stay with the lanes.
 const MOST_ANSWERS: usize = 1024;
-/// Numbers of a column that are worked on together: as many as the widest lanes.
-type Chunk = [f32; 8];
+/// Numbers of a column that are worked on together.
+const CHUNK: usize = 8;
 /// Times that the points of a contact are gone through in a pass.
 const TURNS: usize = 2;
 /// A contact counts as no heavier than so many times its two bodies alone. Along a taut rope a tree hardly gives way; with the
@@ -50,9 +50,9 @@ struct Answers {
     /// Nodes that something touches.
     touched: Vec<u32>,
     /// For each of them a column per impulse along x, y and about the middle: changes of velocity body by body.
-    columns: Vec<Chunk>,
+    columns: Vec<f32>,
     /// Velocities of the bodies during a pass, as long as a column.
-    velocities: Vec<Chunk>,
+    velocities: Vec<f32>,
     /// The limits that held then.
     limits: Vec<i8>,
 }
@@ -80,14 +80,14 @@ struct Side {
     of_tree: Option<OfTree>,
     /// Later substeps warm start it here.
     jointed: bool,
+    /// Nothing moves it.
+    fixed: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Point {
     there: bool,
     separation: f32,
-    /// That of the bodies' places now.
-    now: f32,
     /// Cross products of anchors with normal and tangent, on A and on B.
     arms: [f32; 2],
     tangent_arms: [f32; 2],
@@ -112,6 +112,8 @@ struct Touch {
     rolling: f32,
     rolling_impulse: f32,
     hit: bool,
+    /// Nothing moves one of the bodies.
+    fixed: bool,
     points: [Point; 2],
 }
 
@@ -122,18 +124,17 @@ pub(crate) struct TreeContacts {
     used: usize,
     found: Vec<Found>,
     touches: Vec<Touch>,
-    last_pass: Option<Pass>,
 }
 
 crate::footprint::footprint!(Answers { bodies, touched, columns, velocities, limits } none { tree });
-crate::footprint::footprint!(TreeContacts { found, touches } each { answers } none { used, last_pass });
+crate::footprint::footprint!(TreeContacts { found, touches } each { answers } none { used });
 
 impl TreeContacts {
     /// Takes the contacts of trees out of the lanes of a pace.
     pub(crate) fn take(&mut self, pace: usize, stores: &mut Stores<'_>) {
         self.touches.clear();
         self.found.clear();
-        (self.used, self.last_pass) = (0, None);
+        self.used = 0;
         for (index, tree) in stores.joint_graph.forest.trees.iter().enumerate() {
             let here = tree.pace == pace && !tree.links.is_empty();
             if here
@@ -205,8 +206,8 @@ impl TreeContacts {
             answers.limits.clear();
             answers.limits.extend(limits());
             answers.columns.clear();
-            answers.columns.resize(3 * answers.touched.len() * answers.velocities.len(), [0.0; _]);
-            trees::answer(level, tree, &answers.touched, answers.columns.as_flattened_mut());
+            answers.columns.resize(3 * answers.touched.len() * answers.velocities.len(), 0.0);
+            trees::answer(level, tree, &answers.touched, &mut answers.columns);
             any = true;
         }
         if any {
@@ -230,53 +231,37 @@ impl TreeContacts {
         if pass == Pass::Solve {
             self.update(level, rows, forest);
         }
-        let moved = matches!(
-            (self.last_pass.replace(pass), pass),
-            (Some(Pass::WarmStart), Pass::Solve)
-                | (Some(Pass::Solve), Pass::Relax | Pass::RelaxLast)
-        );
         let Self { answers, touches, used, .. } = self;
         if let Pass::WarmStart | Pass::WarmStartJointed = pass {
             let first = pass == Pass::WarmStart;
             touches.iter_mut().for_each(|touch| touch.warm_start(rows, first));
             return;
         }
-        if moved {
-            touches.iter_mut().for_each(|touch| touch.place(rows));
-        }
         let (answers, constants) = (&mut answers[..*used], Constants::new((), parameters));
         answers.iter_mut().for_each(|answers| answers.load(rows));
-        dispatch_narrow(level, RunPass { pass, constants, answers, touches, rows });
-        answers.iter().for_each(|answers| answers.store(rows));
+        let mut velocities = Velocities { answers, rows };
+        dispatch_doubles(level, RunPass(pass, &constants, touches, &mut velocities));
+        velocities.answers.iter().for_each(|answers| answers.store(velocities.rows));
     }
 }
 
 /// A pass over all contacts.
-struct RunPass<'a> {
-    pass: Pass,
-    constants: Constants<f32>,
-    answers: &'a mut [Answers],
-    touches: &'a mut [Touch],
-    rows: &'a mut [Row],
-}
+struct RunPass<'a, 'b>(Pass, &'a Constants<f32>, &'a mut [Touch], &'a mut Velocities<'b>);
 
-impl LaneKernel for RunPass<'_> {
-    type Output = ();
-
+impl DoubleKernel for RunPass<'_, '_> {
     #[inline(always)]
-    fn run<L: Lanes>(self, token: L::Token) {
-        let Self { pass, constants, answers, touches, rows } = self;
-        let mut velocities = Velocities::<L> { token, answers, rows };
+    fn run<S: Simd>(self, _: S) {
+        let Self(pass, constants, touches, velocities) = self;
         for touch in touches {
             if pass == Pass::Solve {
                 for _ in 0..TURNS {
-                    touch.solve::<L, true>(&constants, &mut velocities);
+                    touch.solve::<true>(constants, velocities);
                 }
                 continue;
             }
-            touch.rub(&mut velocities);
+            touch.rub(velocities);
             for _ in 0..TURNS {
-                touch.solve::<L, false>(&constants, &mut velocities);
+                touch.solve::<false>(constants, velocities);
             }
             for point in &mut touch.points {
                 point.load = point.impulse;
@@ -301,7 +286,6 @@ impl Touch {
             *point = Point {
                 there: lanes.normal_mass[lane] > 0.0,
                 separation: lanes.separation[lane],
-                now: 0.0,
                 arms: [lanes.normal_arm_a[lane], lanes.normal_arm_b[lane]],
                 tangent_arms: [lanes.tangent_arm_a[lane], lanes.tangent_arm_b[lane]],
                 alone: [lanes.normal_mass[lane], lanes.tangent_mass[lane]],
@@ -323,6 +307,7 @@ impl Touch {
             rolling: asked(flags::ROLLING, surface.rolling_resistance[lane]),
             rolling_impulse: asked(flags::ROLLING, surface.rolling_impulse[lane]),
             hit: flags & flags::HIT != 0,
+            fixed: sides[0].fixed || sides[1].fixed,
             points,
         }
     }
@@ -383,113 +368,96 @@ impl Touch {
         }
     }
 
-    /// Notes how far apart its bodies are.
-    fn place(&mut self, rows: &[Row]) {
-        for point in self.points.iter_mut().filter(|point| point.there) {
-            let on = Self::along(self.normal, point.arms);
-            let [a, b] = [0, 1].map(|k: usize| {
-                let [.., x, y, turn, _] = rows[self.sides[k].body as usize];
-                dot(on[k], [x, y, turn])
-            });
-            point.now = point.separation + (a + b);
-        }
-    }
-
     /// Normal impulses; see the kernels of [`super::contact_solver`].
     #[inline(always)]
-    fn solve<L: Lanes, const BIAS: bool>(
+    fn solve<const BIAS: bool>(
         &mut self,
         constants: &Constants<f32>,
-        velocities: &mut Velocities<'_, L>,
+        velocities: &mut Velocities<'_>,
     ) {
-        let Self { sides: [a, b], normal, points, .. } = self;
-        let fixed = velocities.is_fixed(a) || velocities.is_fixed(b);
-        let soft = if fixed { constants.static_soft } else { constants.soft };
+        let Self { sides, normal, points, fixed, .. } = self;
+        let soft = if *fixed { constants.static_soft } else { constants.soft };
         for point in points {
             if !point.there {
                 continue;
             }
             let on = Self::along(*normal, point.arms);
-            let moving = [point.now, velocities.along(a, b, on)];
-            let old = point.impulse;
-            point.impulse = normal_impulse::<f32, BIAS>(constants, soft, moving, point.mass, old);
-            velocities.push(a, b, on, point.impulse - old);
+            let s = point.separation + velocities.ways(sides, on);
+            let (velocity, old) = (velocities.along(sides, on), point.impulse);
+            point.impulse =
+                normal_impulse::<f32, BIAS>(constants, soft, [s, velocity], point.mass, old);
+            velocities.push(sides, on, point.impulse - old);
         }
     }
 
     /// Friction and rolling resistance.
     #[inline(always)]
-    fn rub<L: Lanes>(&mut self, velocities: &mut Velocities<'_, L>) {
+    fn rub(&mut self, velocities: &mut Velocities<'_>) {
         let tangent = self.tangent();
-        let [a, b] = &self.sides;
         for point in &mut self.points {
             if !point.there {
                 continue;
             }
             let on = Self::along(tangent, point.tangent_arms);
-            let velocity = velocities.along(a, b, on) + self.belt;
+            let velocity = velocities.along(&self.sides, on) + self.belt;
             let limit = self.friction * point.load;
             let old = point.rub;
             point.rub = Lanes::clamp(old - point.tangent_mass * velocity, -limit, limit);
-            velocities.push(a, b, on, point.rub - old);
+            velocities.push(&self.sides, on, point.rub - old);
         }
         if self.rolling > 0.0 {
             let limit = self.rolling * (self.points[0].load + self.points[1].load);
-            let inverse = |side: &Side| velocities.rows[side.body as usize][Slot::INV_INERTIA];
-            let (give, old) = (inverse(a) + inverse(b), self.rolling_impulse);
+            let inverse =
+                |k: usize| velocities.rows[self.sides[k].body as usize][Slot::INV_INERTIA];
+            let (give, old) = (inverse(0) + inverse(1), self.rolling_impulse);
             let mass = if give > 0.0 { 1.0 / give } else { 0.0 };
-            let wanted = old - mass * velocities.along(a, b, ABOUT);
+            let wanted = old - mass * velocities.along(&self.sides, ABOUT);
             self.rolling_impulse = Lanes::clamp(wanted, -limit, limit);
-            velocities.push(a, b, ABOUT, self.rolling_impulse - old);
+            velocities.push(&self.sides, ABOUT, self.rolling_impulse - old);
         }
     }
 }
 
 /// The velocities of all bodies during a pass: those of trees with their answers.
-struct Velocities<'a, L: Lanes> {
-    token: L::Token,
+struct Velocities<'a> {
     answers: &'a mut [Answers],
     rows: &'a mut [Row],
 }
 
-impl<L: Lanes> Velocities<'_, L> {
-    #[inline(always)]
-    fn is_fixed(&self, side: &Side) -> bool {
-        self.rows[side.body as usize][Slot::INV_MASS] == 0.0
-    }
-
+impl Velocities<'_> {
     #[inline(always)]
     fn of(&self, side: &Side) -> Planar {
-        let (numbers, at) = match side.of_tree {
+        match side.of_tree {
             Some(at) => {
-                let answers = &self.answers[at.answers as usize];
-                (answers.velocities.as_flattened(), 3 * at.node as usize)
+                self.answers[at.answers as usize].velocities.as_chunks().0[at.node as usize]
             }
-            None => (&self.rows[side.body as usize][..], Slot::VX),
-        };
-        let numbers = &numbers[at..at + 3];
-        [numbers[0], numbers[1], numbers[2]]
+            None => planar(&self.rows[side.body as usize], Slot::VX),
+        }
     }
 
     /// Along a direction on both bodies.
     #[inline(always)]
-    fn along(&self, a: &Side, b: &Side, on: [Planar; 2]) -> f32 {
+    fn along(&self, [a, b]: &[Side; 2], on: [Planar; 2]) -> f32 {
         dot(on[0], self.of(a)) + dot(on[1], self.of(b))
+    }
+
+    /// The ways since the start of the step, along a direction on both bodies.
+    #[inline(always)]
+    fn ways(&self, [a, b]: &[Side; 2], on: [Planar; 2]) -> f32 {
+        let way = |side: &Side| planar(&self.rows[side.body as usize], Slot::DX);
+        dot(on[0], way(a)) + dot(on[1], way(b))
     }
 
     /// Applies an impulse to both bodies, and to the trees that they are of.
     #[inline(always)]
-    fn push(&mut self, a: &Side, b: &Side, on: [Planar; 2], impulse: f32) {
+    fn push(&mut self, [a, b]: &[Side; 2], on: [Planar; 2], impulse: f32) {
         if impulse == 0.0 {
             return;
         }
-        for (side, [x, y, turn]) in [(a, on[0]), (b, on[1])] {
+        for (side, on) in [(a, on[0]), (b, on[1])] {
             match side.of_tree {
-                None => push_body(&mut self.rows[side.body as usize], [x, y, turn], impulse),
-                Some(at) => {
-                    let force = [x * impulse, y * impulse, turn * impulse];
-                    self.answers[at.answers as usize].push::<L>(self.token, at.touched, force);
-                }
+                None => push_body(&mut self.rows[side.body as usize], on, impulse),
+                Some(at) => self.answers[at.answers as usize].push(at.touched, on, impulse),
             }
         }
     }
@@ -502,6 +470,12 @@ fn is_driven(tree: &JointTree, joints: &Joints) -> bool {
         let def = &joints.records[link.joint as usize].def;
         may_drive(def) || def.kind.motor().is_some()
     })
+}
+
+/// Three numbers of a row.
+#[inline(always)]
+fn planar(row: &Row, first: usize) -> Planar {
+    [row[first], row[first + 1], row[first + 2]]
 }
 
 /// Velocity along a direction per impulse along it.
@@ -540,7 +514,8 @@ impl Side {
     /// A body by itself.
     fn alone(bodies: &Bodies, body: u32) -> Self {
         let jointed = bodies.infos[body as usize].first_joint != NULL;
-        Self { body, of_tree: None, jointed }
+        let fixed = bodies.inverse_masses(body).0 == 0.0;
+        Self { body, of_tree: None, jointed, fixed }
     }
 }
 
@@ -553,57 +528,48 @@ impl Answers {
         self.bodies.clear();
         self.bodies.extend(tree.nodes[..tree.dynamic].iter().map(|node| node.body));
         self.velocities.clear();
-        self.velocities.resize((3 * tree.dynamic).div_ceil(Chunk::default().len()), [0.0; _]);
+        self.velocities.resize((3 * tree.dynamic).next_multiple_of(CHUNK), 0.0);
     }
 
     /// Gathers the velocities of the bodies.
     fn load(&mut self, rows: &[Row]) {
-        let (velocities, _) = self.velocities.as_flattened_mut().as_chunks_mut();
-        for (velocity, &body) in velocities.iter_mut().zip(&self.bodies) {
-            let [x, y, turn, ..] = rows[body as usize];
-            *velocity = [x, y, turn];
+        for (velocity, &body) in self.velocities.as_chunks_mut().0.iter_mut().zip(&self.bodies) {
+            *velocity = planar(&rows[body as usize], Slot::VX);
         }
     }
 
     fn store(&self, rows: &mut [Row]) {
-        let (velocities, _) = self.velocities.as_flattened().as_chunks::<3>();
-        for (velocity, &body) in velocities.iter().zip(&self.bodies) {
+        for (velocity, &body) in self.velocities.as_chunks::<3>().0.iter().zip(&self.bodies) {
             rows[body as usize][Slot::VX..Slot::VX + 3].copy_from_slice(velocity);
         }
     }
 
     /// Change of a node's velocity where an impulse acts on a touched one.
     fn change(&self, touched: u32, node: u32, [x, y, turn]: Planar) -> Planar {
-        let columns =
-            columns_of(&self.columns, self.velocities.len(), touched).map(<[Chunk]>::as_flattened);
+        let length = self.velocities.len();
+        let at = 3 * (touched as usize * length + node as usize);
         core::array::from_fn(|k| {
-            let [along_x, along_y, about] = columns.map(|column| column[3 * node as usize + k]);
-            along_x * x + along_y * y + about * turn
+            let column = |i: usize| self.columns[at + i * length + k];
+            column(0) * x + column(1) * y + column(2) * turn
         })
     }
 
     /// Changes the velocities where an impulse acts on a touched node.
     #[inline(always)]
-    fn push<L: Lanes>(&mut self, token: L::Token, touched: u32, [x, y, turn]: Planar) {
-        let Self { velocities, columns, .. } = self;
-        let [along_x, along_y, about] = columns_of(columns, velocities.len(), touched);
-        let [x, y, turn] = [L::splat(token, x), L::splat(token, y), L::splat(token, turn)];
-        let columns = along_x.iter().zip(along_y).zip(about);
-        for (velocities, ((along_x, along_y), about)) in velocities.iter_mut().zip(columns) {
-            for at in (0..velocities.len()).step_by(L::WIDTH) {
-                let change = L::load(token, &along_x[at..]) * x
-                    + L::load(token, &along_y[at..]) * y
-                    + L::load(token, &about[at..]) * turn;
-                (L::load(token, &velocities[at..]) + change).store(&mut velocities[at..]);
+    fn push(&mut self, touched: u32, [x, y, turn]: Planar, impulse: f32) {
+        let force = [x * impulse, y * impulse, turn * impulse];
+        let length = self.velocities.len();
+        let columns = &self.columns[3 * touched as usize * length..];
+        let along = |i: usize| columns[i * length..(i + 1) * length].as_chunks::<CHUNK>().0;
+        let columns = along(0).iter().zip(along(1)).zip(along(2));
+        let velocities = self.velocities.as_chunks_mut::<CHUNK>().0;
+        for (velocities, ((x, y), turn)) in velocities.iter_mut().zip(columns) {
+            // Of a copy, so that the compiler sees that nothing overlaps and takes all at once.
+            let mut changed = *velocities;
+            for k in 0..CHUNK {
+                changed[k] += x[k] * force[0] + y[k] * force[1] + turn[k] * force[2];
             }
+            *velocities = changed;
         }
     }
-}
-
-/// The three columns of a touched node.
-#[inline(always)]
-fn columns_of(columns: &[Chunk], length: usize, touched: u32) -> [&[Chunk]; 3] {
-    let (along_x, others) = columns[3 * touched as usize * length..].split_at(length);
-    let (along_y, others) = others.split_at(length);
-    [along_x, along_y, &others[..length]]
 }
