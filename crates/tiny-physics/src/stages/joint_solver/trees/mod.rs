@@ -331,8 +331,7 @@ fn overrun<const BIAS: bool>(
     let turns = link.class == JointClass::Revolute;
     let (snap, unit) = if turns { (snap_turn, 1.0) } else { (snap, unit) };
     // The impulse is another's where it is below 0: at most one limit pushes.
-    let (coming, impulse) = (velocity.min(0.0), (side * axis.axis.limits[0]).max(0.0));
-    let least = coming - axis.free * impulse - snap;
+    let least = velocity.min(0.0) - snap + f64::from(SNAP_SHARE) * room * inv_h;
     let (soft, firm) = (TOUCHED_PUSH * room, room + unit * f64::from(axis::SOFT_OVERRUN));
     let push = if firm < soft { firm } else { soft } * inv_h;
     let push = if push < least { least } else { push };
