@@ -5,7 +5,8 @@
 //! swept against the *motion* of static and kinematic shapes. It is set back to the first impact with a static one.
 //! What meets a kinematic one rides along from there on, as far as static ones let it. Its velocity stays: the contact
 //! solver deals with it in the next step, when there is a contact. Only what drives its middle on into something is
-//! taken: a corner that turns away as fast as the middle comes gives the solver nothing to push.
+//! taken: a corner that turns away as fast as the middle comes gives the solver nothing to push. A few bodies that are
+//! joined rigidly are set back together.
 
 use super::boxes::{self, Moved, Way};
 use super::finalize::{self, FastBody};
@@ -13,7 +14,7 @@ use super::one_way;
 use super::pairs::PairRule;
 use super::surfaces::{self, Ground, Seams};
 use crate::broad_phase::{BroadPhase, ProxyKind};
-use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes, Slot};
+use crate::dynamics::{Bodies, Joints, ShapeRecord, Shapes, Slot, is_rigid};
 use crate::geometry::manifold::ShapeClass;
 use crate::geometry::{LINEAR_SLOP, Shape, Sweep, ToiState, distance, time_of_impact_within};
 use crate::math::{Aabb, Pose, Rot, Transform, Vec2};
@@ -35,6 +36,9 @@ pub(crate) struct Rules<'a> {
 
 /// Fast bodies that one member of the team sweeps at a time.
 const CHUNK: usize = 16;
+/// More bodies than this that are joined do not wait for one that was stopped: with 16, what lay on planks of bridges
+/// sank into those that waited.
+const MOST_TOGETHER: usize = 4;
 /// Impacts are looked for up to a slop off the surface, give or take what rounding does, metres; multiplied by the
 /// length unit, as what follows.
 const SLACK: f32 = 2.0 * LINEAR_SLOP;
@@ -59,7 +63,49 @@ pub(crate) fn run(
             *fast = Search { fast, scene }.outcome();
         }
     });
+    hold_together(fast, bodies, rules.joints);
     settle(team, fast, bodies, shapes, broad_phase, moved);
+}
+
+/// Sets what is joined rigidly to a body that was set back to the same time, as the parts of one body would be: else
+/// the joint opens by what the others went on.
+fn hold_together(fast: &mut Vec<FastBody>, bodies: &Bodies, joints: &Joints) {
+    let mut at = 0;
+    while let Some(&FastBody { body, fraction, .. }) = fast.get(at) {
+        at += 1;
+        if fraction >= 1.0 {
+            continue;
+        }
+        let Some((members, count)) = joined(body, bodies, joints) else { continue };
+        for member in &members[..count] {
+            let known = fast.binary_search_by_key(member, |fast| fast.body);
+            let place = known.unwrap_or_else(|place| {
+                fast.insert(place, FastBody::of_step(bodies, *member));
+                at += usize::from(place < at);
+                place
+            });
+            fast[place].set_back(fraction);
+        }
+    }
+}
+
+/// What hangs together with a body through rigid joints, itself first; nothing where that is too much.
+fn joined(body: u32, bodies: &Bodies, joints: &Joints) -> Option<([u32; MOST_TOGETHER], usize)> {
+    let (mut members, mut count, mut next) = ([body; MOST_TOGETHER], 1, 0);
+    while next < count {
+        let member = members[next];
+        next += 1;
+        for (joint, _) in joints.of_body(bodies.infos[member as usize].first_joint) {
+            let record = &joints.records[joint as usize];
+            let other = record.other(member);
+            let ties = record.def.enabled && is_rigid(&record.def) && bodies.is_solved(other);
+            if ties && !members[..count].contains(&other) {
+                *members.get_mut(count)? = other;
+                count += 1;
+            }
+        }
+    }
+    Some((members, count))
 }
 
 /// Puts bodies where their sweeps ended, and updates their boxes.
@@ -223,7 +269,8 @@ impl Search<'_> {
         let ride = self.first(&whole, ProxyKind::Kinematic, stop);
         let place = sweep.at(ride.fraction);
         if ride.fraction < stop.fraction {
-            return self.ended(self.carried(place, ride.fraction, ride.body), ride);
+            let end = self.ended(self.carried(place, ride.fraction, ride.body), ride);
+            return FastBody { fraction: f32::INFINITY, ..end };
         }
         if stop.fraction == 1.0 {
             return *self.fast;
@@ -234,7 +281,8 @@ impl Search<'_> {
         let met = self.first(&waits, ProxyKind::Kinematic, Meeting::none(1.0));
         if met.fraction < 1.0 {
             let at = stop.fraction + (1.0 - stop.fraction) * met.fraction;
-            return self.ended(self.carried(place, at, met.body), stop);
+            let end = self.ended(self.carried(place, at, met.body), stop);
+            return FastBody { fraction: f32::INFINITY, ..end };
         }
         self.ended(place, stop)
     }
@@ -243,8 +291,9 @@ impl Search<'_> {
     fn ended(&self, place: Transform, meeting: Meeting) -> FastBody {
         let FastBody { start, turn, .. } = *self.fast;
         let end = Pose::new(start.p + place.p, place.q.normalized());
-        let turn = turn * meeting.fraction;
-        FastBody { end, motion: place.p, turn, lost: meeting.lost, ..*self.fast }
+        let Meeting { fraction, lost, .. } = meeting;
+        let turn = turn * fraction;
+        FastBody { end, motion: place.p, turn, lost, fraction, ..*self.fast }
     }
 
     /// Where a kinematic body takes it that it met at this place and fraction.

@@ -22,6 +22,8 @@ pub(crate) struct FastBody {
     pub(crate) turn: f32,
     /// Velocity that it must lose: what drives its middle into something.
     pub(crate) lost: Vec2,
+    /// When it was stopped, as a part of the step; 1 where it was not, more where something took it along.
+    pub(crate) fraction: f32,
 }
 
 impl FastBody {
@@ -31,7 +33,18 @@ impl FastBody {
         let awake = bodies.infos[body as usize].awake;
         let start = if awake { bodies.previous[body as usize] } else { end };
         let (motion, turn) = (end.p.relative_to(start.p), end.q.angle_from(start.q));
-        Self { body, start, end, motion, turn, lost: Vec2::ZERO }
+        Self { body, start, end, motion, turn, lost: Vec2::ZERO, fraction: 1.0 }
+    }
+
+    /// Sets it back to a part of the step, unless it was stopped before or taken along.
+    pub(crate) fn set_back(&mut self, fraction: f32) {
+        if fraction >= self.fraction || self.fraction > 1.0 {
+            return;
+        }
+        let share = fraction / self.fraction;
+        (self.motion, self.turn, self.fraction) =
+            (self.motion * share, self.turn * share, fraction);
+        self.end = Pose::new(self.start.p + self.motion, self.start.q.integrate(self.turn));
     }
 
     /// How it went.
@@ -142,7 +155,8 @@ fn finalize_body(body: FinalBody<'_>, boxes: Boxes<'_>, options: Options, found:
     info.torque = 0.0;
     let reach = way + turned_reach(turn, info);
     if options.continuous && reach > SAFE_FRACTION * info.min_extent {
-        let fast = FastBody { body: index, start, end: *pose, motion, turn, lost: Vec2::ZERO };
+        let (end, lost) = (*pose, Vec2::ZERO);
+        let fast = FastBody { body: index, start, end, motion, turn, lost, fraction: 1.0 };
         if info.kind == BodyKind::Dynamic {
             found.fast.push(fast);
             return;

@@ -1,0 +1,106 @@
+//! Joints of what falls and hits. Families with random members; what failed before is said at each.
+
+mod common;
+
+use common::{DT, Random, rect, world_with_floor};
+use tiny_physics::{JointDef, JointId, JointKind, RigidBody, Vec2, World};
+
+/// How far the parts of a joint are from where it holds them, metres: across a slider, else between the anchors.
+fn gap(world: &World, joint: JointId) -> f32 {
+    let joint = world.joint(joint).unwrap();
+    let (a, b) = joint.anchors();
+    let apart = b.relative_to(a);
+    match joint.def().kind {
+        JointKind::Prismatic { .. } => {
+            let turn = world.body(joint.bodies().0).unwrap().angle();
+            (apart.y * turn.cos() - apart.x * turn.sin()).abs()
+        }
+        _ => apart.length(),
+    }
+}
+
+/// Two bars end to end, of which the second has so many times the mass of the first, above a floor, with a velocity of up to 15
+/// m/s: a weld, a hinge or a slider between them.
+fn pair(random: &mut Random, joint: u64, ratio: f32) -> (World, JointId) {
+    let mut world = world_with_floor();
+    let velocity = Vec2::new(random.range(-15.0, 15.0), random.range(-15.0, 0.0));
+    let (half_a, half_b) = (random.range(0.2, 0.5), random.range(0.2, 0.5));
+    let turn = random.range(-3.0, 3.0);
+    let along = Vec2::new(turn.cos(), turn.sin());
+    let mut bar = |half: f32, way: f32, mass: f32| {
+        let place = Vec2::new(0.0, 2.0) + along * way;
+        let bar = RigidBody::dynamic().position(place).angle(turn).velocity(velocity);
+        world.add_body(bar.shape(rect(half, 0.2)).mass(mass)).unwrap()
+    };
+    let (a, b) = (bar(half_a, 0.0, 1.0), bar(half_b, half_a + half_b, ratio));
+    let def = match joint % 3 {
+        0 => JointDef::weld(),
+        1 => JointDef::revolute(),
+        _ => JointDef::prismatic(Vec2::X).limits(0.0, 0.1),
+    };
+    let def = def.anchors(Vec2::new(half_a, 0.0), Vec2::new(-half_b, 0.0));
+    let joint = world.add_joint(a, b, def).unwrap();
+    (world, joint)
+}
+
+/// The widest gaps of a hundred pairs in four seconds, added up.
+fn gaps(least: f32, most: f32) -> f32 {
+    let of = |seed| {
+        let mut random = Random::new(seed);
+        let ratio = least * (most / least).powf(random.range(0.0, 1.0));
+        let (mut world, joint) = pair(&mut random, seed, ratio);
+        let after = |_| {
+            world.step(DT);
+            gap(&world, joint)
+        };
+        (0..240).map(after).fold(0.0, f32::max)
+    };
+    (0..100).map(of).sum()
+}
+
+/// Where one of two joined bodies was stopped at its first impact, the other went on: 2.3 m.
+#[test]
+fn what_is_joined_is_stopped_together() {
+    let sum = gaps(1.0, 1.0);
+    assert!(sum < 1.6, "{sum} m");
+}
+
+/// Contacts of the lighter one knew nothing of the other: 6.2 m.
+#[test]
+fn light_bodies_feel_what_is_joined_to_them() {
+    let sum = gaps(5.0, 100.0);
+    assert!(sum < 0.6, "{sum} m");
+}
+
+/// Two sliders of light bodies on a heavy one, all made far beyond their limits, fall on a floor. Each time that contacts
+/// were solved in a substep what a limit had pushed counted as a blow to be given back: they came in at 100 m/s.
+#[test]
+fn what_is_beyond_its_limits_comes_back_gently() {
+    for seed in 0..60 {
+        let mut random = Random::new(seed);
+        let mut world = world_with_floor();
+        let y = random.range(1.0, 3.0);
+        let heavy = RigidBody::dynamic().position(Vec2::new(0.0, y)).shape(rect(0.3, 0.2));
+        let heavy = heavy.angle(random.range(-0.5, 0.5)).mass(random.range(4.0, 20.0));
+        let heavy = world.add_body(heavy).unwrap();
+        let sliders = [-1.0, 1.0].map(|side| {
+            let place = Vec2::new(side * random.range(1.2, 1.8), y + random.range(-0.5, 0.5));
+            let light = RigidBody::dynamic().position(place).shape(rect(0.3, 0.3)).mass(0.36);
+            let light = world.add_body(light).unwrap();
+            let mut off = || Vec2::new(random.range(-0.6, 0.6), random.range(-0.6, 0.6));
+            let def = JointDef::prismatic(Vec2::X).limits(-0.3, 0.3).anchors(off(), off());
+            world.add_joint(light, heavy, def).unwrap()
+        });
+        let now = |world: &World| sliders.map(|joint| world.joint(joint).unwrap().translation());
+        for step in 0..90 {
+            let before = now(&world);
+            world.step(DT);
+            for (now, before) in now(&world).into_iter().zip(before) {
+                let speed = (now - before).abs() / DT;
+                assert!(speed < 16.0, "seed {seed}, step {step}: {speed} m/s");
+            }
+        }
+        let beyond = now(&world).map(|place| place.abs() - 0.3);
+        assert!(beyond[0].max(beyond[1]) < 0.01, "seed {seed}: {beyond:?} m beyond");
+    }
+}
