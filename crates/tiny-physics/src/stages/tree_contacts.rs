@@ -28,8 +28,6 @@ use crate::simd::{BLOCK, DoubleKernel, Lanes, Row, Simd, SimdLevel, dispatch_dou
 const MOST_ANSWERS: usize = 1024;
 /// Numbers of a column that are worked on together.
 const CHUNK: usize = 8;
-/// Times that the points of a contact are gone through in a pass.
-const TURNS: usize = 2;
 /// A contact counts as no heavier than so many times its two bodies alone. Along a taut rope a tree hardly gives way; with the
 /// true mass there, old impulses on arms that have turned hurl it about. In 231 random worlds with joints the deepest overlaps
 /// add up to 6.0 m with 5, 6.2 with 2.5, joints' gaps to 3.8, 3.9, and 5.2 with 50 (trees with motors among them, which are
@@ -254,15 +252,11 @@ impl DoubleKernel for RunPass<'_, '_> {
         let Self(pass, constants, touches, velocities) = self;
         for touch in touches {
             if pass == Pass::Solve {
-                for _ in 0..TURNS {
-                    touch.solve::<true>(constants, velocities);
-                }
+                touch.solve::<true>(constants, velocities);
                 continue;
             }
             touch.rub(velocities);
-            for _ in 0..TURNS {
-                touch.solve::<false>(constants, velocities);
-            }
+            touch.solve::<false>(constants, velocities);
             for point in &mut touch.points {
                 point.load = point.impulse;
                 if touch.hit && pass == Pass::RelaxLast {
