@@ -180,6 +180,9 @@ lane_block! {
         /// Sum of the normal impulses of the substeps and of bounces, where hits are asked for.
         total_1: f32 = 0.0,
         total_2: f32 = 0.0,
+        /// Rests of the points, metres; see [`rests`](crate::stages::rests).
+        rest_1: f32 = 0.0,
+        rest_2: f32 = 0.0,
     }
 }
 
@@ -193,6 +196,8 @@ pub(crate) mod flags {
     pub(crate) const TANGENT_SPEED: u8 = 4;
     /// Some lane sends hit events.
     pub(crate) const HIT: u8 = 8;
+    /// Some point has a rest.
+    pub(crate) const RESTS: u8 = 16;
 }
 
 record! {

@@ -51,6 +51,8 @@ record! {
         pub(crate) never_turns: bool = false,
         /// How finely its island is solved, see [`pace`](super::pace).
         pub(crate) pace: u8 = PLAIN as u8,
+        /// How nearly it has settled, 255 is wholly; see [`rests`](crate::stages::rests).
+        pub(crate) calm: u8 = 0,
         pub(crate) locks: Locks = Locks::default(),
         pub(crate) force: Vec2 = Vec2::ZERO,
         pub(crate) torque: f32 = 0.0,

@@ -17,11 +17,14 @@ record! {
         pub(crate) id: f32,
         pub(crate) normal_impulse: f32,
         pub(crate) tangent_impulse: f32,
+        /// How much less than its load accounts for the point may sink, metres.
+        pub(crate) rest: f32,
     }
 }
 
 impl SavedPoint {
-    pub(crate) const NONE: Self = Self { id: -1.0, normal_impulse: 0.0, tangent_impulse: 0.0 };
+    pub(crate) const NONE: Self =
+        Self { id: -1.0, normal_impulse: 0.0, tangent_impulse: 0.0, rest: 0.0 };
 }
 
 record! {

@@ -98,6 +98,8 @@ impl Bucket {
         surface.restitution[lane] = contact.restitution;
         surface.rolling_resistance[lane] = contact.rolling_resistance;
         surface.tangent_speed[lane] = contact.tangent_speed;
+        surface.rest_1[lane] = contact.saved[0].rest;
+        surface.rest_2[lane] = contact.saved[1].rest;
         surface.rolling_impulse[lane] = 0.0;
         self.heads[block].flags |= contact_flags(contact);
     }
@@ -147,13 +149,17 @@ impl Bucket {
         let Some(constraint) = self.constraints.get(block) else {
             return [SavedPoint::NONE; 2];
         };
-        let manifold = &self.manifolds[block];
-        let point = |k: usize, id: f32| SavedPoint {
+        let (manifold, surface) = (&self.manifolds[block], &self.surfaces[block]);
+        let point = |k: usize, id: f32, rest: f32| SavedPoint {
             id,
             normal_impulse: constraint.points[k].normal_impulse[lane],
             tangent_impulse: constraint.points[k].tangent_impulse[lane],
+            rest,
         };
-        [point(0, manifold.id_1[lane]), point(1, manifold.id_2[lane])]
+        [
+            point(0, manifold.id_1[lane], surface.rest_1[lane]),
+            point(1, manifold.id_2[lane], surface.rest_2[lane]),
+        ]
     }
 }
 
@@ -163,6 +169,7 @@ fn contact_flags(contact: &Contact) -> u8 {
         | flag(contact.rolling_resistance > 0.0, flags::ROLLING)
         | flag(contact.tangent_speed != 0.0, flags::TANGENT_SPEED)
         | flag(contact.hit_events, flags::HIT)
+        | flag(contact.saved.iter().any(|point| point.rest > 0.0), flags::RESTS)
 }
 
 /// Blocks of one bucket that are worked on together.

@@ -32,7 +32,8 @@ impl Stores {
         for k in 0..contact_count as u32 {
             let body_a = 1 + next(BODIES);
             let body_b = 4 + (body_a + next(BODIES - 5)) % (BODIES - 4);
-            let saved = SavedPoint { id: k as f32, normal_impulse: k as f32, tangent_impulse: 0.5 };
+            let (id, tangent_impulse, rest) = (k as f32, 0.5, 0.25 * k as f32);
+            let saved = SavedPoint { id, normal_impulse: id, tangent_impulse, rest };
             let contact = Contact {
                 alive: true,
                 touching: next(4) > 0,

@@ -1,6 +1,7 @@
 //! After the substeps: poses take up the motion, boxes follow, rest is timed.
 
 use super::boxes::{self, Boxes, Moved, Way};
+use super::rests;
 use crate::broad_phase::BroadPhase;
 use crate::describe::BodyKind;
 use crate::dynamics::{Bodies, BodyInfo, Shapes, Slot};
@@ -183,6 +184,7 @@ fn time_rest(row: &Row, [way, turn]: [f32; 2], info: &mut BodyInfo, options: Opt
     let speed = larger(Vec2::new(row[Slot::VX], row[Slot::VY]).length(), way / dt);
     let spin = larger(row[Slot::W].abs(), turn.abs() / dt);
     let fastest = larger(speed, spin * info.max_extent);
+    info.calm = rests::calmer(info.calm, fastest / length_unit, dt);
     // A platform that creeps must not stop.
     let limit = if info.kind == BodyKind::Dynamic { info.sleep_speed * length_unit } else { 0.0 };
     if info.can_sleep && fastest <= limit {

@@ -17,6 +17,7 @@ pub(crate) mod one_way;
 pub(crate) mod paces;
 pub(crate) mod pairs;
 pub(crate) mod passivity;
+pub(crate) mod rests;
 pub(crate) mod sensors;
 pub(crate) mod sleep;
 pub(crate) mod solve;

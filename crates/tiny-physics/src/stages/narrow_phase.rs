@@ -470,6 +470,9 @@ fn write_constraint<L: Lanes, K: PairKernel>(
         old[0] = L::load(token, &point.normal_impulse[at..]);
         old[1] = L::load(token, &point.tangent_impulse[at..]);
     }
+    let surface = &mut blocks.surfaces[index];
+    let old_rest = [L::load(token, &surface.rest_1[at..]), L::load(token, &surface.rest_2[at..])];
+    let mut rests = [zero; 2];
     let mut approach = [zero; 2];
     for (k, approach) in approach.iter_mut().enumerate().take(K::POINTS) {
         let valid = geometry.valid[k];
@@ -486,6 +489,9 @@ fn write_constraint<L: Lanes, K: PairKernel>(
             + arms.normal[1] * body_b[2]
             - arms.normal[0] * body_a[2];
 
+        if blocks.heads[index].flags & flags::RESTS != 0 {
+            rests[k] = L::select(same[0], old_rest[0], L::select(same[1], old_rest[1], zero));
+        }
         let point = &mut constraint.points[k];
         geometry.manifold.separation[k].store(&mut point.separation[at..]);
         arms.normal[0].store(&mut point.normal_arm_a[at..]);
@@ -502,8 +508,11 @@ fn write_constraint<L: Lanes, K: PairKernel>(
     if K::POINTS == 2 {
         L::select(geometry.valid[1], geometry.manifold.id[1], none).store(&mut manifold.id_2[at..]);
     }
+    if blocks.heads[index].flags & flags::RESTS != 0 {
+        rests[0].store(&mut surface.rest_1[at..]);
+        rests[1].store(&mut surface.rest_2[at..]);
+    }
     if blocks.heads[index].flags & (flags::RESTITUTION | flags::HIT) != 0 {
-        let surface = &mut blocks.surfaces[index];
         approach[0].store(&mut surface.approach_1[at..]);
         approach[1].store(&mut surface.approach_2[at..]);
         zero.store(&mut surface.total_1[at..]);

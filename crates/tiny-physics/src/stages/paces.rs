@@ -10,10 +10,11 @@
 
 use super::islands::{Islands, Stores};
 use super::passivity::may_drive;
+use super::rests::{Compliance, Sink, is_calm};
 use crate::describe::BodyKind;
 use crate::dynamics::{
-    Bodies, Bucket, Graph, JOINTED, JointTree, NULL, PLAIN, Place, PointLanes, REFINEMENT, ROUNDS,
-    TreeNode, WATCHED, next_edge, pace_at,
+    Bodies, Graph, JOINTED, JointTree, NULL, PLAIN, Place, REFINEMENT, ROUNDS, TreeNode, WATCHED,
+    next_edge, pace_at,
 };
 use crate::math::Vec2;
 use crate::simd::BLOCK;
@@ -25,6 +26,8 @@ const MANY_NEWS: usize = 16;
 /// Sink at the plain pace from which an island gets each pace, metres a length unit; from [`LARGE`] bodies on the second.
 /// Twice the substeps hold towers of 20 and arches; what leans on many others, as in pyramids, spreads where it sinks.
 const VISIBLE: [[f32; JOINTED]; 2] = [[0.0, 0.0008, 0.008, 0.02], [0.0, 0.0008, 0.0024, 0.02]];
+/// Greatest sink at a pace that rests may stand for, length units.
+const MOST_AT_REST: f32 = 0.008;
 /// Bodies from which on an island is large.
 const LARGE: usize = 128;
 /// Bodies thinner than this tip and pass where others only sink a little: for them the same part of their thickness
@@ -48,10 +51,9 @@ const BUDGET: usize = 4;
 pub(crate) struct Rules {
     pub(crate) gravity: Vec2,
     pub(crate) length_unit: f32,
-    /// Square of the angular frequency of contacts at the plain pace.
-    pub(crate) omega_squared: f32,
-    /// 1 / plain substep length.
-    pub(crate) inv_h: f32,
+    pub(crate) compliance: Compliance,
+    /// Length of a plain substep, seconds.
+    pub(crate) h: f32,
     /// Bodies that a refined island may have.
     pub(crate) most_bodies: usize,
     pub(crate) step: u64,
@@ -78,7 +80,8 @@ pub(crate) struct Memory {
     loads: Vec<f32>,
     below: Vec<u32>,
     changed: Vec<(u32, u8)>,
-    moved_contacts: Vec<(u32, usize)>,
+    /// With their paces, and what they carry.
+    moved_contacts: Vec<(u32, usize, [Sink; 2])>,
     moved_joints: Vec<(u32, usize)>,
 }
 
@@ -125,7 +128,7 @@ pub(crate) fn assign(mut stores: Stores<'_>, rules: Rules, memory: &mut Memory) 
             changed.push((body, found[root].pace));
         }
     }
-    change(&mut stores, memory);
+    change(&mut stores, rules, memory);
     stores.graph.mixed = false;
     stores.graph.news = 0;
     stores.joint_graph.mixed = false;
@@ -148,14 +151,15 @@ fn is_due(stores: &Stores<'_>, rules: Rules) -> bool {
 
 /// Would a point between two moving bodies of the plain pace sink visibly?
 fn is_any_strained(bodies: &Bodies, graph: &Graph, rules: Rules) -> bool {
-    let least = VISIBLE[0][1] * rules.length_unit * rules.omega_squared / rules.inv_h;
+    let (least, compliance) = (VISIBLE[0][1] * rules.length_unit, rules.compliance.moving);
     let plain = graph.touching_buckets().take_while(|&(place, _)| pace_at(place) == PLAIN);
-    let mut blocks = plain.flat_map(|(_, bucket)| &bucket.constraints);
-    blocks.any(|block| {
+    let mut blocks = plain.flat_map(|(_, bucket)| bucket.constraints.iter().zip(&bucket.surfaces));
+    blocks.any(|(block, surface)| {
         let strained = |lane: usize| {
-            let over =
-                |point: &PointLanes| point.normal_impulse[lane] > least * point.normal_mass[lane];
-            over(&block.points[0]) | over(&block.points[1])
+            let [first, second] = &block.points;
+            let over = |impulse, mass, rest| compliance * impulse > (least + rest) * mass;
+            over(first.normal_impulse[lane], first.normal_mass[lane], surface.rest_1[lane])
+                | over(second.normal_impulse[lane], second.normal_mass[lane], surface.rest_2[lane])
         };
         let any = (0..BLOCK).fold(false, |any, lane| any | strained(lane));
         let moves = |lane: usize| {
@@ -172,6 +176,8 @@ struct Island {
     /// Greatest pace of its bodies so far; after [`Island::grant`] the pace of all.
     pace: u8,
     /// Greatest sink that its contacts would have at the plain pace, metres.
+    sink: f32,
+    /// The same but for what rests.
     strain: f32,
     /// Do two of its bodies that touch pass each other so fast that loads say nothing?
     lively: bool,
@@ -185,6 +191,18 @@ struct Island {
 }
 
 impl Island {
+    /// The pace to which an island that settles may go back: one step at a time, and not where loads are so great that
+    /// contacts would be springs.
+    fn slowest(&self, rules: Rules) -> Option<usize> {
+        let bears = |pace: usize| {
+            let refinement = REFINEMENT[pace] as f32;
+            self.sink <= MOST_AT_REST * rules.length_unit * refinement * refinement
+        };
+        let now = usize::from(self.pace);
+        let slowest = if now > PLAIN && bears(now - 1) { now - 1 } else { now };
+        (now < JOINTED && slowest != PLAIN).then_some(slowest)
+    }
+
     /// Chooses the pace: the finest that the strain calls for and the bounds allow.
     fn grant(&mut self, rules: Rules, budget: &mut usize) {
         let visible = VISIBLE[usize::from(self.bodies >= LARGE)];
@@ -193,6 +211,7 @@ impl Island {
             let least = if keeps { 0.5 } else { 1.0 } * visible[pace] * rules.length_unit;
             self.strain > least && (keeps || !self.lively)
         });
+        let wanted = wanted.max(self.slowest(rules));
         if self.touched || self.joined > 0 && wanted.is_some() {
             let cost = self.bodies * (ROUNDS[JOINTED] as usize - 1);
             if self.bodies <= rules.most_bodies && cost <= *budget {
@@ -245,8 +264,7 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         }
     }
     for (place, bucket) in graph.touching_buckets() {
-        let refinement = REFINEMENT[pace_at(place)] as f32;
-        let scale = refinement * rules.inv_h / rules.omega_squared;
+        let pace = pace_at(place);
         for slot in 0..bucket.contacts.len() {
             let (a, b) = bucket.bodies(slot);
             let body = if bodies.is_solved(a) { a } else { b };
@@ -261,23 +279,18 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
             let speed = (bodies.velocity(b) - bodies.velocity(a)).length();
             island.lively |= speed > LIVELY * rules.length_unit;
             if speed < SETTLED * rules.length_unit {
-                let sink = scale * greatest_load(bucket, slot) * rules.severity(bodies, [a, b]);
-                island.strain = island.strain.max(sink);
+                let severity = rules.severity(bodies, [a, b]);
+                let [first, second] = Sink::of(bucket, slot, pace, rules.compliance, bodies);
+                island.sink = island.sink.max(first.full.max(second.full) * severity);
+                // What has settled at a finer pace rests when it leaves it.
+                if REFINEMENT[pace] == 1 || !(is_calm(bodies, a) && is_calm(bodies, b)) {
+                    island.strain =
+                        island.strain.max(first.open(pace).max(second.open(pace)) * severity);
+                }
             }
         }
     }
     foresee(stores, rules, memory);
-}
-
-/// Greatest impulse of a contact's points over their effective masses, metres a second.
-fn greatest_load(bucket: &Bucket, slot: usize) -> f32 {
-    let (block, lane) = (slot / BLOCK, slot % BLOCK);
-    let load = |k: usize| {
-        let point = &bucket.constraints[block].points[k];
-        let mass = point.normal_mass[lane];
-        if mass > 0.0 { point.normal_impulse[lane] / mass } else { 0.0 }
-    };
-    load(0).max(load(1))
 }
 
 /// Lets weights run down through small islands and notes how far contacts would sink under them.
@@ -315,10 +328,15 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         }));
         let weight = info.mass * info.gravity_scale.abs() * rules.gravity.length();
         let share = (weight + loads[body as usize]) / below.len().max(1) as f32;
+        let known = is_calm(bodies, body);
         let inverse_mass = bodies.inverse_masses(body).0;
         for &other in below.iter().filter(|&&other| bodies.is_solved(other)) {
             loads[other as usize] += share;
-            let compliance = (inverse_mass + bodies.inverse_masses(other).0) / rules.omega_squared;
+            if known && is_calm(bodies, other) {
+                continue;
+            }
+            let inverse_mass = inverse_mass + bodies.inverse_masses(other).0;
+            let compliance = inverse_mass * rules.compliance.moving * rules.h;
             let island = &mut found[islands.root(body) as usize];
             let sink = share * compliance * rules.severity(bodies, [body, other]);
             island.strain = island.strain.max(sink);
@@ -327,7 +345,7 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
 }
 
 /// Moves bodies to other paces, and what hangs on them.
-fn change(stores: &mut Stores<'_>, memory: &mut Memory) {
+fn change(stores: &mut Stores<'_>, rules: Rules, memory: &mut Memory) {
     let Stores { bodies, contacts, graph, joints, joint_graph } = stores;
     let Memory { changed, moved_contacts, moved_joints, .. } = memory;
     moved_contacts.clear();
@@ -336,9 +354,12 @@ fn change(stores: &mut Stores<'_>, memory: &mut Memory) {
         let mut edge = bodies.infos[body as usize].first_contact;
         while edge != NULL {
             let contact = &contacts.records[edge as usize / 2];
-            if let (true, Place::Graph { colour, .. }) = (contact.touching, contact.place) {
+            if let (true, Place::Graph { colour, slot }) = (contact.touching, contact.place) {
+                let pace = pace_at(colour.into());
+                let bucket = graph.bucket_mut(colour.into(), contact.class);
+                let sinks = Sink::of(bucket, slot as usize, pace, rules.compliance, bodies);
                 graph.remove(bodies, contacts, edge / 2);
-                moved_contacts.push((edge / 2, pace_at(colour.into())));
+                moved_contacts.push((edge / 2, pace, sinks));
             }
             edge = next_edge(&contacts.records, edge);
         }
@@ -356,13 +377,15 @@ fn change(stores: &mut Stores<'_>, memory: &mut Memory) {
     for &(body, pace) in changed.iter() {
         bodies.set_pace(body, pace);
     }
-    moved_contacts.sort_unstable();
-    for &(index, old) in moved_contacts.iter() {
+    moved_contacts.sort_unstable_by_key(|&(index, ..)| index);
+    for &(index, old, sinks) in moved_contacts.iter() {
         let contact = &mut contacts.records[index as usize];
-        let scale = rescale(old, bodies.common_pace(contact.body_a, contact.body_b));
-        for point in &mut contact.saved {
+        let new = bodies.common_pace(contact.body_a, contact.body_b);
+        let scale = rescale(old, new);
+        for (k, point) in contact.saved.iter_mut().enumerate() {
             point.normal_impulse *= scale;
             point.tangent_impulse *= scale;
+            point.rest = sinks[k].rest_at(new);
         }
         graph.insert(bodies, contacts, index);
     }

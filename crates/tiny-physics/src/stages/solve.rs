@@ -6,6 +6,7 @@
 use super::contact_solver::{self, BounceMemory, Parameters, Pass, Softness};
 use super::islands::Stores;
 use super::joint_solver::Substep;
+use super::rests::Compliance;
 use super::{integrate, joint_solver, paces, passivity, tree_contacts};
 use crate::describe::Settings;
 use crate::dynamics::{
@@ -79,15 +80,21 @@ pub(crate) struct Rules<'a> {
 impl Rules<'_> {
     /// How paces are chosen in this step, the `step`th.
     pub(crate) fn of_paces(&self, step: u64) -> paces::Rules {
-        let omega = core::f32::consts::TAU * self.contact_hertz();
         paces::Rules {
             gravity: self.gravity,
             length_unit: self.settings.length_unit,
-            omega_squared: omega * omega,
-            inv_h: 1.0 / self.lengths.h,
+            compliance: self.compliance(),
+            h: self.lengths.h,
             most_bodies: self.settings.refine_up_to as usize,
             step,
         }
+    }
+
+    /// How far contacts sink.
+    pub(crate) fn compliance(&self) -> Compliance {
+        let omega = core::f32::consts::TAU * self.contact_hertz();
+        let moving = 1.0 / (self.lengths.h * omega * omega);
+        Compliance { moving, fixed: moving / (STATIC_STIFFNESS * STATIC_STIFFNESS) }
     }
 
     /// Stiffness of contacts.

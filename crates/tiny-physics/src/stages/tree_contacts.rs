@@ -379,7 +379,7 @@ impl Touch {
             let s = point.separation + velocities.ways(sides, on);
             let (velocity, old) = (velocities.along(sides, on), point.impulse);
             point.impulse =
-                normal_impulse::<f32, BIAS>(constants, soft, [s, velocity], point.mass, old);
+                normal_impulse::<f32, BIAS>(constants, soft, [s, velocity, 0.0], point.mass, old);
             velocities.push(sides, on, point.impulse - old);
         }
     }

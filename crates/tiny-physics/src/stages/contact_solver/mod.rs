@@ -35,8 +35,8 @@ mod pair;
 pub(crate) use bounce::{Memory as BounceMemory, run as run_bounces};
 
 use crate::dynamics::{
-    BlockHead, Blocks, ConstraintBlock, Graph, LaneBlock, Schedule, SurfaceBlock, flags,
-    is_overflow,
+    BlockHead, Blocks, ConstraintBlock, Graph, LaneBlock, PointLanes, Schedule, SurfaceBlock,
+    flags, is_overflow,
 };
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
 use crate::threads::{SharedRows, Team};
@@ -202,7 +202,7 @@ impl<const POINTS: usize> LaneKernel for Points<POINTS, RunPass<'_>> {
                             (u32::from(head.jointed_a) >> at, u32::from(head.jointed_b) >> at);
                         warm_start::<L, POINTS, false>(&stride, block, surface, flags, jointed);
                     }
-                    Pass::Solve => solve::<L, POINTS>(&stride, block),
+                    Pass::Solve => solve::<L, POINTS>(&stride, block, surface, flags),
                     Pass::Relax | Pass::RelaxLast => {
                         let unsummed = if pass == Pass::Relax { flags::HIT } else { 0 };
                         relax::<L, POINTS>(&stride, block, surface, flags & !unsummed);
@@ -236,15 +236,45 @@ fn warm_start<L: Lanes, const POINTS: usize, const FIRST: bool>(
         let impulse = stride.load(&surface.rolling_impulse);
         roll(&mut pair, impulse);
     }
+    if FIRST && flags & flags::RESTS != 0 {
+        let [bias_rate, _, impulse_scale] = pair.softness(stride.constants);
+        let compliance = impulse_scale / bias_rate;
+        bound_rest(stride, compliance, &block.points[0], &mut surface.rest_1);
+        bound_rest(stride, compliance, &block.points[1], &mut surface.rest_2);
+    }
     pair.store_only(stride, block, only);
+}
+
+/// Bounds the rest of a point to the sink that its load accounts for.
+#[inline(always)]
+fn bound_rest<L: Lanes>(
+    stride: &Stride<'_, L>,
+    compliance: L,
+    point: &PointLanes,
+    rest: &mut [f32; BLOCK],
+) {
+    let (mass, impulse) = (stride.load(&point.normal_mass), stride.load(&point.normal_impulse));
+    let exists = mass.gt(stride.constants.zero);
+    let load = impulse / L::select(exists, mass, L::splat(stride.token, 1.0));
+    let sink = L::select(exists, compliance * load, stride.constants.zero);
+    stride.store(stride.load(rest).min(sink), rest);
 }
 
 /// Normal impulses with bias.
 #[inline(always)]
-fn solve<L: Lanes, const POINTS: usize>(stride: &Stride<'_, L>, block: &mut ConstraintBlock) {
+fn solve<L: Lanes, const POINTS: usize>(
+    stride: &Stride<'_, L>,
+    block: &mut ConstraintBlock,
+    surface: &SurfaceBlock,
+    flags: u8,
+) {
     let mut pair = Pair::load(stride, block);
     let soft = pair.softness(stride.constants);
-    solve_normals::<L, POINTS, true>(stride, &mut pair, block, soft);
+    let mut rests = [stride.constants.zero; 2];
+    if flags & flags::RESTS != 0 {
+        rests = [stride.load(&surface.rest_1), stride.load(&surface.rest_2)];
+    }
+    solve_normals::<L, POINTS, true>(stride, &mut pair, block, soft, rests);
     pair.store(stride, block);
 }
 
@@ -266,7 +296,8 @@ fn relax<L: Lanes, const POINTS: usize>(
         solve_rolling::<L, POINTS>(stride, &mut pair, block, surface);
     }
     let soft = stride.constants.soft;
-    let loads = solve_normals::<L, POINTS, false>(stride, &mut pair, block, soft);
+    let rests = [stride.constants.zero; 2];
+    let loads = solve_normals::<L, POINTS, false>(stride, &mut pair, block, soft, rests);
     for (point, load) in block.points.iter_mut().zip(loads).take(POINTS) {
         stride.store(load, &mut point.load);
     }

@@ -11,11 +11,12 @@ pub(super) fn solve_normals<L: Lanes, const POINTS: usize, const BIAS: bool>(
     pair: &mut Pair<L>,
     block: &mut ConstraintBlock,
     soft: [L; 3],
+    rests: [L; 2],
 ) -> [L; 2] {
     if POINTS == 2 {
-        solve_both::<L, BIAS>(stride, pair, block, soft)
+        solve_both::<L, BIAS>(stride, pair, block, soft, rests)
     } else {
-        let impulse = solve_normal::<L, BIAS>(stride, pair, &mut block.points[0], soft);
+        let impulse = solve_normal::<L, BIAS>(stride, pair, &mut block.points[0], soft, rests[0]);
         [impulse, stride.constants.zero]
     }
 }
@@ -27,13 +28,14 @@ fn solve_normal<L: Lanes, const BIAS: bool>(
     pair: &mut Pair<L>,
     point: &mut PointLanes,
     soft: [L; 3],
+    rest: L,
 ) -> L {
     let (arm_a, arm_b) = (stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b));
     let mass = stride.load(&point.normal_mass);
     let old = stride.load(&point.normal_impulse);
     let s = pair.separation(stride.load(&point.separation), arm_a, arm_b);
     let velocity = pair.normal_velocity(arm_a, arm_b);
-    let impulse = normal_impulse::<L, BIAS>(stride.constants, soft, [s, velocity], mass, old);
+    let impulse = normal_impulse::<L, BIAS>(stride.constants, soft, [s, velocity, rest], mass, old);
     stride.store(impulse, &mut point.normal_impulse);
     pair.push(impulse - old, arm_a, arm_b);
     impulse
@@ -44,7 +46,7 @@ fn solve_normal<L: Lanes, const BIAS: bool>(
 pub(in crate::stages) fn normal_impulse<L: Lanes, const BIAS: bool>(
     constants: &Constants<L>,
     [bias_rate, mass_scale, impulse_scale]: [L; 3],
-    [s, velocity]: [L; 2],
+    [s, velocity, rest]: [L; 3],
     mass: L,
     old: L,
 ) -> L {
@@ -55,7 +57,7 @@ pub(in crate::stages) fn normal_impulse<L: Lanes, const BIAS: bool>(
         let decay = impulse_scale * old;
         // What carries the load is not bounded.
         let bound = (constants.push_rate * s).max(constants.push);
-        let push = (mass * (bias_rate * s)).max(mass * bound - decay);
+        let push = (mass * (bias_rate * (s - rest))).max(mass * bound - decay);
         let (push, decay) = (
             L::select(apart, mass * (s * constants.inv_h), push),
             L::select(apart, constants.zero, decay),
@@ -88,13 +90,14 @@ fn solve_both<L: Lanes, const BIAS: bool>(
     pair: &mut Pair<L>,
     block: &mut ConstraintBlock,
     [push_rate, mass_scale, _]: [L; 3],
+    rests: [L; 2],
 ) -> [L; 2] {
     let one = L::splat(stride.token, 1.0);
     let inv_scale = if BIAS { one / mass_scale } else { one };
     let soft = [push_rate, mass_scale, inv_scale];
     // No closures: they are built without the lanes' instructions.
-    let first = Normal::load::<BIAS>(stride, pair, &block.points[0], soft);
-    let normals = [first, Normal::load::<BIAS>(stride, pair, &block.points[1], soft)];
+    let first = Normal::load::<BIAS>(stride, pair, &block.points[0], soft, rests[0]);
+    let normals = [first, Normal::load::<BIAS>(stride, pair, &block.points[1], soft, rests[1])];
     Normal::solve_both(&normals, stride, pair, block, LEAST_DETERMINANT)
 }
 
@@ -168,6 +171,7 @@ impl<L: Lanes> Normal<L> {
         pair: &Pair<L>,
         point: &PointLanes,
         [push_rate, mass_scale, inv_scale]: [L; 3],
+        rest: L,
     ) -> Self {
         let constants = stride.constants;
         let (arm_a, arm_b) = (stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b));
@@ -192,7 +196,7 @@ impl<L: Lanes> Normal<L> {
         // What carries the load is not bounded.
         let carry = k * inv_scale - k;
         let bound = (constants.push_rate * s).max(constants.push);
-        let push = (push_rate * s * inv_scale).max(bound - carry * old);
+        let push = (push_rate * (s - rest) * inv_scale).max(bound - carry * old);
         Self {
             arm_a,
             arm_b,

@@ -5,7 +5,7 @@ use crate::Explosion;
 use crate::describe::{Filter, JointDef, Material, TileGrid};
 use std::collections::BTreeSet;
 
-struct Random(u64);
+pub(super) struct Random(pub(super) u64);
 
 impl Random {
     fn below(&mut self, count: usize) -> usize {
@@ -14,7 +14,7 @@ impl Random {
         (self.0 >> 33) as usize % count
     }
 
-    fn between(&mut self, low: f32, high: f32) -> f32 {
+    pub(super) fn between(&mut self, low: f32, high: f32) -> f32 {
         low + (high - low) * self.below(1 << 20) as f32 / (1 << 20) as f32
     }
 

@@ -1,5 +1,6 @@
 //! Paces: which islands are refined, and that changing pace disturbs nothing.
 
+use super::anything::Random;
 use super::*;
 use crate::dynamics::{PACES, PLAIN};
 
@@ -32,23 +33,28 @@ fn steps(world: &mut World, count: usize) {
     }
 }
 
-/// A light crate with one of 100 times its weight on it, and how deep they overlap after a second.
-fn heavy_on_light(refine_up_to: u32) -> (usize, f32) {
+/// A light crate with one of 100 times its weight on it: its pace after some steps, and how deep they overlap.
+fn heavy_on_light(refine_up_to: u32, count: usize) -> (usize, f32) {
     let mut world = floored();
     world.settings.refine_up_to = refine_up_to;
     world.settings.sleep = false;
     let light = world.add_body(crate_at(0.0, 0.5, 1.0)).unwrap();
     world.add_body(crate_at(0.0, 1.5, 100.0)).unwrap();
-    steps(&mut world, 60);
+    steps(&mut world, count);
     (pace(&world, light), world.max_penetration())
 }
 
 #[test]
 fn a_heavy_load_is_refined_and_sinks_less() {
-    let (plain, deep) = heavy_on_light(0);
-    let (refined, shallow) = heavy_on_light(1000);
+    let (plain, deep) = heavy_on_light(0, 60);
+    let (refined, _) = heavy_on_light(1000, 10);
     assert_eq!((plain, refined), (PLAIN, FOURFOLD));
+    // It settles as high as four times the substeps hold it, and stays there without them.
+    let (settled, shallow) = heavy_on_light(1000, 60);
+    let (later, shallow_later) = heavy_on_light(1000, 600);
+    assert_eq!((settled, later), (PLAIN, PLAIN));
     assert!(deep > 0.008 && shallow < 0.0015, "{deep} and {shallow}");
+    assert!((shallow_later - shallow).abs() < 1.0e-4, "{shallow_later}");
 }
 
 #[test]
@@ -107,6 +113,87 @@ fn becoming_finer_does_not_pop() {
         assert!(level < 15 || pace(&world, tower[0]) == TWOFOLD);
     }
     assert!(fastest < 0.1, "{fastest} m/s");
+}
+
+/// Random towers that have settled are as high at the plain pace as finer ones, and do not sink later.
+#[test]
+fn what_has_settled_stays_at_the_plain_pace() {
+    let mut random = Random(5);
+    for case in 0..12 {
+        let mut world = floored();
+        world.settings.sleep = false;
+        let mut top = 0.0_f64;
+        let mut tower = Vec::new();
+        for _ in 0..12 + case {
+            let (half, density) = (random.between(0.3, 0.7), random.between(0.5, 2.5));
+            let shape = ShapeDef::new(Shape::rect(0.8, half).unwrap()).density(density);
+            let x = f64::from(random.between(0.0, 0.2));
+            let at = DVec2::new(x, top + f64::from(half));
+            tower.push(world.add_body(RigidBody::dynamic().shape(shape).position(at)).unwrap());
+            top += 2.0 * f64::from(half);
+        }
+        steps(&mut world, 12);
+        assert_ne!(pace(&world, tower[0]), PLAIN, "case {case}");
+        let mut rest = |count| {
+            for _ in 0..count {
+                world.step(DT);
+            }
+            let height = world.body(tower[tower.len() - 1]).unwrap().position().y;
+            (height, world.max_penetration(), pace(&world, tower[0]))
+        };
+        let ((early, ..), (late, deepest, last)) = (rest(300), rest(1500));
+        assert!(last <= TWOFOLD, "case {case}: {last}");
+        assert!((late - early).abs() < 2.0e-3, "case {case}: {early} to {late}");
+        assert!(deepest < 2.0e-3, "case {case}: {deepest} m deep");
+    }
+}
+
+/// Rests go with the loads that they stand for: what has borne up to five crates hops by millimetres, no more, when they
+/// are gone (by 6 where contacts have sunk under them).
+#[test]
+fn unloading_what_rests_throws_nothing_up() {
+    let mut random = Random(3);
+    for case in 0..8 {
+        let mut world = floored();
+        world.settings.sleep = false;
+        let place = |level: usize| f64::from(level as u32) + 0.5;
+        let tower: Vec<_> =
+            (0..6).map(|level| world.add_body(crate_at(0.0, place(level), 1.0)).unwrap()).collect();
+        let heavy = crate_at(0.0, place(6), random.between(2.0, 5.0));
+        let heavy = world.add_body(heavy).unwrap();
+        steps(&mut world, 240);
+        assert_eq!(pace(&world, tower[0]), PLAIN, "case {case}");
+        let height = |world: &World| world.body(tower[5]).unwrap().position().y;
+        let before = height(&world);
+        world.remove_body(heavy).unwrap();
+        for _ in 0..60 {
+            world.step(DT);
+            assert!(height(&world) < before + 4.0e-3, "case {case}: {}", height(&world) - before);
+        }
+    }
+}
+
+/// Towers that were dropped sway; they come to rest all the same.
+#[test]
+fn what_sways_falls_asleep() {
+    let mut random = Random(8);
+    for case in 0..12 {
+        let mut world = floored();
+        let count = 7 + case % 5;
+        let half = random.between(0.35, 0.55);
+        for level in 0..count {
+            let shape = ShapeDef::new(Shape::rect(half, half).unwrap()).density(1.0);
+            let at = DVec2::new(
+                f64::from(random.between(0.0, 0.05)),
+                f64::from(half) * (2.2 * f64::from(level) + 1.2),
+            );
+            world.add_body(RigidBody::dynamic().shape(shape).position(at)).unwrap();
+        }
+        for _ in 0..420 {
+            world.step(DT);
+        }
+        assert_eq!(world.awake_body_count(), 0, "case {case}");
+    }
 }
 
 /// One moving floor carries islands of two paces.
