@@ -6,7 +6,8 @@
 //! the last step, and foreseen from the weights of what lies above.
 //!
 //! Only islands of bounded size are refined, and only up to a budget, so that a step never costs many times
-//! what it did before. An island keeps its pace until its strain has fallen to half of what called for it.
+//! what it did before. An island keeps its pace until its strain has fallen to half of what called for it, or until
+//! it has settled: then it goes back step by step, and its contacts get [rests](super::rests).
 
 use super::islands::{Islands, Stores};
 use super::passivity::may_drive;
