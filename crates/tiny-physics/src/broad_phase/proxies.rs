@@ -1,6 +1,6 @@
 //! Proxies of shapes, and the pairs of them that came close.
 //!
-//! In a step: every shape that moved tells its tight box ([`BroadPhase::move_proxy`]), then the
+//! In a step: every shape that moved asks for the fat box that it needs ([`BroadPhase::needed_fat_aabb`]), then the
 //! pairs of those that left their fat boxes are asked for ([`BroadPhase::prepare_pairs`],
 //! [`BroadPhase::query_groups`] on any number of threads, [`BroadPhase::clear_moved`]).
 //!
@@ -291,14 +291,6 @@ impl BroadPhase {
         true
     }
 
-    /// Tells where a proxy is now. True where it left its fat box and was buffered.
-    pub fn move_proxy(&mut self, id: ProxyId, tight: Aabb, displacement: Vec2) -> bool {
-        match self.needed_fat_aabb(id, tight, displacement) {
-            Some(fat) => self.set_fat_aabb(id, fat),
-            None => false,
-        }
-    }
-
     /// Changes what a proxy is and pairs with, and buffers it. False where there is no such proxy.
     pub fn set_filter(&mut self, id: ProxyId, category: u64, mask: u64) -> bool {
         let Some(kind) = self.kind(id) else { return false };
@@ -534,6 +526,11 @@ impl BroadPhase {
                 });
             }
         }
+    }
+
+    /// Is there any proxy of one kind?
+    pub(crate) fn has_any(&self, kind: ProxyKind) -> bool {
+        !self.trees[kind as usize].is_empty()
     }
 
     /// Visits the users of the proxies of one kind whose fat boxes overlap `aabb` and whose category has a bit of `mask`,

@@ -54,13 +54,13 @@ impl Boxes<'_> {
     }
 
     /// As [`Boxes::follow`] for a body that is fast: the fat boxes hold all that `next` would take it through.
-    pub(crate) fn lead(self, first_shape: u32, next: &Way, moved: &mut Moved) {
+    pub(crate) fn lead(self, first_shape: u32, next: &Way, ahead: Vec2, moved: &mut Moved) {
         let Self { shapes, tight: tight_boxes, .. } = self;
         for shape in shapes.of_body(first_shape) {
             let tight = shape_box(shapes, shape, next.start);
             tight_boxes.write(shape, tight);
             let path = next.turned(shapes, shape, tight).swept(next.motion);
-            self.hold(shape, &path, Vec2::ZERO, moved);
+            self.hold(shape, &path, ahead, moved);
         }
     }
 

@@ -5,7 +5,8 @@ use super::rests;
 use crate::broad_phase::BroadPhase;
 use crate::describe::BodyKind;
 use crate::dynamics::{Bodies, BodyInfo, Shapes, Slot};
-use crate::math::{Pose, Vec2};
+use crate::geometry::Sweep;
+use crate::math::{Pose, Transform, Vec2};
 use crate::simd::Row;
 use crate::threads::{SharedSlice, Team};
 
@@ -51,6 +52,12 @@ impl FastBody {
     /// How it went.
     pub(crate) fn course(&self) -> Way {
         Way { start: self.start, motion: self.motion, turn: self.turn }
+    }
+
+    /// How it went as seen from another body's start.
+    pub(crate) fn seen_from(&self, start: Pose) -> Sweep {
+        let frame = Transform::new(self.start.p.relative_to(start.p), self.start.q);
+        Sweep::new(frame, Vec2::ZERO, self.motion, self.turn)
     }
 
     /// The longest way that a point of the body can have gone, metres.
@@ -180,10 +187,9 @@ pub(super) fn turned_reach(turn: f32, info: &BodyInfo) -> f32 {
 #[inline]
 fn time_rest(row: &Row, [way, turn]: [f32; 2], info: &mut BodyInfo, options: Options) {
     let Options { dt, length_unit, .. } = options;
-    let larger = |a: f32, b: f32| if a > b { a } else { b };
-    let speed = larger(Vec2::new(row[Slot::VX], row[Slot::VY]).length(), way / dt);
-    let spin = larger(row[Slot::W].abs(), turn.abs() / dt);
-    let fastest = larger(speed, spin * info.max_extent);
+    let speed = Vec2::new(row[Slot::VX], row[Slot::VY]).length().max(way / dt);
+    let spin = row[Slot::W].abs().max(turn.abs() / dt);
+    let fastest = speed.max(spin * info.max_extent);
     info.calm = rests::calmer(info.calm, fastest / length_unit, dt);
     // A platform that creeps must not stop.
     let limit = if info.kind == BodyKind::Dynamic { info.sleep_speed * length_unit } else { 0.0 };

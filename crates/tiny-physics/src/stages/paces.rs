@@ -36,6 +36,8 @@ const LARGE: usize = 128;
 const THIN: f32 = 0.05;
 /// No body counts as thinner than this part of that.
 const THINNEST: f32 = 0.02;
+/// A body bears another whose middle is higher by this part of the lesser half thickness: what is beside it does not.
+const LOWER: f32 = 0.25;
 /// Speed between two bodies below which their contact carries what it will go on carrying, length units a
 /// second.
 const SETTLED: f32 = 0.05;
@@ -324,7 +326,8 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         below.extend(contacts.of_body(info.first_contact).filter_map(|(index, side)| {
             let contact = &contacts.records[index as usize];
             let other = if side == 0 { contact.body_b } else { contact.body_a };
-            let lower = !bodies.is_dynamic(other) || height(other) < top;
+            let step = LOWER * info.min_extent.min(bodies.infos[other as usize].min_extent);
+            let lower = !bodies.is_dynamic(other) || top - height(other) > f64::from(step);
             (contact.touching && lower).then_some(other)
         }));
         let weight = info.mass * info.gravity_scale.abs() * rules.gravity.length();

@@ -12,7 +12,7 @@ use crate::broad_phase::BroadPhase;
 use crate::describe::BodyKind;
 use crate::dynamics::{Bodies, Overlap, Sensors, ShapeRecord, Shapes};
 use crate::geometry::{Sweep, ToiState, distance, time_of_impact};
-use crate::math::{Aabb, Pose, Transform, Vec2};
+use crate::math::{Aabb, Pose, Vec2};
 use crate::threads::Team;
 use crate::work;
 use core::ops::ControlFlow;
@@ -142,8 +142,7 @@ impl Scene<'_> {
     /// shapes.
     fn look_along(&self, fast: &FastBody, overlaps: &mut Vec<Overlap>) {
         let info = &self.bodies.infos[fast.body as usize];
-        let frame = Transform::new(Vec2::ZERO, fast.start.q);
-        let sweep = Sweep::new(frame, Vec2::ZERO, fast.motion, fast.turn);
+        let sweep = fast.seen_from(fast.start);
         let extent = Vec2::splat(info.max_extent);
         let at = |pose: Pose| Aabb::rounded_out(pose.p - extent, pose.p + extent);
         let path = at(fast.start).union(&at(fast.end));
@@ -189,19 +188,14 @@ impl Scene<'_> {
             return None;
         }
         let overlap = self.overlap(sensor, visitor);
-        let motion = self.motion(fast, record(other));
-        let toi = time_of_impact(&record(shape).shape, moving, &record(other).shape, &motion, 1.0);
+        let (shape, other) = (record(shape), record(other));
+        let step = FastBody::of_step(self.bodies, other.body);
+        let motion = step.seen_from(fast.start).child(other.central);
+        let toi = time_of_impact(&shape.shape, moving, &other.shape, &motion, 1.0);
         match toi.state {
             ToiState::Separated => None,
             ToiState::Hit | ToiState::Limit => Some(overlap),
             ToiState::Touching => (!self.sensors.saw(&overlap)).then_some(overlap),
         }
-    }
-
-    /// The motion of another shape over the step, relative to where a fast body started.
-    fn motion(&self, fast: &FastBody, other: &ShapeRecord) -> Sweep {
-        let step = FastBody::of_step(self.bodies, other.body);
-        let frame = Transform::new(step.start.p.relative_to(fast.start.p), step.start.q);
-        Sweep::new(frame, Vec2::ZERO, step.motion, step.turn).child(other.central)
     }
 }
