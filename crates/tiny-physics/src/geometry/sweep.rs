@@ -48,7 +48,7 @@ impl Sweep {
 
     /// The frame at a fraction of the step.
     pub fn at(&self, fraction: f32) -> Transform {
-        let q = if self.angle == 0.0 {
+        let q = if self.angle == 0.0 || fraction == 0.0 {
             self.rotation
         } else {
             Rot::from_angle(self.angle * fraction).compose(self.rotation)

@@ -58,7 +58,11 @@ pub struct Toi {
 /// The separation at which two shapes meet, metres: an overlap by the slop, as resting contacts have, where
 /// the radii allow that; sharp shapes stop one slop apart, so that there is always a normal.
 pub fn toi_target(a: &Shape, b: &Shape, slop: f32) -> f32 {
-    let target = slop - a.core().radius - b.core().radius;
+    target_of(slop, [a.core().radius, b.core().radius])
+}
+
+fn target_of(slop: f32, [a, b]: [f32; 2]) -> f32 {
+    let target = slop - a - b;
     if target > -slop { target } else { -slop }
 }
 
@@ -87,6 +91,64 @@ pub fn time_of_impact_within(
     search(&Moving::new(a, sweep_a), &Moving::new(b, sweep_b), goal)
 }
 
+/// The same, or none where they stay apart: what most pairs do that come near each other, and is sooner found along the
+/// normal of an edge than by the closest points.
+pub(crate) fn impact_within(
+    a: &Shape,
+    sweep_a: &Sweep,
+    b: &Shape,
+    sweep_b: &Sweep,
+    max_fraction: f32,
+    slop: f32,
+) -> Option<Toi> {
+    let (a, b) = (Moving::new(a, sweep_a), Moving::new(b, sweep_b));
+    let target = target_of(slop, [a.core.radius, b.core.radius]);
+    let goal = Goal { max_fraction, target, tolerance: TOLERANCE * slop };
+    if stay_apart(&a, &b, goal) {
+        return None;
+    }
+    let toi = search(&a, &b, goal);
+    (toi.state != ToiState::Separated).then_some(toi)
+}
+
+/// Does an edge's normal at the start show that two shapes never come as near as a hit? Along one direction gaps bend
+/// downwards in time, so those at the start and at the end tell.
+fn stay_apart(a: &Moving<'_>, b: &Moving<'_>, goal: Goal) -> bool {
+    let (core_a, core_b) = (a.at(0.0), b.at(0.0));
+    let mut best = (Vec2::ZERO, 0.0, 1.0);
+    keep_widest(&core_a, &core_b, 1.0, &mut best);
+    keep_widest(&core_b, &core_a, -1.0, &mut best);
+    let (out, gap, length_sq) = best;
+    if gap <= 0.0 || !goal.is_finite(a, b) {
+        return false;
+    }
+    let normal = out / length_sq.sqrt();
+    let least = goal.touch(a, b) + core_a.radius + core_b.radius;
+    let ([start_a, end_a], [start_b, end_b]) = (
+        a.fronts(&core_a, normal, goal.max_fraction),
+        b.fronts(&core_b, -normal, goal.max_fraction),
+    );
+    -start_b - start_a > least && -end_b - end_a >= least
+}
+
+/// Keeps the normal of the edge of `core` with the widest gap to another: its multiple, from A to B, with its gap and
+/// the square of its length.
+fn keep_widest(core: &Core, other: &Core, sign: f32, best: &mut (Vec2, f32, f32)) {
+    for i in 0..core.edge_count() {
+        let (start, end) = core.edge(i);
+        let out = -(end - start).perp();
+        let mut gap = f32::INFINITY;
+        for point in other.points() {
+            let height = out.dot(*point - start);
+            gap = if height < gap { height } else { gap };
+        }
+        let length_sq = out.length_sq();
+        if gap > 0.0 && gap * gap * best.2 > best.1 * best.1 * length_sq {
+            *best = (out * sign, gap, length_sq);
+        }
+    }
+}
+
 /// When two moving shapes come within `target` metres (separation, negative is overlap), up to
 /// `max_fraction` of the step.
 ///
@@ -112,10 +174,21 @@ struct Goal {
     tolerance: f32,
 }
 
+impl Goal {
+    /// The separation that is a hit, as far as rounding can tell.
+    fn touch(&self, a: &Moving<'_>, b: &Moving<'_>) -> f32 {
+        self.target + self.tolerance + a.rounding() + b.rounding()
+    }
+
+    fn is_finite(&self, a: &Moving<'_>, b: &Moving<'_>) -> bool {
+        a.sweep.is_finite() && b.sweep.is_finite() && self.target.is_finite()
+    }
+}
+
 fn search(a: &Moving<'_>, b: &Moving<'_>, goal: Goal) -> Toi {
-    let Goal { max_fraction, target, tolerance } = goal;
-    let finite = a.sweep.is_finite() && b.sweep.is_finite() && target.is_finite();
-    let touch = target + tolerance + a.rounding() + b.rounding();
+    let Goal { max_fraction, target, .. } = goal;
+    let finite = goal.is_finite(a, b);
+    let touch = goal.touch(a, b);
     let mut fraction = 0.0;
     for iteration in 1..=MAX_ITERATIONS {
         let (core_a, core_b) = (a.at(fraction), b.at(fraction));
@@ -174,6 +247,21 @@ impl<'a> Moving<'a> {
     fn rounding(&self) -> f32 {
         let start = self.sweep.start.abs();
         1.0e-6 * (self.reach + start.x + start.y + self.sweep.translation().length())
+    }
+
+    /// How far the core's points are along a normal at the start, and at most at a fraction of the step.
+    fn fronts(&self, core: &Core, normal: Vec2, fraction: f32) -> [f32; 2] {
+        let (center, way) = (self.sweep.start, self.sweep.translation());
+        let mut fronts = [f32::NEG_INFINITY; 2];
+        for point in core.points() {
+            let turned = self.sweep.angle * normal.dot((*point - center).perp());
+            let start = normal.dot(*point);
+            let end = start + (normal.dot(way) + turned) * fraction;
+            fronts[0] = if start > fronts[0] { start } else { fronts[0] };
+            fronts[1] = if end > fronts[1] { end } else { fronts[1] };
+        }
+        let bend = 0.5 * self.sweep.angle * self.sweep.angle * self.reach;
+        [fronts[0], fronts[1] + bend * fraction * fraction]
     }
 
     /// Places and speeds of the core points along the normal at a fraction of the step.

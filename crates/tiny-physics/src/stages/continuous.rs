@@ -16,7 +16,7 @@ use super::surfaces::{self, Ground, Seams};
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, NULL, ShapeRecord, Shapes, Slot, is_rigid};
 use crate::geometry::manifold::ShapeClass;
-use crate::geometry::{LINEAR_SLOP, Shape, Sweep, ToiState, distance, time_of_impact_within};
+use crate::geometry::{LINEAR_SLOP, Shape, Sweep, ToiState, distance, impact_within};
 use crate::math::{Aabb, Pose, Rot, Transform, Vec2};
 use crate::simd::Row;
 use crate::threads::{SharedSlice, Team};
@@ -179,7 +179,7 @@ impl Inner {
         length_unit: f32,
     ) -> Option<(f32, Vec2)> {
         let slop = LINEAR_SLOP * length_unit;
-        let toi = time_of_impact_within(&self.disk, &self.sweep, other, motion, first, slop);
+        let toi = impact_within(&self.disk, &self.sweep, other, motion, first, slop)?;
         match toi.state {
             ToiState::Hit | ToiState::Limit => Some((toi.fraction, toi.normal)),
             // Deep inside already: out again is the only way on.
@@ -422,14 +422,14 @@ impl Search<'_> {
             return None;
         }
         let slop = LINEAR_SLOP * length_unit;
-        let toi = time_of_impact_within(&record.shape, &moving, &other.shape, &motion, first, slop);
+        let toi = impact_within(&record.shape, &moving, &other.shape, &motion, first, slop)?;
         let hit = matches!(toi.state, ToiState::Hit | ToiState::Limit);
         let there = |f: f32| moving.at(f).relative_to(motion.at(f));
         if hit && solid_along(toi.normal) && !self.is_ghost(record, index, there(toi.fraction)) {
             return Some(Meeting { fraction: toi.fraction, body: other.body, lost: Vec2::ZERO });
         }
         // What it touches it may be passing through from behind.
-        if toi.state == ToiState::Separated || !solid_along(relative.normalized()) {
+        if !solid_along(relative.normalized()) {
             return None;
         }
         let inner = Inner::new(record, body);

@@ -8,10 +8,10 @@
 //! others are measured. The result does not depend on that, and not on threads: a sensor's list is sorted.
 
 use super::finalize::FastBody;
-use crate::broad_phase::BroadPhase;
+use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::describe::BodyKind;
 use crate::dynamics::{Bodies, Overlap, Sensors, ShapeRecord, Shapes};
-use crate::geometry::{Sweep, ToiState, distance, time_of_impact};
+use crate::geometry::{LINEAR_SLOP, Sweep, ToiState, distance, impact_within};
 use crate::math::{Aabb, Pose, Vec2};
 use crate::threads::Team;
 use crate::work;
@@ -47,7 +47,11 @@ pub(crate) fn find_overlaps<'a>(
     });
     chunks.iter().for_each(|found| overlaps.extend_from_slice(found));
     if !sensors.is_empty() {
-        fast.for_each(|body| scene.look_along(body, overlaps));
+        let mut boxes = [Aabb::EMPTY; FEW];
+        for (fat, &sensor) in boxes.iter_mut().zip(sensors) {
+            *fat = scene.broad_phase.fat_aabb(scene.shapes.proxy(sensor)).unwrap_or(Aabb::EMPTY);
+        }
+        fast.for_each(|body| scene.look_along(body, &boxes, overlaps));
     }
     // Sweeps add to what is sorted already, if there are any.
     overlaps.sort_unstable();
@@ -87,7 +91,7 @@ impl Scene<'_> {
         let place = self.place(record);
         let awake = self.is_restless(sensor, record);
         // The fat box holds the tight one; what is only in the fat box fails the test of distance.
-        self.broad_phase.query(&fat, self.tree_mask(record), |visitor| {
+        let mut look_at = |visitor: u32| {
             let other = &self.shapes.records[visitor as usize];
             if self.may_see(record, other) {
                 let overlap = self.overlap(sensor, visitor);
@@ -101,8 +105,12 @@ impl Scene<'_> {
                     found.push(overlap);
                 }
             }
-            ControlFlow::Continue(())
-        });
+        };
+        for kind in [ProxyKind::Static, ProxyKind::Kinematic, ProxyKind::Dynamic] {
+            if kind != ProxyKind::Static || self.kind(record) != BodyKind::Static {
+                self.broad_phase.each_of(kind, &fat, self.tree_mask(record), &mut look_at);
+            }
+        }
         found[start..].sort_unstable();
     }
 
@@ -130,17 +138,21 @@ impl Scene<'_> {
     }
 
     fn may_see(&self, sensor: &ShapeRecord, other: &ShapeRecord) -> bool {
-        let kind = |record: &ShapeRecord| self.bodies.infos[record.body as usize].kind;
+        let is_static = |record| self.kind(record) == BodyKind::Static;
         sensor.sensor
             && (!other.sensor || sensor.sees_sensors)
             && other.body != sensor.body
             && sensor.filter.collides(&other.filter)
-            && (kind(sensor) != BodyKind::Static || kind(other) != BodyKind::Static)
+            && !(is_static(sensor) && is_static(other))
+    }
+
+    fn kind(&self, record: &ShapeRecord) -> BodyKind {
+        self.bodies.infos[record.body as usize].kind
     }
 
     /// Appends the overlaps that a fast body had on its way: of its shapes with sensors, of its sensors with
-    /// shapes.
-    fn look_along(&self, fast: &FastBody, overlaps: &mut Vec<Overlap>) {
+    /// shapes. `boxes` are the fat ones of the first sensors.
+    fn look_along(&self, fast: &FastBody, boxes: &[Aabb; FEW], overlaps: &mut Vec<Overlap>) {
         let info = &self.bodies.infos[fast.body as usize];
         let sweep = fast.seen_from(fast.start);
         let extent = Vec2::splat(info.max_extent);
@@ -157,8 +169,9 @@ impl Scene<'_> {
             };
             if !record.sensor && self.sensors.shapes.len() <= FEW {
                 // These are looked at themselves, not all that is near.
-                let sensors = self.sensors.shapes.iter().copied();
-                sensors.filter(|&sensor| self.is_near(sensor, &path)).for_each(meet);
+                let sensors = self.sensors.shapes.iter().zip(boxes);
+                let near = sensors.filter(|(_, fat)| fat.overlaps(&path));
+                near.for_each(|(&sensor, _)| meet(sensor));
                 continue;
             }
             self.broad_phase.query(&path, self.tree_mask(record), |other| {
@@ -166,12 +179,6 @@ impl Scene<'_> {
                 ControlFlow::Continue(())
             });
         }
-    }
-
-    /// Does the fat box of a shape overlap a box?
-    fn is_near(&self, shape: u32, bounds: &Aabb) -> bool {
-        let fat = self.broad_phase.fat_aabb(self.shapes.proxy(shape));
-        fat.is_some_and(|fat| fat.overlaps(bounds))
     }
 
     /// The overlap of a swept shape with another, if the first of the pair is a sensor that sees the second and they
@@ -191,11 +198,8 @@ impl Scene<'_> {
         let (shape, other) = (record(shape), record(other));
         let step = FastBody::of_step(self.bodies, other.body);
         let motion = step.seen_from(fast.start).child(other.central);
-        let toi = time_of_impact(&shape.shape, moving, &other.shape, &motion, 1.0);
-        match toi.state {
-            ToiState::Separated => None,
-            ToiState::Hit | ToiState::Limit => Some(overlap),
-            ToiState::Touching => (!self.sensors.saw(&overlap)).then_some(overlap),
-        }
+        let toi =
+            impact_within(&shape.shape, moving, &other.shape, &motion, 1.0, LINEAR_SLOP)?;
+        (toi.state != ToiState::Touching || !self.sensors.saw(&overlap)).then_some(overlap)
     }
 }

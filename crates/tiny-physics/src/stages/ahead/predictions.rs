@@ -6,7 +6,7 @@ use crate::dynamics::{
 };
 use crate::footprint::footprint;
 use crate::geometry::manifold::{self, Manifold};
-use crate::geometry::{LINEAR_SLOP, Sweep, ToiState, time_of_impact_within};
+use crate::geometry::{LINEAR_SLOP, Sweep, ToiState, impact_within};
 use crate::math::{Rot, Transform, Vec2};
 use crate::simd::BLOCK;
 use crate::stages::ahead::{Found, HARMLESS, Ways};
@@ -427,8 +427,8 @@ impl Look<'_> {
             return None;
         }
         let ([way_a, way_b], slop) = (&meeting.sweeps, LINEAR_SLOP * self.length_unit());
-        let toi = time_of_impact_within(&a.shape, way_a, &b.shape, way_b, 1.0, slop);
-        if !matches!(toi.state, ToiState::Hit | ToiState::Limit) {
+        let toi = impact_within(&a.shape, way_a, &b.shape, way_b, 1.0, slop)?;
+        if toi.state == ToiState::Touching {
             return None;
         }
         let manifold = self.correct(contact, &meeting, toi.fraction)?;
