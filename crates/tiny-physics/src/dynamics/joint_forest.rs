@@ -105,6 +105,10 @@ pub(crate) struct TreeLink {
     pub(crate) limit: f64,
     /// Inverse of the joint's block of the factorisation, right side, change of the impulses.
     pub(crate) inverse: [Three; 3],
+    /// How the child answers impulses on each row; what the parent feels of each right side; how the child follows the parent.
+    pub(crate) given: [Three; 3],
+    pub(crate) felt: [Three; 3],
+    pub(crate) follow: TreeJacobian,
     pub(crate) rhs: Three,
     pub(crate) change: Three,
 }

@@ -19,6 +19,10 @@
 //!
 //! where Mc and gc have taken up all below the child; then outwards from the root
 //! `dl = D^-1 (y - Jp dvp)`, `dvc = Mc^-1 (Jc^T dl + gc)`. An anchor below a node has no child: D = S.
+//!
+//! Step by step like that, each link waits for eight products of the one before. With `F = Mc^-1 Jc^T D^-1 Jp` ready,
+//! how the child follows the parent, it waits for one: `gp <- gp + Jp^T D^-1 r - F^T gc`, `dvc = u - F dvp`, where
+//! `u = Mc^-1 (Jc^T D^-1 y + gc)` is needed by nobody else.
 
 use crate::dynamics::{JointTree, NULL, TreeLink, TreeNode, TreeRow};
 use crate::simd::{Simd, Three, add_product, add_times, take_product, times};
@@ -102,33 +106,48 @@ pub(super) fn factor<S: Simd>(simd: S, tree: &mut JointTree) {
 
 #[inline(always)]
 fn factor_link<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
-    if link.rigid < 3 {
-        let TreeRow { on, compliance, .. } = link.coordinate;
-        let on = on.map(|side| side.map(|x| link.limit * x));
-        link.set_row(link.rigid, &TreeRow { on, compliance, ..TreeRow::default() });
-    }
-    let mut d = [[0.0; 4]; 3];
+    write_limit(link);
+    let count = row_count(link);
+    let (mut d, mut given, mut felt) = ([[0.0; 4]; 3], [[0.0; 4]; 3], [[0.0; 4]; 3]);
     if link.child != NULL {
         let node = &mut nodes[link.child as usize];
         node.hat = invert(&node.hat, 3);
         let jacobian = &link.jacobians[usize::from(link.child == link.b)];
-        for (d, row) in d.iter_mut().zip(&jacobian.rows) {
-            add_product(simd, d, &jacobian.columns, &times(simd, &node.hat, row));
+        for k in 0..count {
+            given[k] = times(simd, &node.hat, &jacobian.rows[k]);
+            d[k] = times(simd, &jacobian.columns, &given[k]);
         }
     }
-    for (i, d) in d.iter_mut().enumerate() {
-        d[i] += link.compliance[i];
+    for k in 0..count {
+        d[k][k] += link.compliance[k];
     }
-    link.inverse = invert(&d, row_count(link));
+    link.inverse = invert(&d, count);
     if link.parent != NULL {
         let rows = &link.jacobians[usize::from(link.parent == link.b)].rows;
         let hat = &mut nodes[link.parent as usize].hat;
-        for (row, inverse) in rows.iter().zip(&link.inverse) {
-            let felt = times(simd, rows, inverse);
-            for (hat, x) in hat.iter_mut().zip(row) {
-                add_times(simd, hat, &felt, *x);
+        for k in 0..count {
+            felt[k] = times(simd, rows, &link.inverse[k]);
+            for (hat, x) in hat.iter_mut().zip(&rows[k]) {
+                add_times(simd, hat, &felt[k], *x);
             }
         }
+        let across = |of: &[Three; 3], k: usize| [of[0][k], of[1][k], of[2][k], 0.0];
+        for k in 0..3 {
+            link.follow.rows[k] = times(simd, &felt, &across(&given, k));
+            link.follow.columns[k] = times(simd, &given, &across(&felt, k));
+        }
+    }
+    (link.given, link.felt) = (given, felt);
+}
+
+/// The row of the limit that holds; zero where none does.
+#[inline(always)]
+fn write_limit(link: &mut TreeLink) {
+    let i = link.rigid;
+    if i < 3 && (link.limit != 0.0 || link.jacobians[1].rows[i] != [0.0; 4]) {
+        let TreeRow { on, compliance, .. } = link.coordinate;
+        let on = on.map(|side| side.map(|x| link.limit * x));
+        link.set_row(i, &TreeRow { on, compliance, ..TreeRow::default() });
     }
 }
 
@@ -147,7 +166,7 @@ pub(super) fn solve<S: Simd>(simd: S, tree: &mut JointTree) {
 #[inline(always)]
 pub(super) fn answer<S: Simd>(simd: S, tree: &mut JointTree, node: u32, k: usize) {
     let moving = &mut tree.nodes[..tree.dynamic];
-    moving.iter_mut().for_each(|node| node.g = [0.0; 4]);
+    moving.iter_mut().for_each(|node| (node.g, node.dv) = ([0.0; 4], [0.0; 4]));
     moving[node as usize].g[k] = 1.0;
     tree.links.iter_mut().for_each(|link| link.rhs = [0.0; 4]);
     // Nothing is felt but on the way to the root. Links are in the order of their children; the root has one if it has an anchor.
@@ -176,18 +195,20 @@ fn scatter_all<S: Simd>(simd: S, tree: &mut JointTree) {
     }
 }
 
-/// Towards the root: y, and what the parent feels of it.
+/// Towards the root: y, what the parent feels of it, and how the child would move if the parent did not.
 #[inline(always)]
 fn gather<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
+    let mut push = times(simd, &link.felt, &link.rhs);
     if link.child != NULL {
-        let node = &nodes[link.child as usize];
+        let node = &mut nodes[link.child as usize];
+        take_product(simd, &mut push, &link.follow.rows, &node.g);
         let columns = &link.jacobians[usize::from(link.child == link.b)].columns;
-        take_product(simd, &mut link.rhs, columns, &times(simd, &node.hat, &node.g));
+        node.dv = times(simd, &node.hat, &node.g);
+        take_product(simd, &mut link.rhs, columns, &node.dv);
+        add_product(simd, &mut node.dv, &link.given, &times(simd, &link.inverse, &link.rhs));
     }
     if link.parent != NULL {
-        let rows = &link.jacobians[usize::from(link.parent == link.b)].rows;
-        let push = times(simd, &link.inverse, &link.rhs);
-        add_product(simd, &mut nodes[link.parent as usize].g, rows, &push);
+        add_times(simd, &mut nodes[link.parent as usize].g, &push, 1.0);
     }
 }
 
@@ -195,15 +216,13 @@ fn gather<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
 #[inline(always)]
 fn scatter<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
     if link.parent != NULL {
+        let dv = nodes[link.parent as usize].dv;
+        if link.child != NULL {
+            let node = &mut nodes[link.child as usize];
+            take_product(simd, &mut node.dv, &link.follow.columns, &dv);
+        }
         let columns = &link.jacobians[usize::from(link.parent == link.b)].columns;
-        take_product(simd, &mut link.rhs, columns, &nodes[link.parent as usize].dv);
+        take_product(simd, &mut link.rhs, columns, &dv);
     }
     link.change = times(simd, &link.inverse, &link.rhs);
-    if link.child != NULL {
-        let node = &mut nodes[link.child as usize];
-        let mut push = node.g;
-        let rows = &link.jacobians[usize::from(link.child == link.b)].rows;
-        add_product(simd, &mut push, rows, &link.change);
-        node.dv = times(simd, &node.hat, &push);
-    }
 }
