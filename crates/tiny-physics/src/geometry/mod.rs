@@ -43,7 +43,4 @@ pub use rounded_core::Core;
 pub use shape::Shape;
 pub use sweep::Sweep;
 pub(crate) use toi::impact_within;
-pub use toi::{
-    LINEAR_SLOP, Toi, ToiState, time_of_impact, time_of_impact_to, time_of_impact_within,
-    toi_target,
-};
+pub use toi::{LINEAR_SLOP, Toi, ToiState, time_of_impact, time_of_impact_to, toi_target};

@@ -58,11 +58,7 @@ pub struct Toi {
 /// The separation at which two shapes meet, metres: an overlap by the slop, as resting contacts have, where
 /// the radii allow that; sharp shapes stop one slop apart, so that there is always a normal.
 pub fn toi_target(a: &Shape, b: &Shape, slop: f32) -> f32 {
-    target_of(slop, [a.core().radius, b.core().radius])
-}
-
-fn target_of(slop: f32, [a, b]: [f32; 2]) -> f32 {
-    let target = slop - a - b;
+    let target = slop - a.core().radius - b.core().radius;
     if target > -slop { target } else { -slop }
 }
 
@@ -75,24 +71,11 @@ pub fn time_of_impact(
     sweep_b: &Sweep,
     max_fraction: f32,
 ) -> Toi {
-    time_of_impact_within(a, sweep_a, b, sweep_b, max_fraction, LINEAR_SLOP)
+    time_of_impact_to(a, sweep_a, b, sweep_b, max_fraction, toi_target(a, b, LINEAR_SLOP))
 }
 
-/// The same in another unit of length: with the target of [`toi_target`] for this slop, to a tenth of it.
-pub fn time_of_impact_within(
-    a: &Shape,
-    sweep_a: &Sweep,
-    b: &Shape,
-    sweep_b: &Sweep,
-    max_fraction: f32,
-    slop: f32,
-) -> Toi {
-    let goal = Goal { max_fraction, target: toi_target(a, b, slop), tolerance: TOLERANCE * slop };
-    search(&Moving::new(a, sweep_a), &Moving::new(b, sweep_b), goal)
-}
-
-/// The same, or none where they stay apart: what most pairs do that come near each other, and is sooner found along the
-/// normal of an edge than by the closest points.
+/// The same in another unit of length, to a tenth of the slop; none where they stay apart. That is what most pairs do that
+/// come near each other, and is sooner seen along the normal of an edge than by the closest points.
 pub(crate) fn impact_within(
     a: &Shape,
     sweep_a: &Sweep,
@@ -101,9 +84,8 @@ pub(crate) fn impact_within(
     max_fraction: f32,
     slop: f32,
 ) -> Option<Toi> {
+    let goal = Goal { max_fraction, target: toi_target(a, b, slop), tolerance: TOLERANCE * slop };
     let (a, b) = (Moving::new(a, sweep_a), Moving::new(b, sweep_b));
-    let target = target_of(slop, [a.core.radius, b.core.radius]);
-    let goal = Goal { max_fraction, target, tolerance: TOLERANCE * slop };
     if stay_apart(&a, &b, goal) {
         return None;
     }
@@ -111,42 +93,31 @@ pub(crate) fn impact_within(
     (toi.state != ToiState::Separated).then_some(toi)
 }
 
-/// Does an edge's normal at the start show that two shapes never come as near as a hit? Along one direction gaps bend
-/// downwards in time, so those at the start and at the end tell.
+/// Does the normal of an edge at the start show that two shapes never come as near as a hit? Along one direction the
+/// least gap bends downwards in time, so the start and the end tell.
 fn stay_apart(a: &Moving<'_>, b: &Moving<'_>, goal: Goal) -> bool {
     let (core_a, core_b) = (a.at(0.0), b.at(0.0));
-    let mut best = (Vec2::ZERO, 0.0, 1.0);
-    keep_widest(&core_a, &core_b, 1.0, &mut best);
-    keep_widest(&core_b, &core_a, -1.0, &mut best);
-    let (out, gap, length_sq) = best;
+    let ((out_a, gap_a), (out_b, gap_b)) = (widest(&core_a, &core_b), widest(&core_b, &core_a));
+    let (normal, gap) = if gap_a < gap_b { (-out_b, gap_b) } else { (out_a, gap_a) };
     if gap <= 0.0 || !goal.is_finite(a, b) {
         return false;
     }
-    let normal = out / length_sq.sqrt();
     let least = goal.touch(a, b) + core_a.radius + core_b.radius;
-    let ([start_a, end_a], [start_b, end_b]) = (
-        a.fronts(&core_a, normal, goal.max_fraction),
-        b.fronts(&core_b, -normal, goal.max_fraction),
-    );
-    -start_b - start_a > least && -end_b - end_a >= least
+    let fronts_a = a.fronts(&core_a, normal, goal.max_fraction);
+    let fronts_b = b.fronts(&core_b, -normal, goal.max_fraction);
+    fronts_a.iter().zip(fronts_b).all(|(a, b)| -b - a > least)
 }
 
-/// Keeps the normal of the edge of `core` with the widest gap to another: its multiple, from A to B, with its gap and
-/// the square of its length.
-fn keep_widest(core: &Core, other: &Core, sign: f32, best: &mut (Vec2, f32, f32)) {
+/// The normal of the edge with the widest gap to another core, and that gap; 0 where there is none.
+fn widest(core: &Core, other: &Core) -> (Vec2, f32) {
+    let mut best = (Vec2::ZERO, 0.0);
     for i in 0..core.edge_count() {
-        let (start, end) = core.edge(i);
-        let out = -(end - start).perp();
-        let mut gap = f32::INFINITY;
-        for point in other.points() {
-            let height = out.dot(*point - start);
-            gap = if height < gap { height } else { gap };
-        }
-        let length_sq = out.length_sq();
-        if gap > 0.0 && gap * gap * best.2 > best.1 * best.1 * length_sq {
-            *best = (out * sign, gap, length_sq);
-        }
+        let (normal, start) = (core.normal(i), core.points[i]);
+        let heights = other.points().iter().map(|point| normal.dot(*point - start));
+        let gap = heights.fold(f32::INFINITY, |least, gap| if gap < least { gap } else { least });
+        best = if gap > best.1 { (normal, gap) } else { best };
     }
+    best
 }
 
 /// When two moving shapes come within `target` metres (separation, negative is overlap), up to
@@ -375,6 +346,18 @@ mod tests {
     }
 
     #[test]
+    fn what_passes_by_is_told_by_an_edge() {
+        let plank = Shape::rect(1.0, 0.1).unwrap();
+        let apart = |dx: f32, dy: f32, turn: f32| {
+            let (still, way) = (Sweep::default(), moving(0.0, 0.4, dx, dy, turn));
+            let goal = Goal { max_fraction: 1.0, target: LINEAR_SLOP, tolerance: 0.0 };
+            stay_apart(&Moving::new(&plank, &still), &Moving::new(&plank, &way), goal)
+        };
+        assert!(apart(30.0, 0.0, 0.0) && apart(0.0, -0.19, 0.0) && apart(0.0, 0.0, 0.15));
+        assert!(!apart(0.0, -0.21, 0.0) && !apart(0.0, 0.0, 0.25) && !apart(f32::NAN, 9.0, 0.0));
+    }
+
+    #[test]
     fn hostile_sweeps_end_at_once() {
         let ball = Shape::circle(0.1).unwrap();
         for bad in [f32::NAN, f32::INFINITY] {
@@ -435,6 +418,10 @@ mod tests {
         ) {
             let target = toi_target(&a, &b, LINEAR_SLOP);
             let toi = time_of_impact(&a, &sweep_a, &b, &sweep_b, 1.0);
+            match impact_within(&a, &sweep_a, &b, &sweep_b, 1.0, LINEAR_SLOP) {
+                Some(impact) => prop_assert_eq!(impact, toi),
+                None => prop_assert!(matches!(toi.state, ToiState::Separated | ToiState::Limit)),
+            }
             let pair = [(&a, &sweep_a), (&b, &sweep_b)];
             prop_assert!(toi.fraction >= 0.0 && toi.fraction <= 1.0);
             if toi.state != ToiState::Touching {

@@ -18,7 +18,6 @@ use crate::dynamics::{Bodies, Joints, NULL, ShapeRecord, Shapes, Slot, is_rigid}
 use crate::geometry::manifold::ShapeClass;
 use crate::geometry::{LINEAR_SLOP, Shape, Sweep, ToiState, distance, impact_within};
 use crate::math::{Aabb, Pose, Rot, Transform, Vec2};
-use crate::simd::Row;
 use crate::threads::{SharedSlice, Team};
 
 /// What decides about pairs besides filters.
@@ -42,10 +41,8 @@ const AHEAD: f32 = 4.0;
 /// More bodies than this that are joined do not wait for one that was stopped: with 16, what lay on planks of bridges
 /// sank into those that waited.
 const MOST_TOGETHER: usize = 4;
-/// Impacts are looked for up to a slop off the surface, give or take what rounding does, metres; multiplied by the
-/// length unit, as what follows.
-const SLACK: f32 = 2.0 * LINEAR_SLOP;
-/// A middle that is inside something may go on by this much in a step: it is being pushed out. Metres.
+/// A middle that is inside something may go on by this much in a step: it is being pushed out. Metres; multiplied by the
+/// length unit.
 const CREEP: f32 = 0.1 * LINEAR_SLOP;
 
 /// Sweeps the fast bodies, and those that fast kinematic bodies (`carriers`, ascending) may have gone through.
@@ -148,8 +145,6 @@ fn settle(
 struct Inner {
     disk: Shape,
     sweep: Sweep,
-    /// How far the disk reaches from the centre of mass, metres.
-    reach: f32,
 }
 
 impl Inner {
@@ -160,7 +155,7 @@ impl Inner {
             _ => record.box_frame.p,
         });
         let sweep = body.child(Transform::new(middle, Rot::IDENTITY));
-        Self { disk: Shape::Circle { radius }, sweep, reach: middle.length() + radius }
+        Self { disk: Shape::Circle { radius }, sweep }
     }
 
     /// How the disk moves as the other shape sees it, in the common axes of the start.
@@ -413,14 +408,6 @@ impl Search<'_> {
             one_way::is_solid_side(other, -way, turn)
                 && one_way::is_solid_side(record, way, self.fast.start.q)
         };
-        let clear = |reach| {
-            let frame = motion.at(0.0).compose(other.box_frame);
-            let frame = Transform::new(frame.p - body.start, frame.q);
-            motion.angle == 0.0 && stays_clear(reach, relative, &shapes.rows[index as usize], frame)
-        };
-        if clear(bodies.infos[self.fast.body as usize].max_extent + SLACK * length_unit) {
-            return None;
-        }
         let slop = LINEAR_SLOP * length_unit;
         let toi = impact_within(&record.shape, &moving, &other.shape, &motion, first, slop)?;
         let hit = matches!(toi.state, ToiState::Hit | ToiState::Limit);
@@ -433,9 +420,6 @@ impl Search<'_> {
             return None;
         }
         let inner = Inner::new(record, body);
-        if clear(inner.reach) {
-            return None;
-        }
         let (fraction, normal) = inner.first_fraction(&other.shape, &motion, first, length_unit)?;
         let lost = self.driving_velocity(inner.relative_way(&motion), normal);
         Some(Meeting { fraction, body: other.body, lost })
@@ -483,67 +467,5 @@ impl Search<'_> {
             && record.filter.collides(&other.filter)
             && rules.joints.may_collide(bodies, record.body, other.body)
             && rules.custom.is_none_or(|rule| rule.allows(bodies, shapes, shape, index))
-    }
-}
-
-/// Does all that is within `reach` metres of the origin stay clear of a rounded box in this frame, when the origin
-/// goes by `motion`? Of the box's row only its sizes count. What slides along something or passes it by needs no
-/// search then.
-fn stays_clear(reach: f32, motion: Vec2, row: &Row, frame: Transform) -> bool {
-    let (from, to) = (frame.unapply(Vec2::ZERO), frame.unapply(motion));
-    let (half, reach) = (Vec2::new(row[4], row[5]), reach + row[6]);
-    let rounding = 1.0e-6 * (reach + half.x + half.y + motion.x.abs() + motion.y.abs());
-    let limit = half + Vec2::splat(reach + rounding);
-    !Aabb::new(from.min(to), from.max(to)).overlaps(&Aabb::new(-limit, limit))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geometry::manifold::RoundedBox;
-    use crate::geometry::tests::{any_frame, any_shape, any_vec};
-    use crate::geometry::time_of_impact;
-    use proptest::prelude::*;
-
-    /// A shape's row, of which its sizes are filled in, and the frame of its box.
-    fn row_of(shape: &Shape) -> (Row, Transform) {
-        let rounded = RoundedBox::of(shape);
-        let [x, y, radius] = rounded.extents();
-        ([0.0, 0.0, 0.0, 0.0, x, y, radius, 0.0], rounded.frame)
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(4000))]
-        #[test]
-        fn no_impact_is_left_out(
-            shape in any_shape(),
-            other in any_shape(),
-            place in any_frame(6.0),
-            motion in any_vec(8.0),
-            turn in -4.0_f32..4.0,
-        ) {
-            let core = shape.core();
-            let reach = core.reach(Vec2::ZERO) + core.radius;
-            let (row, frame) = row_of(&other);
-            let clear = stays_clear(reach + SLACK, motion, &row, place.compose(frame));
-            let sweep = Sweep::new(Transform::IDENTITY, Vec2::ZERO, motion, turn);
-            let toi = time_of_impact(&shape, &sweep, &other, &Sweep::fixed(place), 1.0);
-            prop_assert!(!clear || toi.state == ToiState::Separated, "{toi:?}");
-        }
-
-        /// What is clear by more than a little is told to be: around circles at any rate.
-        #[test]
-        fn what_passes_by_is_told(place in any_frame(6.0), motion in any_vec(8.0), radius in 0.1_f32..1.0) {
-            let (circle, _) = row_of(&Shape::Circle { radius });
-            // Off the line of motion on either side, and behind.
-            let side = motion.perp().normalized();
-            for offset in [side, -side, -motion.normalized()] {
-                let at = Transform::new(offset * (2.0 * radius + 1.0), place.q);
-                let frame = Transform::new(at.p, Rot { c: motion.normalized().x, s: motion.normalized().y });
-                let clear = stays_clear(radius, motion, &circle, frame);
-                prop_assert!(clear || motion.length() < 1.0e-3);
-                prop_assert!(!stays_clear(radius, motion, &circle, Transform::new(motion * 0.5, place.q)));
-            }
-        }
     }
 }
