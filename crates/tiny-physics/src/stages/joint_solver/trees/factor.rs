@@ -118,8 +118,8 @@ fn factor_link<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
             d[k] = times(simd, &jacobian.columns, &given[k]);
         }
     }
-    for k in 0..count {
-        d[k][k] += link.compliance[k];
+    for (k, d) in d.iter_mut().enumerate().take(count) {
+        d[k] += link.compliance[k];
     }
     link.inverse = invert(&d, count);
     if link.parent != NULL {
