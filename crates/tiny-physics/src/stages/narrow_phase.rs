@@ -5,7 +5,7 @@
 //! iterates on. Running it twice on one block gives the same block, so blocks that got new contacts
 //! after the pass are simply run again.
 
-use super::ahead::{HARMLESS, Predictions};
+use super::ahead::{HARMLESS, Predictions, SLIGHT};
 use super::narrow_context::Context;
 use super::surfaces::{self, LanePoints};
 use crate::dynamics::{BlockHead, Blocks, Graph, ManifoldBlock, NULL, Schedule, flags};
@@ -332,7 +332,7 @@ impl<L: Lanes> Ahead<L> {
     ) -> u32 {
         let thickness = |half: [L; 3]| half[0].min(half[1]) + half[2];
         let part = L::splat(token, HARMLESS) * thickness(pair.a).min(thickness(pair.b));
-        let least = part.max(limit);
+        let least = part.max(limit * L::splat(token, SLIGHT));
         let along =
             now.manifold.normal[0] * self.linear[0] + now.manifold.normal[1] * self.linear[1];
         // No turn takes the disks around them closer.

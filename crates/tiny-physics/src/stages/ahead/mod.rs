@@ -25,7 +25,10 @@ use crate::threads::Team;
 /// Bodies that one member of the team looks at at a time.
 const CHUNK: usize = 256;
 /// What goes no further into another than this part of the smaller half thickness is left to the next step.
-pub(crate) const HARMLESS: f32 = 0.05;
+pub(crate) const HARMLESS: f32 = 0.03;
+/// Nor does what goes no further in than this part of the reach of contacts. Two such may add up where one body is
+/// stopped by a third: at 1, 31 of 600 falling heaps had overlaps of more than 3 cm, at 0.7 14.
+pub(crate) const SLIGHT: f32 = 0.7;
 
 /// How far shapes will go in the step.
 #[derive(Debug, Default)]

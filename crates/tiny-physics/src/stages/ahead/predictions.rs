@@ -20,8 +20,10 @@ use crate::threads::Team;
 const ROUNDS: usize = 6;
 /// Contacts that one member of the team looks at at a time.
 const CHUNK: usize = 32;
-/// What touches already is looked at again only if its body was taken further off its way than this, in half thicknesses.
-const HARD_HIT: f32 = 0.5;
+/// What touches already is looked at again only if its body was taken further off its way than this, in half thicknesses,
+const HARD_HIT: f32 = 0.2;
+/// and goes into it: so much of its way is along the normal.
+const HEAD_ON: f32 = 0.7;
 /// What is hit by something so many times its mass may be squeezed.
 const HEAVIER: f32 = 4.0;
 /// Points whose separations differ by less than this are hit together, metres; multiplied by the length unit.
@@ -68,8 +70,15 @@ struct Hit {
     prediction: Option<Prediction>,
     fraction: f32,
     normal: Vec2,
-    /// Cross products of each point and the normal, on A and on B; the same point twice where there is one.
-    arms: [[f32; 2]; 2],
+    /// Of each point; the same twice where there is one.
+    arms: [Arms; 2],
+}
+
+/// Cross products of a point with the normal and with the tangent (the normal turned clockwise), on A and on B.
+#[derive(Clone, Copy, Debug)]
+struct Arms {
+    normal: [f32; 2],
+    tangent: [f32; 2],
 }
 
 /// A body that was taken off its way.
@@ -78,6 +87,8 @@ struct Struck {
     body: u32,
     /// How far, in half thicknesses of its own.
     astray: f32,
+    /// Where it goes in the step now, metres.
+    motion: Vec2,
 }
 
 /// The predictions of a step.
@@ -243,44 +254,35 @@ impl Predictions {
         // What bounces is reflected at the start of the step.
         let fraction = if contact.restitution > 0.0 { 0.0 } else { hit.fraction };
         let rest = (1.0 - fraction) * scene.dt;
+        let old = bodies.map(|body| self.course(scene, body));
+        let mut impact = Impact {
+            courses: old,
+            bodies: bodies.map(|body| {
+                let row = &scene.bodies.rows[body as usize];
+                let reach = scene.bodies.infos[body as usize].max_extent;
+                [row[Slot::INV_MASS], row[Slot::INV_INERTIA], reach]
+            }),
+            rest,
+        };
         for arms in hit.arms {
-            let courses = bodies.map(|body| self.course(scene, body));
-            let speed =
-                courses[1].speed_at(arms[1], hit.normal) - courses[0].speed_at(arms[0], hit.normal);
-            let give = [0, 1].map(|k| {
-                let row = &scene.bodies.rows[bodies[k] as usize];
-                row[Slot::INV_MASS] + row[Slot::INV_INERTIA] * arms[k] * arms[k]
-            });
-            let give = give[0] + give[1];
-            if speed < 0.0 && give > 0.0 {
-                let impulse = -(1.0 + contact.restitution) * speed / give;
-                self.strike(scene, courses[0], -impulse, (hit.normal, arms[0]), rest);
-                self.strike(scene, courses[1], impulse, (hit.normal, arms[1]), rest);
+            let (speed, mass) = impact.approach(hit.normal, arms.normal);
+            if speed < 0.0 {
+                let impulse = -(1.0 + contact.restitution) * speed * mass;
+                impact.push(impulse, hit.normal, arms.normal);
+                let tangent = -hit.normal.perp();
+                let (slip, mass) = impact.approach(tangent, arms.tangent);
+                let limit = contact.friction * impulse;
+                impact.push((-slip * mass).clamp(-limit, limit), tangent, arms.tangent);
+            }
+        }
+        for (old, course) in old.iter().zip(impact.courses) {
+            if course.astray > old.astray {
+                self.keep(course);
             }
         }
     }
 
-    /// Gives a body an impulse along a normal, after which it goes on for some seconds.
-    fn strike(
-        &mut self,
-        scene: Scene<'_>,
-        mut course: Course,
-        impulse: f32,
-        (normal, arm): (Vec2, f32),
-        rest: f32,
-    ) {
-        let row = &scene.bodies.rows[course.body as usize];
-        let velocity = normal * (impulse * row[Slot::INV_MASS]);
-        let spin = impulse * arm * row[Slot::INV_INERTIA];
-        if velocity == Vec2::ZERO && spin == 0.0 {
-            return;
-        }
-        course.velocity += velocity;
-        course.spin += spin;
-        course.motion += velocity * rest;
-        course.turn += spin * rest;
-        let reach = scene.bodies.infos[course.body as usize].max_extent;
-        course.astray += (velocity.length() + spin.abs() * reach) * rest;
+    fn keep(&mut self, course: Course) {
         let place = &mut self.course_places[course.body as usize];
         if *place == 0 {
             self.courses.push(course);
@@ -308,7 +310,7 @@ impl Predictions {
         for course in &mut self.courses {
             let astray = course.astray / bodies.infos[course.body as usize].min_extent;
             if astray > HARMLESS {
-                self.struck.push(Struck { body: course.body, astray });
+                self.struck.push(Struck { body: course.body, astray, motion: course.motion });
                 course.astray = 0.0;
             }
         }
@@ -324,7 +326,7 @@ impl Predictions {
 #[derive(Debug, Default)]
 struct Again {
     candidates: Vec<u32>,
-    /// Of dynamic shapes that need a contact now.
+    /// Of shapes that need a contact now.
     pairs: Vec<(u32, u32)>,
 }
 
@@ -347,17 +349,69 @@ impl Again {
             let contact = &contacts.records[index as usize];
             let near = || partners.come_near(contact.shape_a, contact.shape_b);
             // What touched a step ago may be apart by now.
-            if graph.touches(contact) { struck.astray > HARD_HIT } else { near() }
+            let pressed = || struck.astray > HARD_HIT && struck.goes_into(contact, graph);
+            if graph.touches(contact) { pressed() } else { near() }
         };
         self.candidates.extend(contacts.of_body(info.first_contact).filter(meets).map(|of| of.0));
         for shape in shapes.of_body(info.first_shape) {
             let mask = shapes.records[shape as usize].filter.reach().1;
             let path = shapes.tight[shape as usize].swept(partners.ways[shape as usize]);
-            broad_phase.each_of(ProxyKind::Dynamic, &path, mask, |other| {
-                if partners.come_near(shape, other) && partners.may_meet(shape, other) {
-                    self.pairs.push((shape.min(other), shape.max(other)));
-                }
-            });
+            for kind in [ProxyKind::Dynamic, ProxyKind::Static, ProxyKind::Kinematic] {
+                broad_phase.each_of(kind, &path, mask, |other| {
+                    if partners.come_near(shape, other) && partners.may_meet(shape, other) {
+                        self.pairs.push((shape.min(other), shape.max(other)));
+                    }
+                });
+            }
+        }
+    }
+}
+
+impl Struck {
+    /// Does its way lead into the other body of a contact, as the constraint of the step's start says?
+    fn goes_into(&self, contact: &Contact, graph: &Graph) -> bool {
+        let Place::Graph { colour, slot } = contact.place else { return false };
+        let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
+        let bucket = graph.bucket(colour.into(), contact.class);
+        bucket.constraints.get(block).is_none_or(|constraint| {
+            let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
+            let along = normal.dot(self.motion);
+            let into = if contact.body_a == self.body { along } else { -along };
+            into > HEAD_ON * self.motion.length()
+        })
+    }
+}
+
+/// Two bodies that hit each other, and how many seconds they go on afterwards.
+struct Impact {
+    courses: [Course; 2],
+    /// Inverse mass and inertia, and how far they reach from their centres of mass.
+    bodies: [[f32; 3]; 2],
+    rest: f32,
+}
+
+impl Impact {
+    /// How fast B leaves A along an axis, and the mass that an impulse along it moves: nothing where neither can move.
+    fn approach(&self, axis: Vec2, arms: [f32; 2]) -> (f32, f32) {
+        let [a, b] = [0, 1].map(|k| self.courses[k].speed_at(arms[k], axis));
+        let [give_a, give_b] = [0, 1].map(|k| {
+            let [inv_mass, inv_inertia, _] = self.bodies[k];
+            inv_mass + inv_inertia * arms[k] * arms[k]
+        });
+        let give = give_a + give_b;
+        (b - a, if give > 0.0 { 1.0 / give } else { 0.0 })
+    }
+
+    /// Gives B an impulse along an axis, and A the opposite one.
+    fn push(&mut self, impulse: f32, axis: Vec2, arms: [f32; 2]) {
+        for (k, impulse) in [-impulse, impulse].into_iter().enumerate() {
+            let ([inv_mass, inv_inertia, reach], course) = (self.bodies[k], &mut self.courses[k]);
+            let (velocity, spin) = (axis * (impulse * inv_mass), impulse * arms[k] * inv_inertia);
+            course.velocity += velocity;
+            course.spin += spin;
+            course.motion += velocity * self.rest;
+            course.turn += spin * self.rest;
+            course.astray += (velocity.length() + spin.abs() * reach) * self.rest;
         }
     }
 }
@@ -549,7 +603,8 @@ impl Prediction {
         let is_hit = |k: usize| self.separation[k] <= self.separation[1 - k] + near;
         let arm = |k: usize| {
             let point = self.points[if is_hit(k) { k } else { 1 - k }];
-            [point.cross(normal), (point - between).cross(normal)]
+            let on = |axis: Vec2| [point.cross(axis), (point - between).cross(axis)];
+            Arms { normal: on(normal), tangent: on(-normal.perp()) }
         };
         Hit { contact, prediction: None, fraction, normal, arms: [arm(0), arm(1)] }
     }
@@ -561,7 +616,10 @@ fn touching_hit(contact: u32, constraint: &ConstraintBlock, lane: usize) -> Hit 
     let there = |k: usize| constraint.points[k].normal_mass[lane] > 0.0;
     let arm = |k: usize| {
         let point = &constraint.points[if there(k) { k } else { 1 - k }];
-        [point.normal_arm_a[lane], point.normal_arm_b[lane]]
+        Arms {
+            normal: [point.normal_arm_a[lane], point.normal_arm_b[lane]],
+            tangent: [point.tangent_arm_a[lane], point.tangent_arm_b[lane]],
+        }
     };
     Hit { contact, prediction: None, fraction: 0.0, normal, arms: [arm(0), arm(1)] }
 }
