@@ -14,8 +14,7 @@ use super::passivity::may_drive;
 use super::rests::{Compliance, Sink, is_calm};
 use crate::describe::BodyKind;
 use crate::dynamics::{
-    Bodies, Graph, JOINTED, JointTree, NULL, PLAIN, Place, REFINEMENT, ROUNDS, TreeNode, WATCHED,
-    next_edge, pace_at,
+    Bodies, Graph, JOINTED, NULL, PLAIN, Place, REFINEMENT, ROUNDS, WATCHED, next_edge, pace_at,
 };
 use crate::math::Vec2;
 use crate::simd::BLOCK;
@@ -111,8 +110,6 @@ pub(crate) fn list_bodies(bodies: &Bodies, pace: usize, listed: &mut Vec<u32>) {
 
 /// Gives every island its pace, where that is due.
 pub(crate) fn assign(mut stores: Stores<'_>, rules: Rules, memory: &mut Memory) {
-    // Trees count: a world that was loaded has none yet.
-    stores.joint_graph.grow_forest(stores.bodies, stores.joints);
     if !is_due(&stores, rules) {
         return;
     }
@@ -146,7 +143,7 @@ fn is_due(stores: &Stores<'_>, rules: Rules) -> bool {
         || joint_graph.mixed
         || many
         || look
-            && (joint_graph.forest.count() > 0
+            && (joint_graph.count() > 0
                 || news > 0
                 || bodies.any_refined()
                 || is_any_strained(bodies, graph, rules))
@@ -189,8 +186,6 @@ struct Island {
     joints: usize,
     /// Does anything in it touch something?
     touches: bool,
-    /// Does a tree of joints touch something?
-    touched: bool,
 }
 
 impl Island {
@@ -215,7 +210,7 @@ impl Island {
             self.strain > least && (keeps || !self.lively)
         });
         let wanted = wanted.max(self.slowest(rules));
-        if self.touched || self.joined > 0 && wanted.is_some() {
+        if self.joined > 0 && self.touches {
             let cost = self.bodies * (ROUNDS[JOINTED] as usize - 1);
             if self.bodies <= rules.most_bodies && cost <= *budget {
                 *budget -= cost;
@@ -239,7 +234,7 @@ impl Island {
 
 /// Counts and strains of all islands.
 fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
-    let Stores { bodies, contacts, graph, joints, joint_graph } = stores;
+    let Stores { bodies, graph, joints, .. } = stores;
     let Memory { islands, found, .. } = memory;
     found.resize(bodies.infos.len(), Island::default());
     bodies.awake.iter().for_each(|&body| found[body as usize] = Island::default());
@@ -253,17 +248,6 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
     for record in joints.tying().filter(|record| !may_drive(&record.def)) {
         if bodies.is_solved(record.body_a) && bodies.is_solved(record.body_b) {
             found[islands.root(record.body_a) as usize].joints += 1;
-        }
-    }
-    let is_awake = |tree: &JointTree| bodies.infos[tree.nodes[0].body as usize].awake;
-    let trees = joint_graph.forest.trees.iter().filter(|tree| !tree.links.is_empty());
-    for tree in trees.filter(|tree| is_awake(tree)) {
-        let touches = |node: &TreeNode| {
-            let mut of_body = contacts.of_body(bodies.infos[node.body as usize].first_contact);
-            of_body.any(|(index, _)| contacts.records[index as usize].touching)
-        };
-        if tree.nodes[..tree.dynamic].iter().any(touches) {
-            found[islands.root(tree.nodes[0].body) as usize].touched = true;
         }
     }
     for (place, bucket) in graph.touching_buckets() {
