@@ -208,8 +208,10 @@ impl Memory {
             let State { v, place, .. } = State::new(bodies, body, island.origin);
             let whole = island.whole.at(place);
             for k in 0..3 {
-                let v = whole[k] + island.share * (v[k] - whole[k]);
-                bodies.rows[body as usize][k] = v as f32;
+                let less = (1.0 - island.share) * (v[k] - whole[k]);
+                bodies.rows[body as usize][k] = (v[k] - less) as f32;
+                // What the difference of the two says, the impulses of the substep, is carried on.
+                bodies.starts[body as usize][k] -= less as f32;
             }
         }
     }

@@ -272,7 +272,7 @@ impl Predictions {
                 let tangent = -hit.normal.perp();
                 let (slip, mass) = impact.approach(tangent, arms.tangent);
                 let limit = contact.friction * impulse;
-                impact.push((-slip * mass).clamp(-limit, limit), tangent, arms.tangent);
+                impact.push((-slip * mass).max(-limit).min(limit), tangent, arms.tangent);
             }
         }
         for (old, course) in old.iter().zip(impact.courses) {
