@@ -8,7 +8,7 @@ use super::blocks::{
     BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags,
     load_lanes, move_lane, save_lanes,
 };
-use super::bodies::Bodies;
+use super::bodies::{Bodies, NULL};
 use super::coloured::{Bucketful, Coloured, IDLE, Place, give_colour_back, place_of, take_colour};
 use super::contacts::{Contact, Contacts, SavedPoint};
 use crate::codec::{Data, Reader, Sink, clone_by_field, store};
@@ -366,7 +366,8 @@ impl Graph {
             self.mixed |=
                 bodies.are_mixed(a, b) || [a, b].into_iter().any(|i| bodies.hangs_in_tree(i));
             let both_move = bodies.is_dynamic(a) && bodies.is_dynamic(b);
-            self.news = self.news.saturating_add(u32::from(both_move));
+            let joined = [a, b].into_iter().any(|i| bodies.infos[i as usize].first_joint != NULL);
+            self.news = self.news.saturating_add(u32::from(both_move | joined));
             let colour = take_colour(bodies, [a, b], |info| &mut info.contact_colours);
             place_of(bodies.common_pace(a, b), colour)
         } else {

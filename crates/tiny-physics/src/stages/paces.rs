@@ -142,11 +142,7 @@ fn is_due(stores: &Stores<'_>, rules: Rules) -> bool {
     graph.mixed
         || joint_graph.mixed
         || many
-        || look
-            && (joint_graph.count() > 0
-                || news > 0
-                || bodies.any_refined()
-                || is_any_strained(bodies, graph, rules))
+        || look && (news > 0 || bodies.any_refined() || is_any_strained(bodies, graph, rules))
 }
 
 /// Would a point between two moving bodies of the plain pace sink visibly?

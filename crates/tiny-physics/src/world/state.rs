@@ -76,6 +76,7 @@ impl State {
     /// Gives an awake joint lanes.
     pub(super) fn place_joint(&mut self, index: u32) {
         self.joint_graph.insert(&mut self.bodies, &mut self.joints, index);
+        self.graph.news = self.graph.news.saturating_add(1);
     }
 
     /// Takes a joint's lanes away; its impulses live on.
