@@ -67,39 +67,44 @@ fn a_ball_leaves_a_wall_as_fast_as_it_came() {
     }
 }
 
+/// Part of its energy that a crowd has after a minute: balls, and with gravity every other one a box.
+fn energy_left(gravity: f32, count: usize, seed: u64) -> f64 {
+    let mut random = Random::new(seed);
+    let half = 1.1 * (count as f32).sqrt() + 2.0;
+    let mut world = walled(Vec2::new(0.0, -gravity), half);
+    let mut bodies = Vec::new();
+    for i in 0..count {
+        let columns = (count as f32).sqrt().ceil() as usize;
+        let grid = Vec2::new((i % columns) as f32, (i / columns) as f32) * 1.9;
+        let place = grid - Vec2::splat(0.95 * (columns - 1) as f32);
+        let is_box = gravity > 0.0 && i % 2 == 0;
+        let shape = if is_box { Shape::rect(0.5, 0.4) } else { Shape::circle(0.4) };
+        let velocity = Vec2::new(random.range(-6.0, 6.0), random.range(-6.0, 6.0));
+        let body = RigidBody::dynamic().position(place).velocity(velocity);
+        let body = body.shape(elastic(shape.expect("a shape")));
+        bodies.push(world.add_body(body).expect("a body"));
+    }
+    let mass: f64 =
+        bodies.iter().map(|&id| f64::from(world.body(id).expect("a body").mass())).sum();
+    // From the floor on, so that it is positive.
+    let floor = f64::from(gravity) * f64::from(half) * mass;
+    let start = energy(&world, &bodies) + floor;
+    steps(&mut world, 3600);
+    (energy(&world, &bodies) + floor) / start
+}
+
 /// Balls without gravity, boxes and balls with it. Before, 5 balls lost a third in ten minutes, eight bodies under gravity
-/// nine tenths in two.
+/// nine tenths in two. Three that meet within one step may lose up to 0.2 %.
 #[test]
 fn elastic_bodies_keep_their_energy() {
-    for (gravity, count, seed) in
-        [(0.0, 5, 1), (0.0, 20, 2), (0.0, 40, 3), (10.0, 8, 4), (10.0, 8, 5)]
-    {
-        let mut random = Random::new(seed);
-        let mut world = walled(Vec2::new(0.0, -gravity), 1.1 * (count as f32).sqrt() + 2.0);
-        let mut bodies = Vec::new();
-        for i in 0..count {
-            let columns = (count as f32).sqrt().ceil() as usize;
-            let grid = Vec2::new((i % columns) as f32, (i / columns) as f32) * 1.9;
-            let place = grid - Vec2::splat(0.95 * (columns - 1) as f32);
-            let shape = if gravity > 0.0 && i % 2 == 0 {
-                Shape::rect(0.5, 0.4)
-            } else {
-                Shape::circle(0.4)
-            };
-            let velocity = Vec2::new(random.range(-6.0, 6.0), random.range(-6.0, 6.0));
-            let body = RigidBody::dynamic().position(place).velocity(velocity);
-            let body = body.shape(elastic(shape.expect("a shape")));
-            bodies.push(world.add_body(body).expect("a body"));
-        }
-        // From the floor on, so that it is positive.
-        let floor = f64::from(gravity) * f64::from(1.1 * (count as f32).sqrt() + 2.0);
-        let mass: f64 =
-            bodies.iter().map(|&id| f64::from(world.body(id).expect("a body").mass())).sum();
-        let start = energy(&world, &bodies) + floor * mass;
-        steps(&mut world, 3600);
-        let share = (energy(&world, &bodies) + floor * mass) / start;
-        let least = if gravity > 0.0 { 0.94 } else { 0.995 };
-        assert!(share > least && share < 1.005, "{count} under {gravity}: {share}");
+    let crowds = [5, 20, 40].into_iter().flat_map(|count| (1..9).map(move |seed| (count, seed)));
+    let shares: Vec<_> = crowds.map(|(count, seed)| energy_left(0.0, count, seed)).collect();
+    assert!(shares.iter().all(|&share| share > 0.995 && share < 1.005), "{shares:.4?}");
+    let mean = shares.iter().sum::<f64>() / shares.len() as f64;
+    assert!((0.9995..1.0005).contains(&mean), "{mean}");
+    for seed in [4, 5] {
+        let share = energy_left(10.0, 8, seed);
+        assert!(share > 0.94 && share < 1.005, "seed {seed} under gravity: {share}");
     }
 }
 

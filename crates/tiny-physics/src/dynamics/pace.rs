@@ -15,7 +15,7 @@ pub(crate) const REFINEMENT: [u32; PACES] = [1, 2, 4, 8, 1, 1];
 pub(crate) const ROUNDS: [u32; PACES] = [1, 1, 1, 1, 2, 1];
 
 /// The pace of islands of joined bodies that touch something. For trees of joints alone, gaps of 400 random worlds add up to 2.7 m
-/// in place of 1.8, overruns of limits to 3.6 rad and metres in place of 2.1; rain costs 5 % less.
+/// in place of 1.9, overruns of limits to 3.6 rad and metres in place of 2.0; rain costs 5 % less.
 pub(crate) const JOINTED: usize = 4;
 
 /// The pace of islands with joints in loops that touch something: their energy is watched, no more. So it is at

@@ -50,7 +50,11 @@ impl Sink {
         let surface = &bucket.surfaces[block];
         let sink = |point: &PointLanes, rest: f32| {
             let (mass, separation) = (point.normal_mass[lane], point.separation[lane]);
-            let load = if mass > 0.0 { point.normal_impulse[lane] / mass } else { 0.0 };
+            if mass <= 0.0 {
+                // Not there, or not known yet: other lanes' leavings, which depend on how many a kernel takes at a time.
+                return Self::default();
+            }
+            let load = point.normal_impulse[lane] / mass;
             Self { full: compliance * load * REFINEMENT[pace] as f32, rest, separation }
         };
         let points = &bucket.constraints[block].points;

@@ -2,7 +2,9 @@
 
 use super::anything::Random;
 use super::*;
-use crate::dynamics::{PACES, PLAIN};
+use crate::dynamics::{Bucket, PACES, PLAIN, Place};
+use crate::simd::BLOCK;
+use crate::stages::rests::{Compliance, Sink};
 
 const DT: f32 = 1.0 / 60.0;
 /// Paces of twice and of four times the substeps.
@@ -234,4 +236,31 @@ fn a_saved_world_that_miscounts_its_refined_bodies_is_refused() {
     world.state.bodies.refined = 1;
     let error = World::from_bytes(&world.to_bytes()).unwrap_err();
     assert!(error.to_string().contains("miscounted"), "{error}");
+}
+
+/// A lane that the narrow phase has not written yet holds what kernels left there, other numbers at every SIMD level.
+#[test]
+fn points_that_are_not_written_yet_rest_on_nothing() {
+    let mut world = floored();
+    world.settings.refine_up_to = 0;
+    world.add_body(crate_at(0.0, 0.5, 1.0)).unwrap();
+    world.add_body(crate_at(0.0, 1.5, 100.0)).unwrap();
+    steps(&mut world, 30);
+    let compliance = Compliance { moving: 1.0e-3, fixed: 1.0e-3 };
+    let State { bodies, graph, contacts, .. } = &mut world.state;
+    let records = contacts.records.iter();
+    let pair = records.clone().find(|c| bodies.is_solved(c.body_a) && bodies.is_solved(c.body_b));
+    let contact = pair.expect("crates that touch");
+    let Place::Graph { colour, slot } = contact.place else { panic!("it is not solved") };
+    let bucket = graph.bucket_mut(colour.into(), contact.class);
+    let rests = |bucket: &Bucket| {
+        let sinks = Sink::of(bucket, slot as usize, PLAIN, compliance, bodies);
+        sinks.map(|sink| sink.rest_at(TWOFOLD))
+    };
+    assert!(rests(bucket).iter().all(|&rest| rest >= 0.0 && rest < 0.1), "{:?}", rests(bucket));
+    let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
+    for point in &mut bucket.constraints[block].points {
+        (point.normal_mass[lane], point.separation[lane]) = (0.0, f32::MAX);
+    }
+    assert_eq!(rests(bucket), [0.0; 2]);
 }
