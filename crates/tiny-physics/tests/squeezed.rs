@@ -4,7 +4,7 @@
 mod common;
 
 use common::{DT, Random, circle, drop_at, rect, world_with_floor};
-use tiny_physics::{JointDef, RigidBody, Vec2, World};
+use tiny_physics::{JointDef, Polygon, RigidBody, Shape, ShapeDef, Vec2, World};
 
 /// The deepest overlap over some steps, metres.
 fn deepest(world: &mut World, count: usize) -> f32 {
@@ -53,6 +53,61 @@ fn what_is_squeezed_is_not_passed_through() {
         let ball = ball.velocity(Vec2::new(0.0, -random.range(5.0, 12.0))).shape(circle(0.15));
         world.add_body(ball.mass(random.range(10.0, 40.0))).expect("a ball");
         worst.push(deepest(&mut world, 60) / half);
+    }
+    let deep = worst.iter().filter(|&&depth| depth > 1.0).count();
+    assert!(deep == 0, "{deep} of 40: {worst:.2?}");
+}
+
+/// What weighs a hundred to a thousand times as much falls on a can, a marble, a wedge, or two cans one on the other.
+#[test]
+fn what_is_squeezed_by_far_more_is_not_passed_through() {
+    let mut random = Random::new(8);
+    let mut worst = Vec::new();
+    for i in 0..80 {
+        let mut world = world_with_floor();
+        let half = random.range(0.07, 0.15);
+        let wedge =
+            [(-half, -half), (half, -half), (0.3 * half, half)].map(|(x, y)| Vec2::new(x, y));
+        let shape = match i % 4 {
+            0 | 3 => rect(1.5 * half, half),
+            1 => circle(half),
+            _ => Shape::Polygon(Polygon::hull(&wedge).expect("a wedge")),
+        };
+        for k in 0..if i % 4 == 3 { 2 } else { 1 } {
+            let at = Vec2::new(0.0, (1 + 2 * k) as f32 * half);
+            let light = RigidBody::dynamic().position(at).shape(shape.clone()).mass(0.1);
+            world.add_body(light).expect("what is squeezed");
+        }
+        let load = if random.range(0.0, 1.0) < 0.5 { circle(0.3) } else { rect(0.3, 0.3) };
+        let place = Vec2::new(random.range(-0.1, 0.1), 1.3);
+        let load = RigidBody::dynamic().position(place).shape(load);
+        let load = load.velocity(Vec2::new(0.0, -random.range(3.0, 15.0)));
+        world.add_body(load.mass(random.range(10.0, 100.0))).expect("a load");
+        worst.push(deepest(&mut world, 60) / half);
+    }
+    let deep = worst.iter().filter(|&&depth| depth > 1.0).count();
+    assert!(deep == 0, "{deep} of 80: {worst:.2?}");
+}
+
+/// A wheel of fifty to four hundred times its weight rolls over a chip.
+#[test]
+fn what_is_rolled_over_is_not_passed_through() {
+    let mut random = Random::new(9);
+    let mut worst = Vec::new();
+    for i in 0..40 {
+        let mut world = world_with_floor();
+        let half = random.range(0.04, 0.08);
+        let chip = if i % 2 == 0 { rect(1.5 * half, half) } else { circle(half) };
+        let chip = RigidBody::dynamic().position(Vec2::new(0.0, half)).shape(chip);
+        world.add_body(chip.mass(0.1)).expect("a chip");
+        let radius = random.range(0.3, 0.6);
+        let speed = random.range(1.0, 4.0);
+        let wheel = RigidBody::dynamic().position(Vec2::new(-1.5 * radius - 0.2, radius));
+        let wheel = wheel.velocity(Vec2::new(speed, 0.0)).angular_velocity(-speed / radius);
+        let wheel =
+            wheel.shape(ShapeDef::new(circle(radius)).friction(1.0)).mass(random.range(5.0, 40.0));
+        world.add_body(wheel).expect("a wheel");
+        worst.push(deepest(&mut world, 120) / half);
     }
     let deep = worst.iter().filter(|&&depth| depth > 1.0).count();
     assert!(deep == 0, "{deep} of 40: {worst:.2?}");

@@ -15,6 +15,7 @@ use crate::codec::{Data, Reader, Sink, clone_by_field, store};
 use crate::error::Error;
 use crate::footprint::{Footprint, MemoryUse, each, footprint};
 use crate::geometry::manifold::PairClass;
+use crate::math::Vec2;
 use crate::simd::BLOCK;
 use crate::threads::SharedSlice;
 use core::ops::Range;
@@ -399,6 +400,33 @@ impl Graph {
         if colour as usize != IDLE {
             self.fresh.push((colour, contact.class as u8, block));
         }
+    }
+
+    /// Has the constraint of a contact written anew.
+    pub(crate) fn refresh(&mut self, contact: &Contact) {
+        if let Place::Graph { colour, slot } = contact.place
+            && colour as usize != IDLE
+        {
+            self.fresh.push((colour, contact.class as u8, slot / BLOCK as u32));
+        }
+    }
+
+    /// Has the next step begin without the impulses of a contact.
+    pub(crate) fn forget_impulses(&mut self, contact: &Contact) {
+        if let Some((bucket, slot)) = self.solved_at(contact) {
+            let lane = slot % BLOCK;
+            for point in &mut self.buckets.list_mut()[bucket].constraints[slot / BLOCK].points {
+                (point.normal_impulse[lane], point.tangent_impulse[lane]) = (0.0, 0.0);
+            }
+        }
+    }
+
+    /// From A to B, of a contact that touched in the last narrow phase and before it.
+    pub(crate) fn normal(&self, contact: &Contact) -> Option<Vec2> {
+        let (bucket, slot) = self.solved_at(contact)?;
+        let constraint = &self.buckets.list()[bucket].constraints[slot / BLOCK];
+        let lane = slot % BLOCK;
+        Some(Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]))
     }
 
     /// Lists the contacts that the narrow phase found to close in fast, and takes their marks away.

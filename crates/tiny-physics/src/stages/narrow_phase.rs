@@ -5,7 +5,7 @@
 //! iterates on. Running it twice on one block gives the same block, so blocks that got new contacts
 //! after the pass are simply run again.
 
-use super::ahead::{HARMLESS, Predictions, SLIGHT};
+use super::ahead::{HARMLESS, HEAVIER, Predictions, SLIGHT};
 use super::narrow_context::Context;
 use super::surfaces::{self, LanePoints};
 use crate::dynamics::{BlockHead, Blocks, Graph, ManifoldBlock, NULL, Schedule, flags};
@@ -116,6 +116,10 @@ fn outlines<'a>(context: &Context<'a>, shapes: &[u32]) -> [Outline<'a>; BLOCK] {
     outlines
 }
 
+/// Contacts of much lighter bodies count as closing in if they are deeper than this part of the reach of contacts, see
+/// [`squeezed`](super::ahead).
+const SUNK: f32 = 0.25;
+
 /// Blocks of one class on their way through the kernel.
 struct Update<'a, K> {
     context: Context<'a>,
@@ -144,7 +148,15 @@ impl<K: PairKernel> LaneKernel for Update<'_, K> {
                     geometry.foresee(token, predictions, &contacts[at..]);
                 }
                 if constrained {
-                    write_constraint::<L, K>(token, &context, &geometry, &mut blocks, index, at);
+                    let pressed = write_constraint::<L, K>(
+                        token,
+                        &context,
+                        &geometry,
+                        &mut blocks,
+                        index,
+                        at,
+                    );
+                    closing |= pressed << at;
                 }
                 let bits = geometry.touching;
                 closing |= geometry.closing << at;
@@ -445,7 +457,7 @@ fn unrotate<L: Lanes>(q: [L; 2], v: [L; 2]) -> [L; 2] {
     [q[0] * v[0] + q[1] * v[1], q[0] * v[1] - q[1] * v[0]]
 }
 
-/// Writes the constraints of a stride.
+/// Writes the constraints of a stride. Gives the lanes in which a much lighter body lies deep, as bits.
 #[inline(always)]
 fn write_constraint<L: Lanes, K: PairKernel>(
     token: L::Token,
@@ -454,7 +466,7 @@ fn write_constraint<L: Lanes, K: PairKernel>(
     blocks: &mut Blocks<'_>,
     index: usize,
     at: usize,
-) {
+) -> u32 {
     let manifold = &mut blocks.manifolds[index];
     let constraint = &mut blocks.constraints[index];
     let body_a = L::gather(token, context.body_rows, &manifold.body_a[at..]);
@@ -518,6 +530,11 @@ fn write_constraint<L: Lanes, K: PairKernel>(
         zero.store(&mut surface.total_1[at..]);
         zero.store(&mut surface.total_2[at..]);
     }
+    let [a, b] = [body_a[3], body_b[3]];
+    let deepest = geometry.manifold.separation[0].min(geometry.manifold.separation[1]);
+    let deep = L::splat(token, -SUNK * context.speculative_distance);
+    let uneven = a.max(b).gt(L::splat(token, HEAVIER) * a.min(b));
+    L::bits(L::and(deepest.lt(deep), L::and(uneven, a.min(b).gt(zero))))
 }
 
 /// Lever arms of a point: cross products of its anchors with normal and tangent, for A and B.

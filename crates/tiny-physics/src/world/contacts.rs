@@ -141,9 +141,9 @@ impl World {
             points[count] = ContactPoint {
                 position: center + anchor,
                 separation: point.separation[lane],
-                normal_impulse: point.normal_impulse[lane],
+                normal_impulse: point.load[lane],
                 tangent_impulse: point.tangent_impulse[lane],
-                total_impulse: totals.map_or(point.normal_impulse[lane] * substeps, |t| t[k]),
+                total_impulse: totals.map_or(point.load[lane] * substeps, |t| t[k]),
             };
             count += 1;
         }

@@ -141,7 +141,7 @@ mod tests {
     #[test]
     fn blown_up_worlds_have_the_same_bits() {
         let mut frozen = 0;
-        for seed in 0..12 {
+        for seed in 0..16 {
             let (expected, count) = blown_up(seed, SimdLevel::detect(), 1);
             expected.validate().unwrap();
             frozen += count;

@@ -257,9 +257,7 @@ impl World {
         self.scratch.predictions.clear();
         self.scratch.schedule.fill(&self.state.graph, narrow_phase::CHUNK);
         self.run_narrow_phase(team, lengths, true);
-        if !self.scratch.ways.of_shapes.is_empty() {
-            self.state.graph.take_closing(&mut self.scratch.predictions.candidates);
-        }
+        self.state.graph.take_closing(&mut self.scratch.predictions.candidates);
     }
 
     /// The same for the blocks that have got other contacts since, or predicted ones.
@@ -320,10 +318,13 @@ impl World {
             }
         }
         self.stats.predicted_contacts = predicted.len();
+        self.stats.squeezed_bodies = 0;
     }
 
     /// Predicted contacts that pushed have begun; those that did not have never been.
     fn settle_predictions(&mut self, team: &Team) {
+        let State { bodies, contacts, graph, .. } = &mut self.state;
+        self.scratch.predictions.squeezed.release(bodies, contacts, graph);
         let predicted = core::mem::take(&mut self.scratch.predictions.fresh);
         let mut changes = core::mem::take(&mut self.scratch.changes);
         changes.clear();
@@ -382,7 +383,20 @@ impl World {
         for &contact in &self.scratch.predictions.fresh {
             self.state.graph.watch(&self.state.contacts.records[contact as usize]);
         }
+        if !self.scratch.predictions.squeezed.pressed.is_empty() {
+            self.weigh_squeezed(team, lengths);
+        }
         self.update_fresh_manifolds(team, lengths);
+    }
+
+    /// Has light bodies between heavy ones and what nothing moves count as heavier in this step.
+    fn weigh_squeezed(&mut self, team: &Team, lengths: Lengths) {
+        // What has just woken leans on others as well.
+        self.update_fresh_manifolds(team, lengths);
+        let State { bodies, contacts, graph, .. } = &mut self.state;
+        let (predictions, length_unit) = (&mut self.scratch.predictions, self.settings.length_unit);
+        self.stats.squeezed_bodies =
+            predictions.weigh_squeezed(bodies, contacts, graph, length_unit);
     }
 
     /// Chooses which islands are solved more finely than others.
@@ -399,7 +413,7 @@ impl World {
         let Self { settings, gravity, level, .. } = *self;
         let rules = solve::Rules { settings: &settings, gravity, level, lengths };
         let Scratch { solver, predictions, .. } = &mut self.scratch;
-        solver.run(team, &mut self.state.solved(), rules, &predictions.squeezed);
+        solver.run(team, &mut self.state.solved(), rules, &predictions.squeezed.hit);
         self.stats.withheld_energy = self.scratch.solver.passivity.withheld;
         self.collect_hits();
         self.break_joints();

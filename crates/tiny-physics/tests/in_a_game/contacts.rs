@@ -37,8 +37,8 @@ fn total_impulses_are_what_bodies_gain() {
                 assert!(step > 60, "{step}: asleep already");
                 break;
             }
-            // Nor is what was withheld anybody's impulse.
-            if world.stats().withheld_energy > 0.0 {
+            // Nor is what was withheld anybody's impulse, and what is squeezed counts as heavier.
+            if world.stats().withheld_energy > 0.0 || world.stats().squeezed_bodies > 0 {
                 continue;
             }
             let gained = momentum(&world) - before + mass * 10.0 * DT;

@@ -12,8 +12,10 @@
 //! contacts of bodies that this makes go elsewhere are looked at again, in rounds.
 
 mod predictions;
+mod squeezed;
 
 pub(crate) use predictions::{Predictions, Scene};
+pub(crate) use squeezed::HEAVIER;
 
 use super::boxes::{self, Moved, Way};
 use crate::broad_phase::BroadPhase;

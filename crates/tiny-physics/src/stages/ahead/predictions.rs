@@ -1,5 +1,6 @@
 //! Contacts of the moments of impact; see the [stage](super).
 
+use super::squeezed::{self, Pressed, Squeezed};
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{
     Bodies, ConstraintBlock, Contact, Contacts, Graph, Place, ShapeRecord, Shapes, Slot,
@@ -9,7 +10,7 @@ use crate::geometry::manifold::{self, Manifold};
 use crate::geometry::{LINEAR_SLOP, Sweep, ToiState, impact_within};
 use crate::math::{Rot, Transform, Vec2};
 use crate::simd::BLOCK;
-use crate::stages::ahead::{Found, HARMLESS, Ways};
+use crate::stages::ahead::{Found, HARMLESS, SLIGHT, Ways};
 use crate::stages::boxes::{self, Way};
 use crate::stages::narrow_context::Context;
 use crate::stages::pairs::Partners;
@@ -24,8 +25,6 @@ const CHUNK: usize = 32;
 const HARD_HIT: f32 = 0.2;
 /// and goes into it: so much of its way is along the normal.
 const HEAD_ON: f32 = 0.7;
-/// What is hit by something so many times its mass may be squeezed.
-const HEAVIER: f32 = 4.0;
 /// Points whose separations differ by less than this are hit together, metres; multiplied by the length unit.
 const NEAR: f32 = 0.02;
 /// So many bodies that were taken off their ways may be looked at again in a step, and one in [`SHARE`] of all: those
@@ -61,6 +60,8 @@ struct Course {
     spin: f32,
     /// How far hits have taken it off its way since it was last looked at, metres.
     astray: f32,
+    /// Of the heaviest that presses it on, else its own.
+    inverse_mass: f32,
 }
 
 /// A hit: where, and how soon.
@@ -108,8 +109,7 @@ pub(crate) struct Predictions {
     course_places: Vec<u32>,
     /// What the last round took off its way.
     struck: Vec<Struck>,
-    /// Light bodies that were hit by heavy ones.
-    pub(crate) squeezed: Vec<u32>,
+    pub(crate) squeezed: Squeezed,
     rounds: usize,
     /// Bodies that may still be looked at again in this step.
     budget: usize,
@@ -247,14 +247,11 @@ impl Predictions {
         }
         let contact = &scene.contacts.records[hit.contact as usize];
         let bodies = [contact.body_a, contact.body_b];
-        let [a, b] = bodies.map(|body| scene.bodies.rows[body as usize][Slot::INV_MASS]);
-        if a.max(b) > HEAVIER * a.min(b) && a.min(b) > 0.0 {
-            self.squeezed.push(if a > b { contact.body_a } else { contact.body_b });
-        }
         // What bounces is reflected at the start of the step.
         let fraction = if contact.restitution > 0.0 { 0.0 } else { hit.fraction };
         let rest = (1.0 - fraction) * scene.dt;
-        let old = bodies.map(|body| self.course(scene, body));
+        let mut old = bodies.map(|body| self.course(scene, body));
+        self.note_squeezed(scene, hit, &mut old);
         let mut impact = Impact {
             courses: old,
             bodies: bodies.map(|body| {
@@ -280,6 +277,47 @@ impl Predictions {
                 self.keep(course);
             }
         }
+    }
+
+    /// Notes a light body that a heavy one hits, or that is in it already; it hits others as the heavy one would.
+    fn note_squeezed(&mut self, scene: Scene<'_>, hit: &Hit, courses: &mut [Course; 2]) {
+        let [a, b] = [0, 1].map(|k| courses[k].inverse_mass);
+        if !squeezed::is_uneven(a, b) {
+            return;
+        }
+        let approach = |arms: Arms| {
+            let [a, b] = [0, 1].map(|k| courses[k].speed_at(arms.normal[k], hit.normal));
+            b - a
+        };
+        let coming = hit.arms.into_iter().map(approach).fold(0.0, f32::min);
+        let light = usize::from(b > a);
+        let Context { speculative_distance, surroundings, .. } = scene.narrow_phase;
+        let pressed = Pressed {
+            body: courses[light].body,
+            by: a.min(b),
+            direction: if light == 1 { hit.normal } else { -hit.normal },
+            coming: coming < -squeezed::COMING * surroundings.length_unit,
+        };
+        if coming * scene.dt < -SLIGHT * speculative_distance {
+            self.squeezed.hit.push(pressed.body);
+        }
+        courses[light].inverse_mass = pressed.by;
+        self.squeezed.pressed.push(pressed);
+    }
+
+    /// Has what is squeezed count as heavier in this step, see [`Squeezed`]; says how many bodies that are.
+    pub(crate) fn weigh_squeezed(
+        &mut self,
+        bodies: &mut Bodies,
+        contacts: &Contacts,
+        graph: &mut Graph,
+        length_unit: f32,
+    ) -> usize {
+        let mut squeezed = core::mem::take(&mut self.squeezed);
+        let predicted = |contact| self.of(contact).map(|known| known.normal);
+        squeezed.weigh(bodies, contacts, graph, length_unit, &predicted);
+        self.squeezed = squeezed;
+        self.squeezed.weighed.len()
     }
 
     fn keep(&mut self, course: Course) {
@@ -370,11 +408,7 @@ impl Again {
 impl Struck {
     /// Does its way lead into the other body of a contact, as the constraint of the step's start says?
     fn goes_into(&self, contact: &Contact, graph: &Graph) -> bool {
-        let Place::Graph { colour, slot } = contact.place else { return false };
-        let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
-        let bucket = graph.bucket(colour.into(), contact.class);
-        bucket.constraints.get(block).is_none_or(|constraint| {
-            let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
+        graph.normal(contact).is_none_or(|normal| {
             let along = normal.dot(self.motion);
             let into = if contact.body_a == self.body { along } else { -along };
             into > HEAD_ON * self.motion.length()
@@ -421,7 +455,7 @@ impl Course {
         let row = &scene.bodies.rows[body as usize];
         let (velocity, spin) = (Vec2::new(row[Slot::VX], row[Slot::VY]), row[Slot::W]);
         let (motion, turn) = (velocity * scene.dt, spin * scene.dt);
-        Self { body, motion, turn, velocity, spin, astray: 0.0 }
+        Self { body, motion, turn, velocity, spin, astray: 0.0, inverse_mass: row[Slot::INV_MASS] }
     }
 
     fn way(&self, bodies: &Bodies) -> Way {
