@@ -75,7 +75,7 @@ fn what_is_squeezed_by_far_more_is_not_passed_through() {
         };
         for k in 0..if i % 4 == 3 { 2 } else { 1 } {
             let at = Vec2::new(0.0, (1 + 2 * k) as f32 * half);
-            let light = RigidBody::dynamic().position(at).shape(shape.clone()).mass(0.1);
+            let light = RigidBody::dynamic().position(at).shape(shape).mass(0.1);
             world.add_body(light).expect("what is squeezed");
         }
         let load = if random.range(0.0, 1.0) < 0.5 { circle(0.3) } else { rect(0.3, 0.3) };

@@ -257,7 +257,7 @@ fn points_that_are_not_written_yet_rest_on_nothing() {
         let sinks = Sink::of(bucket, slot as usize, PLAIN, compliance, bodies);
         sinks.map(|sink| sink.rest_at(TWOFOLD))
     };
-    assert!(rests(bucket).iter().all(|&rest| rest >= 0.0 && rest < 0.1), "{:?}", rests(bucket));
+    assert!(rests(bucket).iter().all(|rest| (0.0..0.1).contains(rest)), "{:?}", rests(bucket));
     let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
     for point in &mut bucket.constraints[block].points {
         (point.normal_mass[lane], point.separation[lane]) = (0.0, f32::MAX);
