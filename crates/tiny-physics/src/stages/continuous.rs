@@ -56,7 +56,9 @@ pub(crate) fn run(
     rules: Rules<'_>,
     moved: &mut Vec<Moved>,
 ) {
-    let scene = Scene { bodies, shapes, broad_phase, rules, carriers };
+    let bounds =
+        [ProxyKind::Static, ProxyKind::Kinematic].map(|kind| broad_phase.tree(kind).bounds());
+    let scene = Scene { bodies, shapes, broad_phase, rules, carriers, bounds };
     scene.add_what_is_hit(fast);
     team.for_each_chunk_mut(fast, CHUNK, |_, fast| {
         for fast in fast {
@@ -197,6 +199,8 @@ struct Scene<'a> {
     rules: Rules<'a>,
     /// Fast kinematic bodies, ascending.
     carriers: &'a [FastBody],
+    /// Around all that is static, and all that is kinematic.
+    bounds: [Aabb; 2],
 }
 
 impl Scene<'_> {
@@ -262,6 +266,10 @@ struct Course {
 impl Search<'_> {
     /// What becomes of the body.
     fn outcome(&self) -> FastBody {
+        let info = &self.scene.bodies.infos[self.fast.body as usize];
+        if self.scene.bounds.iter().all(|bounds| self.fast.misses(info, bounds)) {
+            return *self.fast;
+        }
         // All geometry is relative to where the centre of mass was: 32 bits are enough.
         let sweep = self.fast.seen_from(self.fast.start);
         let whole = Course { sweep, from: 0.0 };

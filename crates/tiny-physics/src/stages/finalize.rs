@@ -6,7 +6,7 @@ use crate::broad_phase::BroadPhase;
 use crate::describe::BodyKind;
 use crate::dynamics::{Bodies, BodyInfo, Shapes, Slot};
 use crate::geometry::Sweep;
-use crate::math::{Pose, Transform, Vec2};
+use crate::math::{Aabb, Pose, Transform, Vec2};
 use crate::simd::Row;
 use crate::threads::{SharedSlice, Team};
 
@@ -58,6 +58,17 @@ impl FastBody {
     pub(crate) fn seen_from(&self, start: Pose) -> Sweep {
         let frame = Transform::new(self.start.p.relative_to(start.p), self.start.q);
         Sweep::new(frame, Vec2::ZERO, self.motion, self.turn)
+    }
+
+    /// Does its way lie outside a box, with all that it may reach of it?
+    pub(crate) fn misses(&self, info: &BodyInfo, bounds: &Aabb) -> bool {
+        let extent = f64::from(info.max_extent);
+        let apart = |a: f64, b: f64, least: f32, most: f32| {
+            let (from, to) = if a < b { (a, b) } else { (b, a) };
+            from - extent > f64::from(most) || to + extent < f64::from(least)
+        };
+        let (a, b) = (self.start.p, self.end.p);
+        apart(a.x, b.x, bounds.min.x, bounds.max.x) || apart(a.y, b.y, bounds.min.y, bounds.max.y)
     }
 
     /// The longest way that a point of the body can have gone, metres.

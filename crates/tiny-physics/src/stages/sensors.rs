@@ -48,10 +48,13 @@ pub(crate) fn find_overlaps<'a>(
     chunks.iter().for_each(|found| overlaps.extend_from_slice(found));
     if !sensors.is_empty() {
         let mut boxes = [Aabb::EMPTY; FEW];
+        let mut bounds = Aabb::EMPTY;
         for (fat, &sensor) in boxes.iter_mut().zip(sensors) {
             *fat = scene.broad_phase.fat_aabb(scene.shapes.proxy(sensor)).unwrap_or(Aabb::EMPTY);
+            bounds = bounds.union(fat);
         }
-        fast.for_each(|body| scene.look_along(body, &boxes, overlaps));
+        let far = |body: &&FastBody| sensors.len() <= FEW && scene.goes_past(body, &bounds);
+        fast.filter(|body| !far(body)).for_each(|body| scene.look_along(body, &boxes, overlaps));
     }
     // Sweeps add to what is sorted already, if there are any.
     overlaps.sort_unstable();
@@ -148,6 +151,13 @@ impl Scene<'_> {
 
     fn kind(&self, record: &ShapeRecord) -> BodyKind {
         self.bodies.infos[record.body as usize].kind
+    }
+
+    /// Is a fast body's way outside the box around all sensors, and none of them its own?
+    fn goes_past(&self, fast: &FastBody, bounds: &Aabb) -> bool {
+        let own = |&sensor: &u32| self.shapes.records[sensor as usize].body == fast.body;
+        fast.misses(&self.bodies.infos[fast.body as usize], bounds)
+            && !self.sensors.shapes.iter().any(own)
     }
 
     /// Appends the overlaps that a fast body had on its way: of its shapes with sensors, of its sensors with
