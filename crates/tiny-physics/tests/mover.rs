@@ -127,6 +127,46 @@ fn pushing_does_not_depend_on_the_step() {
     }
 }
 
+/// Walls that come at 5 to 123 m/s from both sides, and bars that turn: from 25 m/s on walls went past it.
+#[test]
+fn no_machine_goes_past_it() {
+    let dt = 1.0 / 60.0;
+    for i in 0..60 {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let floor = RigidBody::fixed().position(Vec2::new(0.0, -1.0));
+        world.add_body(floor.shape(Shape::rect(500.0, 1.0).unwrap())).unwrap();
+        let mut mover = CharacterMover::new(Vec2::new(0.0, FLOOR as f32), 1.8, 0.3);
+        let side = if i % 2 == 0 { 1.0 } else { -1.0 };
+        let speed = 5.0 + 2.0 * i as f32;
+        let start = Vec2::new(-side * (2.0 + speed * dt * (i % 7) as f32 / 7.0), 1.0);
+        let wall = RigidBody::kinematic().position(start).velocity(Vec2::new(side * speed, 0.0));
+        let half = Vec2::new(0.05 + 0.01 * (i % 5) as f32, 0.9 - 0.1 * (i % 4) as f32);
+        let wall = world.add_body(wall.shape(Shape::rect(half.x, half.y).unwrap())).unwrap();
+        for step in 0..60 {
+            settle(&mut world, &mut mover, 1, dt);
+            let x = world.body(wall).unwrap().position_f64().x;
+            let ahead = (mover.position.x - x) * f64::from(side);
+            assert!(ahead > 0.3, "wall at {speed} m/s, step {step}: {ahead} m before it");
+        }
+    }
+    for i in 0..30 {
+        let mut world = World::new(Vec2::ZERO);
+        let mut mover = CharacterMover::new(Vec2::new(3.0, 0.0), 1.0, 0.3);
+        let bar =
+            RigidBody::kinematic().angle(-0.5 - 0.03 * i as f32).angular_velocity(5.0 + i as f32);
+        let bar = world.add_body(bar.shape(Shape::rect(6.0, 0.05).unwrap())).unwrap();
+        for step in 0..20 {
+            settle(&mut world, &mut mover, 1, dt);
+            let place = world.body(bar).unwrap().pose().unapply(mover.position);
+            let away = place.x.abs() > 5.0;
+            assert!(away || place.y > 0.0, "bar at {} rad/s, step {step}: {place:?}", 5 + i);
+            if away {
+                break;
+            }
+        }
+    }
+}
+
 #[test]
 fn bad_numbers_change_nothing() {
     let mut world = World::new(Vec2::new(0.0, -10.0));

@@ -17,6 +17,7 @@ use crate::{
 };
 
 mod own;
+mod swept;
 
 /// Most casts of one movement.
 const MAX_CASTS: u32 = 6;
@@ -233,6 +234,7 @@ impl CharacterMover {
         self.dropping = input.drop || self.dropping && self.is_at_one_way(world, frame);
 
         self.ride(world, frame);
+        self.give_way(world, frame);
         self.push_out(world, frame);
         let mut carried = Vec2::ZERO;
         if let Some(velocity) = self.launched.take().filter(|velocity| velocity.is_finite()) {

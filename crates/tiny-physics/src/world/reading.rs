@@ -27,6 +27,15 @@ impl World {
         self.body_ids().filter_map(|id| self.body(id))
     }
 
+    /// Kinematic bodies that move, in index order.
+    pub(crate) fn machines(&self) -> impl Iterator<Item = Body<'_>> {
+        let bodies = &self.state.bodies;
+        let is_machine = |i: &u32| bodies.infos[*i as usize].kind == BodyKind::Kinematic;
+        let mut machines: Vec<_> = bodies.awake.iter().copied().filter(is_machine).collect();
+        machines.sort_unstable();
+        machines.into_iter().filter_map(|i| self.body(self.body_id(i)))
+    }
+
     /// All shapes, in index order.
     pub fn shapes(&self) -> impl Iterator<Item = ShapeRef<'_>> {
         self.shape_ids().filter_map(|id| self.shape(id))
