@@ -164,7 +164,7 @@ pub(crate) struct Gain {
 
 impl Gain {
     pub(crate) fn look(&mut self, trial: &Trial) {
-        let energy = trial.energy();
+        let energy = trial.least_energy();
         let energy = if energy.is_nan() { f64::INFINITY } else { energy };
         if self.seen.is_none() {
             let mass: f64 = trial.dynamic().into_iter().map(|body| trial.mass(body)).sum();
