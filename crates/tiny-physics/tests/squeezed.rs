@@ -89,6 +89,28 @@ fn what_is_squeezed_by_far_more_is_not_passed_through() {
     assert!(deep == 0, "{deep} of 80: {worst:.2?}");
 }
 
+/// So fast that it would reach the ground in the same step: that hit is not the one that counts.
+#[test]
+fn what_is_squeezed_by_what_would_reach_the_ground_is_not_passed_through() {
+    let mut random = Random::new(12);
+    let mut worst = Vec::new();
+    for _ in 0..40 {
+        let mut world = world_with_floor();
+        let half = random.range(0.04, 0.08);
+        for k in 0..3 {
+            let at = Vec2::new(2.5 * half * (k as f32 - 1.0), half);
+            let light = RigidBody::dynamic().position(at).shape(circle(half)).mass(0.05);
+            world.add_body(light).expect("what is squeezed");
+        }
+        let ball = RigidBody::dynamic().position(Vec2::new(random.range(-0.1, 0.1), 1.2));
+        let ball = ball.velocity(Vec2::new(0.0, -random.range(15.0, 25.0))).shape(circle(0.25));
+        world.add_body(ball.mass(random.range(3.0, 15.0))).expect("a ball");
+        worst.push(deepest(&mut world, 20) / half);
+    }
+    let deep = worst.iter().filter(|&&depth| depth > 1.0).count();
+    assert!(deep == 0, "{deep} of 40: {worst:.2?}");
+}
+
 /// A wheel of fifty to four hundred times its weight rolls over a chip.
 #[test]
 fn what_is_rolled_over_is_not_passed_through() {

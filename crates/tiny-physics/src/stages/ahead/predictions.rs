@@ -285,11 +285,15 @@ impl Predictions {
         if !squeezed::is_uneven(a, b) {
             return;
         }
-        let approach = |arms: Arms| {
+        // Another hit may have stopped the heavy one already, on its way beyond the light one.
+        let first = [0, 1].map(|k| Course::of(scene, courses[k].body));
+        let approach = |courses: &[Course; 2], arms: Arms| {
             let [a, b] = [0, 1].map(|k| courses[k].speed_at(arms.normal[k], hit.normal));
             b - a
         };
-        let coming = hit.arms.into_iter().map(approach).fold(0.0, f32::min);
+        let approaches =
+            hit.arms.into_iter().flat_map(|arms| [approach(courses, arms), approach(&first, arms)]);
+        let coming = approaches.fold(0.0, f32::min);
         let light = usize::from(b > a);
         let Context { speculative_distance, surroundings, .. } = scene.narrow_phase;
         let pressed = Pressed {
