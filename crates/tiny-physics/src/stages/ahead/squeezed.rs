@@ -33,7 +33,7 @@ pub(crate) struct Pressed {
     pub(super) by: f32,
     /// Where to.
     pub(super) direction: Vec2,
-    /// Does that come nearer, or is it near enough already?
+    /// Does anything in the row so far come nearer?
     pub(super) coming: bool,
 }
 
