@@ -16,7 +16,9 @@ const SHARE: f32 = 2.0;
 /// How fast something in the row must come to squeeze, length units a second: what rests has its paces and rests.
 pub(super) const COMING: f32 = 0.1;
 /// Bodies in a row at most.
-const LONGEST: usize = 4;
+const LONGEST: usize = 16;
+/// Bodies that are looked at in search of one row at most.
+const MOST_SEEN: usize = 64;
 /// A body backs another if its contact's normal leads on along the push, by this cosine.
 const BACKED: f32 = 0.5;
 
@@ -46,9 +48,11 @@ pub(crate) struct Squeezed {
     /// Those whose mass is another in this step.
     pub(super) weighed: Vec<u32>,
     row: Vec<u32>,
+    /// Bodies that the search for a row has come to.
+    seen: Vec<u32>,
 }
 
-footprint!(Squeezed { pressed, hit, weighed, row });
+footprint!(Squeezed { pressed, hit, weighed, row, seen });
 
 /// What rows are found in.
 #[derive(Clone, Copy)]
@@ -78,8 +82,9 @@ impl Squeezed {
     ) {
         for &pressed in &self.pressed {
             self.row.clear();
+            self.seen.clear();
             let scene = Scene { bodies, contacts, graph, length_unit, predicted };
-            if scene.leads_to_fixed(pressed, &mut self.row) != Some(true) {
+            if scene.leads_to_fixed(pressed, &mut self.row, &mut self.seen) != Some(true) {
                 continue;
             }
             for &body in &self.row {
@@ -113,8 +118,14 @@ impl Squeezed {
 impl Scene<'_> {
     /// Does a row of light bodies lead from one that is pressed on to what nothing moves? If so: does anything in it come
     /// nearer? Lists the row.
-    fn leads_to_fixed(self, pressed: Pressed, row: &mut Vec<u32>) -> Option<bool> {
+    fn leads_to_fixed(
+        self,
+        pressed: Pressed,
+        row: &mut Vec<u32>,
+        seen: &mut Vec<u32>,
+    ) -> Option<bool> {
         row.push(pressed.body);
+        seen.push(pressed.body);
         let length = row.len();
         let first = self.bodies.infos[pressed.body as usize].first_contact;
         self.contacts.of_body(first).find_map(|(index, side)| {
@@ -132,10 +143,10 @@ impl Scene<'_> {
             if inverse_mass == 0.0 {
                 return Some(coming);
             }
-            let goes_on = length < LONGEST && is_uneven(inverse_mass, pressed.by);
+            let light = inverse_mass > pressed.by && is_uneven(inverse_mass, pressed.by);
+            let goes_on = light && length < LONGEST && seen.len() < MOST_SEEN;
             let next = Pressed { body: other, direction, coming, ..pressed };
-            (goes_on && inverse_mass > pressed.by && !row.contains(&other))
-                .then(|| self.leads_to_fixed(next, row))?
+            (goes_on && !seen.contains(&other)).then(|| self.leads_to_fixed(next, row, seen))?
         })
     }
 }
