@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{DT, Random, circle, drop_at, rect, world_with_floor};
+use common::{DT, Random, circle, drop_at, rect, world, world_with_floor};
 use tiny_physics::{JointDef, Polygon, RigidBody, Shape, ShapeDef, Vec2, World};
 
 /// The deepest overlap over some steps, metres.
@@ -193,4 +193,30 @@ fn planks_of_a_bridge_keep_their_loads_out() {
     }
     let deep = worst.iter().filter(|&&depth| depth > 1.0).count();
     assert!(deep == 0, "{deep} of 40: {worst:.2?}");
+}
+
+/// A shower of boxes and balls that bounce, at up to 20 m/s: what is hit hits others within the step. In 47 of 200
+/// something went deeper than 3 cm while hits were handed on as they were listed, and no further than one
+/// alone throws; now in 25, still too many.
+#[test]
+fn what_is_hit_and_hits_within_a_step_stays_out() {
+    let mut random = Random::new(15);
+    let mut worst = Vec::new();
+    for _ in 0..200 {
+        let mut world = world();
+        let ground = ShapeDef::new(rect(100.0, 1.0)).restitution(0.5);
+        let ground = RigidBody::fixed().position(Vec2::new(0.0, -1.0)).shape(ground);
+        world.add_body(ground).expect("a floor");
+        for k in 0..12 {
+            let (half, high) = (random.range(0.35, 0.6), random.range(0.35, 0.6));
+            let round = random.range(0.0, 1.0) < 0.4;
+            let shape = ShapeDef::new(if round { circle(half) } else { rect(half, high) });
+            let place = Vec2::new(random.range(-5.0, 5.0), 4.0 + 1.25 * k as f32);
+            let body = RigidBody::dynamic().position(place).shape(shape.restitution(0.5));
+            world.add_body(body).expect("what falls");
+        }
+        worst.push(deepest(&mut world, 180));
+    }
+    let deep = worst.iter().filter(|&&depth| depth > 0.03).count();
+    assert!(deep <= 30, "{deep} of 200: {worst:.3?}");
 }

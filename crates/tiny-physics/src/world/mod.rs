@@ -301,7 +301,7 @@ impl World {
             if !predictions.round(team, scene) {
                 break;
             }
-            predictions.reach(bodies, shapes, broad_phase, ways);
+            predictions.reach((bodies, lengths.dt), shapes, broad_phase, ways);
             let (custom, reach, ways) = (self.hooks.pair_filter(), settings.1, &ways.of_shapes);
             let partners =
                 pairs::Partners { shapes, bodies, contacts, joints, custom, reach, ways };

@@ -17,8 +17,8 @@ const SHARE: f32 = 2.0;
 pub(super) const COMING: f32 = 0.1;
 /// Bodies in a row at most.
 const LONGEST: usize = 16;
-/// Bodies that are looked at in search of one row at most.
-const MOST_SEEN: usize = 64;
+/// Bodies that are looked at in search of rows at most, while none is found for what weighs the same.
+const MOST_SEEN: usize = 128;
 /// A body backs another if its contact's normal leads on along the push, by this cosine.
 const BACKED: f32 = 0.5;
 
@@ -47,12 +47,20 @@ pub(crate) struct Squeezed {
     pub(crate) hit: Vec<u32>,
     /// Those whose mass is another in this step.
     pub(super) weighed: Vec<u32>,
-    row: Vec<u32>,
-    /// Bodies that the search for a row has come to.
-    seen: Vec<u32>,
+    rows: Rows,
 }
 
-footprint!(Squeezed { pressed, hit, weighed, row, seen });
+/// What a search for rows has found.
+#[derive(Debug, Default)]
+struct Rows {
+    /// Bodies that it has come to, in this search and in those before that found nothing.
+    seen: Vec<u32>,
+    /// Those of them that lead to what nothing moves.
+    lead: Vec<u32>,
+}
+
+footprint!(Rows { seen, lead });
+footprint!(Squeezed { pressed, hit, weighed, rows });
 
 /// What rows are found in.
 #[derive(Clone, Copy)]
@@ -80,14 +88,19 @@ impl Squeezed {
         length_unit: f32,
         predicted: &dyn Fn(u32) -> Option<Vec2>,
     ) {
+        let mut none_for = None;
         for &pressed in &self.pressed {
-            self.row.clear();
-            self.seen.clear();
+            if none_for != Some(pressed.by) {
+                self.rows.seen.clear();
+            }
+            self.rows.lead.clear();
             let scene = Scene { bodies, contacts, graph, length_unit, predicted };
-            if scene.leads_to_fixed(pressed, &mut self.row, &mut self.seen) != Some(true) {
+            let leads = scene.leads_to_fixed(pressed, LONGEST, &mut self.rows);
+            none_for = leads.is_none().then_some(pressed.by);
+            if leads != Some(true) {
                 continue;
             }
-            for &body in &self.row {
+            for &body in &self.rows.lead {
                 let row = &mut bodies.rows[body as usize];
                 let part = SHARE * pressed.by / row[Slot::INV_MASS];
                 if part < 1.0 {
@@ -116,37 +129,44 @@ impl Squeezed {
 }
 
 impl Scene<'_> {
-    /// Does a row of light bodies lead from one that is pressed on to what nothing moves? If so: does anything in it come
-    /// nearer? Lists the row.
-    fn leads_to_fixed(
-        self,
-        pressed: Pressed,
-        row: &mut Vec<u32>,
-        seen: &mut Vec<u32>,
-    ) -> Option<bool> {
-        row.push(pressed.body);
-        seen.push(pressed.body);
-        let length = row.len();
+    /// Do rows of light bodies, no longer than `most`, lead from one that is pressed on to what nothing moves? If so: does
+    /// anything in them come nearer? Lists all that is in them: what one row leaves out would be gone through by another.
+    fn leads_to_fixed(self, pressed: Pressed, most: usize, found: &mut Rows) -> Option<bool> {
+        found.seen.push(pressed.body);
         let first = self.bodies.infos[pressed.body as usize].first_contact;
-        self.contacts.of_body(first).find_map(|(index, side)| {
-            row.truncate(length);
+        let mut leads = None;
+        for (index, side) in self.contacts.of_body(first) {
             let contact = &self.contacts.records[index as usize];
             let other = if side == 0 { contact.body_b } else { contact.body_a };
-            let normal = (self.predicted)(index).or_else(|| self.graph.normal(contact))?;
+            let Some(normal) = (self.predicted)(index).or_else(|| self.graph.normal(contact))
+            else {
+                continue;
+            };
             let direction = if side == 0 { normal } else { -normal };
             if direction.dot(pressed.direction) < BACKED {
-                return None;
+                continue;
             }
             let apart = self.bodies.velocity(other) - self.bodies.velocity(pressed.body);
             let coming = pressed.coming || apart.dot(direction) < -COMING * self.length_unit;
             let inverse_mass = self.bodies.inverse_masses(other).0;
-            if inverse_mass == 0.0 {
-                return Some(coming);
-            }
             let light = inverse_mass > pressed.by && is_uneven(inverse_mass, pressed.by);
-            let goes_on = light && length < LONGEST && seen.len() < MOST_SEEN;
-            let next = Pressed { body: other, direction, coming, ..pressed };
-            (goes_on && !seen.contains(&other)).then(|| self.leads_to_fixed(next, row, seen))?
-        })
+            if inverse_mass == 0.0 || found.lead.contains(&other) {
+                leads = leads.max(Some(coming));
+            } else if light && found.goes_on(other, most) {
+                let next = Pressed { body: other, direction, coming, ..pressed };
+                leads = leads.max(self.leads_to_fixed(next, most - 1, found));
+            }
+        }
+        if leads.is_some() {
+            found.lead.push(pressed.body);
+        }
+        leads
+    }
+}
+
+impl Rows {
+    /// May the search go on to a body?
+    fn goes_on(&self, body: u32, most: usize) -> bool {
+        most > 1 && self.seen.len() < MOST_SEEN && !self.seen.contains(&body)
     }
 }
