@@ -195,16 +195,13 @@ fn planks_of_a_bridge_keep_their_loads_out() {
     assert!(deep == 0, "{deep} of 40: {worst:.2?}");
 }
 
-/// A shower of boxes and balls that bounce, at up to 20 m/s: what is hit hits others within the step. In 47 of 200
-/// something went deeper than 3 cm while hits were handed on as they were listed, and no further than one
-/// alone throws; now in 25, still too many.
-#[test]
-fn what_is_hit_and_hits_within_a_step_stays_out() {
+/// How many of 200 showers of boxes and balls that bounce go deeper than 3 cm into anything, on a ground of some restitution.
+fn deep_showers(ground: f32) -> usize {
     let mut random = Random::new(15);
-    let mut worst = Vec::new();
+    let mut deep = 0;
     for _ in 0..200 {
         let mut world = world();
-        let ground = ShapeDef::new(rect(100.0, 1.0)).restitution(0.5);
+        let ground = ShapeDef::new(rect(100.0, 1.0)).restitution(ground);
         let ground = RigidBody::fixed().position(Vec2::new(0.0, -1.0)).shape(ground);
         world.add_body(ground).expect("a floor");
         for k in 0..12 {
@@ -215,8 +212,22 @@ fn what_is_hit_and_hits_within_a_step_stays_out() {
             let body = RigidBody::dynamic().position(place).shape(shape.restitution(0.5));
             world.add_body(body).expect("what falls");
         }
-        worst.push(deepest(&mut world, 180));
+        deep += usize::from(deepest(&mut world, 180) > 0.03);
     }
-    let deep = worst.iter().filter(|&&depth| depth > 0.03).count();
-    assert!(deep <= 30, "{deep} of 200: {worst:.3?}");
+    deep
+}
+
+/// At up to 20 m/s what is hit hits others within the step. It was 47 while hits were handed on as they were listed, and no
+/// further than one alone throws; now it is 25, still too many.
+#[test]
+fn what_is_hit_and_hits_within_a_step_stays_out() {
+    let deep = deep_showers(0.5);
+    assert!(deep <= 30, "{deep} of 200");
+}
+
+/// What lies on a corner and is hit comes down on the other within the step: 81 before that was foreseen, now 20.
+#[test]
+fn what_is_hit_on_one_corner_does_not_sink_with_the_other() {
+    let deep = deep_showers(0.0);
+    assert!(deep <= 25, "{deep} of 200");
 }

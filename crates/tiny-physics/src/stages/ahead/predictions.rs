@@ -350,11 +350,15 @@ impl Predictions {
         }
     }
 
-    /// The same, as far off its way as it is looked for.
+    /// Is a body known to be hit in this step?
+    fn is_struck(&self, body: u32) -> bool {
+        self.course_places[body as usize] > 0
+    }
+
+    /// How it moves, as far off its way as it is looked for.
     fn far_course(&self, scene: Scene<'_>, body: u32) -> Course {
         let course = self.course(scene, body);
-        let is_hit = self.course_places[body as usize] > 0;
-        if is_hit { course.amiss(scene.bodies, scene.dt) } else { course }
+        if self.is_struck(body) { course.amiss(scene.bodies, scene.dt) } else { course }
     }
 
     /// Lists the bodies that hits have taken off their ways since they were last looked at.
@@ -526,7 +530,9 @@ impl Look<'_> {
         let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
         let touches = self.scene.graph.touches(contact);
         if touches && let Some(constraint) = bucket.constraints.get(block) {
-            return Some(touching_hit(index, constraint, lane));
+            let hit = touching_hit(index, constraint, lane);
+            let prediction = self.other_point(contact, constraint, lane);
+            return Some(Hit { prediction, ..hit });
         }
         let meeting = self.meeting(contact);
         if !meeting.comes_near() {
@@ -538,7 +544,7 @@ impl Look<'_> {
             return (manifold.count > 0)
                 .then(|| meeting.predict(&manifold, 0.0).hit(index, self.near()));
         }
-        if [a, b].iter().any(|record| record.one_way.is_some() || record.link.is_some()) {
+        if meeting.is_special() {
             return None;
         }
         let ([way_a, way_b], slop) = (&meeting.sweeps, LINEAR_SLOP * self.length_unit());
@@ -549,6 +555,27 @@ impl Look<'_> {
         let manifold = self.correct(contact, &meeting, toi.fraction)?;
         let prediction = meeting.predict(&manifold, toi.fraction);
         Some(Hit { prediction: Some(prediction), ..prediction.hit(index, self.near()) })
+    }
+
+    /// A contact that touches at one point, with the other: hits may turn a body so that this comes down in the step.
+    fn other_point(
+        &self,
+        contact: &Contact,
+        constraint: &ConstraintBlock,
+        lane: usize,
+    ) -> Option<Prediction> {
+        let both = constraint.points.iter().all(|point| point.normal_mass[lane] > 0.0);
+        let struck =
+            [contact.body_a, contact.body_b].iter().any(|&body| self.known.is_struck(body));
+        if both || !struck {
+            return None;
+        }
+        let meeting = self.meeting(contact);
+        if meeting.is_special() {
+            return None;
+        }
+        let manifold = self.correct(contact, &meeting, 0.0)?;
+        (manifold.count == 2).then(|| meeting.predict(&manifold, 0.0))
     }
 
     fn reach(&self) -> f32 {
@@ -607,6 +634,11 @@ impl Look<'_> {
 }
 
 impl Meeting<'_> {
+    /// Is one of the shapes one-way or a link of a chain? They have rules of their own.
+    fn is_special(&self) -> bool {
+        self.shapes.iter().any(|record| record.one_way.is_some() || record.link.is_some())
+    }
+
     /// In the frame of shape A.
     fn manifold(&self, fraction: f32, reach: f32) -> Manifold {
         let [frame_a, frame_b] = self.sweeps.map(|sweep| sweep.at(fraction));
