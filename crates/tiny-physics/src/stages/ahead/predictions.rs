@@ -564,6 +564,9 @@ impl Look<'_> {
         constraint: &ConstraintBlock,
         lane: usize,
     ) -> Option<Prediction> {
+        if contact.class.max_points() < 2 {
+            return None;
+        }
         let both = constraint.points.iter().all(|point| point.normal_mass[lane] > 0.0);
         let struck =
             [contact.body_a, contact.body_b].iter().any(|&body| self.known.is_struck(body));
