@@ -184,6 +184,23 @@ pub(crate) struct Blocks<'a> {
     pub(crate) surfaces: &'a mut [SurfaceBlock],
 }
 
+impl Bucket {
+    /// Some of its blocks.
+    #[inline]
+    pub(super) fn blocks(&mut self, range: Range<usize>) -> Blocks<'_> {
+        let Self { contacts, manifolds, heads, constraints, surfaces } = self;
+        let end = contacts.len().min(range.end * BLOCK);
+        let solved = if constraints.is_empty() { 0..0 } else { range.clone() };
+        Blocks {
+            contacts: &contacts[range.start * BLOCK..end],
+            manifolds: &mut manifolds[range.clone()],
+            heads: &mut heads[range],
+            constraints: &mut constraints[solved.clone()],
+            surfaces: &mut surfaces[solved],
+        }
+    }
+}
+
 /// A bucket, shared between members of the team.
 #[derive(Clone, Copy)]
 pub(super) struct Shared<'a> {

@@ -198,13 +198,15 @@ impl JointColour {
         /// Blocks that one member of the team works on at a time.
         const RUN: usize = 4;
         let alone = team.member_count() == 1 || self.count() <= RUN * BLOCK;
-        let length = if alone { usize::MAX } else { RUN };
         macro_rules! share_out {
             (() $($bucket:ident $class:ident $block:ident),*) => {
-                $(if !self.$bucket.blocks.is_empty() {
-                    let JointBucket { joints, blocks, .. } = &mut self.$bucket;
-                    team.for_each_chunk_mut(blocks, length, |chunk, blocks| {
-                        let left = joints.len() - chunk * length * BLOCK;
+                $(let JointBucket { joints, blocks, .. } = &mut self.$bucket;
+                if blocks.is_empty() {
+                } else if alone {
+                    work(JointBlocks::$class(blocks), joints.len());
+                } else {
+                    team.for_each_chunk_mut(blocks, RUN, |chunk, blocks| {
+                        let left = joints.len() - chunk * RUN * BLOCK;
                         let count = left.min(blocks.len() * BLOCK);
                         work(JointBlocks::$class(blocks), count);
                     });
@@ -263,16 +265,16 @@ impl JointGraph {
         JointPlaces { colours: start..overflow, overflow: overflow..trees, trees: trees..end }
     }
 
-    /// The joints that are solved in lanes, in that order, and whether they are the overflow, in which they may not be
-    /// worked on at once.
+    /// The joints that are solved in lanes, in that order: the overflow, which may not be worked on at once, and the
+    /// colours.
     pub(crate) fn in_lanes(
         &mut self,
         places: &JointPlaces,
-    ) -> impl Iterator<Item = (bool, &mut JointColour)> {
+    ) -> (&mut [JointColour], &mut [JointColour]) {
         let JointPlaces { colours, overflow, .. } = places;
         let list = &mut self.colours.list_mut()[colours.start..overflow.end];
-        let (colours, last) = list.split_at_mut(colours.len());
-        last.iter_mut().map(|c| (true, c)).chain(colours.iter_mut().map(|c| (false, c)))
+        let (colours, overflow) = list.split_at_mut(colours.len());
+        (overflow, colours)
     }
 
     /// All joints of a pace.

@@ -165,15 +165,15 @@ impl Graph {
         work: impl Fn(PairClass, Blocks<'_>) + Sync,
     ) {
         let PlaceRuns { runs, chunk, .. } = *stage;
-        let buckets = &mut self.buckets.list_mut()[stage.buckets.clone()];
-        let first = stage.buckets.start;
+        let buckets = self.buckets.list_mut();
         if team.member_count() == 1 || runs.len() <= chunk {
             for run in runs {
-                let bucket = Shared::new(&mut buckets[run.bucket - first]);
-                work(run.class, bucket.blocks(run.blocks.clone()));
+                work(run.class, buckets[run.bucket].blocks(run.blocks.clone()));
             }
             return;
         }
+        let first = stage.buckets.start;
+        let buckets = &mut buckets[stage.buckets.clone()];
         let mut buckets = buckets.iter_mut().map(Shared::new);
         let buckets: [_; PairClass::COUNT] = core::array::from_fn(|_| buckets.next());
         team.for_each_chunk(runs.len(), chunk, |range| {

@@ -136,11 +136,11 @@ impl Memory {
         let is_here =
             |body| bodies.is_solved(body) && usize::from(bodies.infos[body as usize].pace) == pace;
         sets.reset(bodies.infos.len(), listed.iter().copied());
-        for ((a, b), _) in touching().chain(joined()) {
+        touching().chain(joined()).for_each(|((a, b), _)| {
             if is_here(a) && is_here(b) {
                 sets.join(a, b);
             }
-        }
+        });
         numbers.resize(bodies.infos.len(), NULL);
         listed.iter().for_each(|&body| numbers[body as usize] = NULL);
         islands.clear();
@@ -154,10 +154,10 @@ impl Memory {
             }
             members.push((body, *number));
         }
-        for ((a, b), drives) in touching().chain(joined()) {
+        touching().chain(joined()).for_each(|((a, b), drives)| {
             let (mover, body) = if is_here(a) { (b, a) } else { (a, b) };
             if !is_here(body) {
-                continue;
+                return;
             }
             let island = &mut islands[numbers[sets.root(body) as usize] as usize];
             island.driven |= drives;
@@ -167,7 +167,7 @@ impl Memory {
                 island.driven |= row[Slot::W] != 0.0 || island.ground.is_some_and(|g| g != ground);
                 island.ground = Some(ground);
             }
-        }
+        });
         members.retain(|&(_, island)| !islands[island as usize].driven);
         let is_free = |&&(_, island): &&(u32, u32)| islands[island as usize].ground.is_none();
         free.clear();

@@ -295,9 +295,8 @@ fn prepare_joints(
     let prepare = |blocks: JointBlocks<'_>, count| {
         joint_solver::prepare(level, poses, substep, blocks, count);
     };
-    for (_, lanes) in joint_graph.in_lanes(places) {
-        lanes.for_each_run(team, prepare);
-    }
+    let (overflow, colours) = joint_graph.in_lanes(places);
+    overflow.iter_mut().chain(colours).for_each(|lanes| lanes.for_each_run(team, prepare));
     if let Some((lanes, trees)) = joint_graph.in_trees(places) {
         lanes.for_each_run(team, prepare);
         joint_solver::trees::prepare(team, pace, trees, joints, &bodies.motions);
@@ -319,16 +318,16 @@ fn run_joints(
         return;
     }
     let rows = SharedRows::new(&mut bodies.rows);
-    for (in_order, lanes) in joint_graph.in_lanes(places) {
-        if in_order {
-            lanes.for_each_run(&Team::alone(), |blocks, _| {
-                joint_solver::run_one_by_one(level, pass, substep, rows, blocks);
-            });
-        } else {
-            lanes.for_each_run(team, |blocks, count| {
-                joint_solver::run(level, pass, substep, rows, blocks, count);
-            });
-        }
+    let (overflow, colours) = joint_graph.in_lanes(places);
+    for lanes in overflow {
+        lanes.for_each_run(&Team::alone(), |blocks, _| {
+            joint_solver::run_one_by_one(level, pass, substep, rows, blocks);
+        });
+    }
+    for lanes in colours {
+        lanes.for_each_run(team, |blocks, count| {
+            joint_solver::run(level, pass, substep, rows, blocks, count);
+        });
     }
     let Some((lanes, trees)) = joint_graph.in_trees(places) else { return };
     joint_solver::trees::run(team, level, pace, pass, substep, rows, (lanes, trees));

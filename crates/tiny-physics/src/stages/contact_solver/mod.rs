@@ -121,9 +121,10 @@ pub(crate) fn run(
     schedule: &Schedule,
 ) {
     for stage in schedule.stages() {
+        let in_order = is_overflow(stage.place);
         graph.for_each_run(team, &stage, |class, blocks| {
             let (work, points) = (RunPass { pass, parameters, rows, blocks }, class.max_points());
-            if is_overflow(stage.place) {
+            if in_order {
                 work.one_by_one(level, points);
             } else {
                 work.run(level, points);

@@ -108,7 +108,8 @@ impl AxisLanes {
     /// Some lane has a spring, motor or limit.
     #[inline(always)]
     pub(super) fn any_used(&self) -> bool {
-        self.used.iter().any(|&used| used != 0.0)
+        // All of them, in lanes.
+        self.used.iter().fold(false, |any, &used| any | (used != 0.0))
     }
 
     #[inline(always)]

@@ -3,6 +3,7 @@
 use crate::describe::{JointDef, Spring};
 use crate::dynamics::SoftLanes;
 use crate::stages::contact_solver::Softness;
+use core::cell::Cell;
 
 /// `push`, `mass_scale`, `impulse_scale` of [`SoftLanes`].
 pub(super) type Coefficients = [f32; 3];
@@ -25,6 +26,8 @@ pub(super) struct Rates {
     /// Substep length, seconds.
     pub(super) h: f32,
     rigid: Coefficients,
+    /// The spring that was asked for last: neighbours are often alike, and exponentials are dear.
+    last: Cell<Option<(Spring, Coefficients)>>,
 }
 
 impl Rates {
@@ -33,7 +36,7 @@ impl Rates {
             hertz: least(RIGID_HERTZ, MAX_RATE_FRACTION / h),
             damping_ratio: RIGID_DAMPING_RATIO,
         };
-        Self { h, rigid: softness(spring, h) }
+        Self { h, rigid: softness(spring, h), last: Cell::new(None) }
     }
 
     /// The same for joints of which one body does not move: no other joint can be in their way at that
@@ -41,7 +44,7 @@ impl Rates {
     pub(super) fn anchored(h: f32) -> Self {
         let spring =
             Spring { hertz: ANCHORED_RATE_FRACTION / h, damping_ratio: RIGID_DAMPING_RATIO };
-        Self { h, rigid: softness(spring, h) }
+        Self { h, rigid: softness(spring, h), last: Cell::new(None) }
     }
 
     /// Of what a joint holds rigid.
@@ -54,7 +57,15 @@ impl Rates {
 
     /// Of a spring; zeros for none.
     pub(super) fn spring(&self, spring: Option<Spring>) -> Coefficients {
-        spring.map_or([0.0; 3], |spring| coefficients(spring, self.h))
+        let Some(spring) = spring else { return [0.0; 3] };
+        match self.last.get() {
+            Some((last, known)) if last == spring => known,
+            _ => {
+                let found = coefficients(spring, self.h);
+                self.last.set(Some((spring, found)));
+                found
+            }
+        }
     }
 
     /// Writes a rigid part or, if there is one, the spring in its place.
