@@ -90,7 +90,7 @@ fn what_is_squeezed_by_far_more_is_not_passed_through() {
 }
 
 /// A heavy body falls on a row of three to fourteen cans, one on the other. Where rows were followed for four bodies, 32 of
-/// 40 were gone through. One may be: a row that bends lets go sideways.
+/// 40 were gone through.
 #[test]
 fn what_is_squeezed_in_a_row_is_not_passed_through() {
     let mut random = Random::new(14);
@@ -111,7 +111,7 @@ fn what_is_squeezed_in_a_row_is_not_passed_through() {
         worst.push(deepest(&mut world, 60) / half);
     }
     let deep = worst.iter().filter(|&&depth| depth > 1.0).count();
-    assert!(deep <= 1, "{deep} of 40: {worst:.2?}");
+    assert!(deep == 0, "{deep} of 40: {worst:.2?}");
 }
 
 /// So fast that it would reach the ground in the same step: that hit is not the one that counts.
@@ -218,11 +218,11 @@ fn deep_showers(ground: f32) -> usize {
 }
 
 /// At up to 20 m/s what is hit hits others within the step. It was 47 while hits were handed on as they were listed, and no
-/// further than one alone throws; now it is 25, still too many.
+/// further than one alone throws; now it is 17, still too many.
 #[test]
 fn what_is_hit_and_hits_within_a_step_stays_out() {
     let deep = deep_showers(0.5);
-    assert!(deep <= 30, "{deep} of 200");
+    assert!(deep <= 25, "{deep} of 200");
 }
 
 /// What lies on a corner and is hit comes down on the other within the step: 81 before that was foreseen, now 20.
@@ -230,4 +230,42 @@ fn what_is_hit_and_hits_within_a_step_stays_out() {
 fn what_is_hit_on_one_corner_does_not_sink_with_the_other() {
     let deep = deep_showers(0.0);
     assert!(deep <= 25, "{deep} of 200");
+}
+
+/// Bodies of one shape in five rows and columns that fly at as many of their kind.
+fn crowds(random: &mut Random, half: f32) -> World {
+    let mut world = World::new(Vec2::ZERO);
+    let speed = random.range(10.0, 60.0);
+    let (pitch, shift) = (half * random.range(2.02, 2.5), random.range(0.0, 0.5));
+    let restitution = if random.range(0.0, 1.0) < 0.3 { 0.5 } else { 0.0 };
+    let shape = match random.range(0.0, 4.0) as u32 {
+        0 | 1 => rect(half, half),
+        2 => rect(half, 0.4 * half),
+        _ => circle(half),
+    };
+    for (side, i) in [-1.0, 1.0].into_iter().flat_map(|side| (0..25).map(move |i| (side, i))) {
+        let (column, row) = ((i % 5) as f32, (i / 5) as f32);
+        let x = side * (1.5 + column + random.range(0.0, 0.05));
+        let y = row + shift * side + random.range(0.0, 0.05);
+        let body = RigidBody::dynamic().position(Vec2::new(x, y) * pitch);
+        let body = body.velocity(Vec2::new(-side * speed, 0.0)).restitution(restitution);
+        world.add_body(body.shape(shape)).expect("one of a crowd");
+    }
+    world
+}
+
+/// In a crowd each hit throws bodies into others. Before hard hits were solved more often and hits of a step put each other
+/// forward, 24 of 60 went deeper than a fifth of a body;
+/// now it is 5, still too many.
+#[test]
+fn crowds_that_meet_stay_out_of_each_other() {
+    let mut random = Random::new(16);
+    let shares: Vec<_> = (0..60)
+        .map(|_| {
+            let half = random.range(0.2, 0.7);
+            deepest(&mut crowds(&mut random, half), 60) / (2.0 * half)
+        })
+        .collect();
+    let deep = shares.iter().filter(|&&share| share > 0.2).count();
+    assert!(deep <= 8, "{deep} of 60: {shares:.2?}");
 }

@@ -112,10 +112,19 @@ fn stay_apart(a: &Moving<'_>, b: &Moving<'_>, goal: Goal) -> bool {
 fn widest(core: &Core, other: &Core) -> (Vec2, f32) {
     let mut best = (Vec2::ZERO, 0.0);
     for i in 0..core.edge_count() {
-        let (normal, start) = (core.normal(i), core.points[i]);
-        let heights = other.points().iter().map(|point| normal.dot(*point - start));
-        let gap = heights.fold(f32::INFINITY, |least, gap| if gap < least { gap } else { least });
-        best = if gap > best.1 { (normal, gap) } else { best };
+        let (start, end) = core.edge(i);
+        let out = -(end - start).perp();
+        let mut least = f32::INFINITY;
+        for point in other.points() {
+            let height = out.dot(*point - start);
+            least = if height < least { height } else { least };
+            if least <= 0.0 {
+                break;
+            }
+        }
+        if least > 0.0 && least > best.1 * out.length() {
+            best = (out / out.length(), least / out.length());
+        }
     }
     best
 }

@@ -305,7 +305,8 @@ impl World {
             let (custom, reach, ways) = (self.hooks.pair_filter(), settings.1, &ways.of_shapes);
             let partners =
                 pairs::Partners { shapes, bodies, contacts, joints, custom, reach, ways };
-            predictions.look_again(team, (broad_phase, graph), &partners, &mut search.pairs);
+            let found = &mut search.pairs;
+            predictions.look_again(team, (broad_phase, graph), &partners, lengths.dt, found);
             self.add_candidates(team);
         }
         let Self { state: State { contacts, graph, .. }, scratch, .. } = self;
@@ -413,7 +414,7 @@ impl World {
         let Self { settings, gravity, level, .. } = *self;
         let rules = solve::Rules { settings: &settings, gravity, level, lengths };
         let Scratch { solver, predictions, .. } = &mut self.scratch;
-        solver.run(team, &mut self.state.solved(), rules, &predictions.squeezed.hit);
+        solver.run(team, &mut self.state.solved(), rules, predictions);
         self.stats.withheld_energy = self.scratch.solver.passivity.withheld;
         self.collect_hits();
         self.break_joints();

@@ -9,8 +9,10 @@
 //!
 //! What a hit stops or throws may meet others that it would not have met by its old motion: a crowd behind its first
 //! rank, a pile into which something is shot. So each hit hands on its impulse, as one hit alone would, and the
-//! contacts of bodies that this makes go elsewhere are looked at again, in rounds.
+//! contacts of bodies that this makes go elsewhere are looked at again, in rounds; a hit that others make come sooner
+//! pushes for longer. The contacts of hard hits are solved more often in the substeps.
 
+mod courses;
 mod predictions;
 mod squeezed;
 

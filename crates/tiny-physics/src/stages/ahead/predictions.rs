@@ -1,9 +1,10 @@
 //! Contacts of the moments of impact; see the [stage](super).
 
+use super::courses::{Course, Courses, Impact};
 use super::squeezed::{self, Pressed, Squeezed};
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{
-    Bodies, ConstraintBlock, Contact, Contacts, Graph, Place, ShapeRecord, Shapes, Slot,
+    Bodies, ConstraintBlock, Contact, Contacts, Graph, Place, ShapeRecord, Shapes,
 };
 use crate::footprint::footprint;
 use crate::geometry::manifold::{self, Manifold};
@@ -11,7 +12,7 @@ use crate::geometry::{LINEAR_SLOP, Sweep, ToiState, impact_within};
 use crate::math::{Rot, Transform, Vec2};
 use crate::simd::BLOCK;
 use crate::stages::ahead::{Found, HARMLESS, SLIGHT, Ways};
-use crate::stages::boxes::{self, Way};
+use crate::stages::boxes;
 use crate::stages::narrow_context::Context;
 use crate::stages::pairs::Partners;
 use crate::stages::surfaces::{self, LanePoints};
@@ -23,15 +24,14 @@ const ROUNDS: usize = 6;
 const CHUNK: usize = 32;
 /// What touches already is looked at again only if its body goes into it: so much of its way is along the normal.
 const HEAD_ON: f32 = 0.7;
-/// What hits took off its way is looked for so many times as far off: one hit alone, in time, is handed on, where the
-/// solver lets all of a step hit at once. At 1, twice as many of 3,000 heaps had overlaps of more than 3 cm.
-const AMISS: f32 = 1.5;
 /// Points whose separations differ by less than this are hit together, metres; multiplied by the length unit.
 const NEAR: f32 = 0.02;
 /// So many bodies that were taken off their ways may be looked at again in a step, and one in [`SHARE`] of all: those
 /// first that were taken the furthest. The others have to wait for the next step.
-const BUDGET: usize = 128;
+const BUDGET: usize = 256;
 const SHARE: usize = 32;
+/// A hit is hard if its bodies would go so far into each other in the step: a part of the thinner one's half thickness.
+const HARD: f32 = 0.2;
 
 /// A contact as it will be at the time of impact, seen from the start of the step.
 #[derive(Clone, Copy, Debug)]
@@ -47,22 +47,8 @@ pub(crate) struct Prediction {
     pub(crate) id: [f32; 2],
     /// When, as a part of the step.
     fraction: f32,
-}
-
-/// How a body moves in the step, as far as hits are known.
-#[derive(Clone, Copy, Debug)]
-struct Course {
-    body: u32,
-    /// Motion and turn over the whole step, metres and radians.
-    motion: Vec2,
-    turn: f32,
-    /// Velocities after its hits.
-    velocity: Vec2,
-    spin: f32,
-    /// How far hits have taken it off its way since it was last looked at, metres.
-    astray: f32,
-    /// Of the heaviest that presses it on, else its own.
-    inverse_mass: f32,
+    /// What it has pushed so far, as hits are handed on, N s.
+    pushed: [f32; 2],
 }
 
 /// A hit: where, and how soon.
@@ -89,8 +75,6 @@ struct Struck {
     body: u32,
     /// How far, in half thicknesses of its own.
     astray: f32,
-    /// Where it goes in the step now, metres.
-    motion: Vec2,
 }
 
 /// The predictions of a step.
@@ -102,12 +86,12 @@ pub(crate) struct Predictions {
     pub(crate) contacts: Vec<u32>,
     /// Those of them that did not touch before.
     pub(crate) fresh: Vec<u32>,
+    /// Those of hard hits, some more than once: they are solved more often.
+    pub(crate) hard: Vec<u32>,
     list: Vec<Prediction>,
     /// By contact: place in `list`, plus 1.
     places: Vec<u32>,
-    courses: Vec<Course>,
-    /// By body: place in `courses`, plus 1.
-    course_places: Vec<u32>,
+    courses: Courses,
     /// What the last round took off its way.
     struck: Vec<Struck>,
     pub(crate) squeezed: Squeezed,
@@ -122,9 +106,19 @@ pub(crate) struct Predictions {
 }
 
 footprint!(Again { candidates, pairs });
-footprint!(Predictions { candidates, contacts, fresh, list, places, courses, course_places, struck, squeezed, order, reached } each { found, looks } none {
-    rounds, budget
-});
+footprint!(Predictions {
+    candidates,
+    contacts,
+    fresh,
+    hard,
+    list,
+    places,
+    courses,
+    struck,
+    squeezed,
+    order,
+    reached
+} each { found, looks } none { rounds, budget });
 
 /// What predictions are made from.
 #[derive(Clone, Copy)]
@@ -146,10 +140,10 @@ impl Predictions {
         self.contacts.drain(..).for_each(|contact| self.places[contact as usize] = 0);
         self.list.clear();
         self.fresh.clear();
+        self.hard.clear();
         self.squeezed.clear();
         (self.rounds, self.budget) = (0, 0);
-        let courses = self.courses.drain(..);
-        courses.for_each(|course| self.course_places[course.body as usize] = 0);
+        self.courses.clear();
     }
 
     /// That of a contact.
@@ -161,7 +155,7 @@ impl Predictions {
 
     /// Bodies that were hit, as far as is known.
     pub(crate) fn bodies(&self) -> impl Iterator<Item = u32> + '_ {
-        self.courses.iter().map(|course| course.body)
+        self.courses.list.iter().map(|course| course.body)
     }
 
     /// Are there none?
@@ -179,7 +173,7 @@ impl Predictions {
             self.budget = BUDGET + scene.bodies.awake.len() / SHARE;
         }
         self.places.resize(scene.contacts.records.len(), 0);
-        self.course_places.resize(scene.bodies.rows.len(), 0);
+        self.courses.resize(scene.bodies.rows.len());
         let mut found = core::mem::take(&mut self.found);
         let look = Look { scene, known: self };
         let chunks = team.map_chunks(self.candidates.len(), CHUNK, &mut found, |range, found| {
@@ -209,9 +203,8 @@ impl Predictions {
         found.clear();
         boxes::share(shapes, broad_phase, |boxes| {
             for struck in &self.struck {
-                let course = &self.courses[self.course_places[struck.body as usize] as usize - 1];
                 let first_shape = bodies.infos[struck.body as usize].first_shape;
-                let way = course.amiss(bodies, dt).way(bodies);
+                let way = self.courses.far(bodies, dt, struck.body).way(bodies);
                 boxes.reach(first_shape, &way, &mut found.moved, &mut found.fast);
             }
         });
@@ -226,13 +219,16 @@ impl Predictions {
         team: &Team,
         (broad_phase, graph): (&BroadPhase, &Graph),
         partners: &Partners<'_>,
+        dt: f32,
         pairs: &mut Vec<(u32, u32)>,
     ) {
         let mut looks = core::mem::take(&mut self.looks);
+        let motion_of = |body: u32| self.courses.of(partners.bodies, dt, body).motion;
         let chunks = team.map_chunks(self.struck.len(), CHUNK, &mut looks, |range, look| {
             look.clear();
-            let struck = self.struck[range].iter();
-            struck.for_each(|&struck| look.add(struck, (broad_phase, graph), partners));
+            for &struck in &self.struck[range] {
+                look.add(struck, (broad_phase, graph), partners, &motion_of);
+            }
         });
         pairs.clear();
         for look in chunks.iter() {
@@ -258,21 +254,20 @@ impl Predictions {
         // What bounces is reflected at the start of the step.
         let fraction = if contact.restitution > 0.0 { 0.0 } else { hit.fraction };
         let rest = (1.0 - fraction) * scene.dt;
-        let mut old = bodies.map(|body| self.course(scene, body));
+        let mut old = bodies.map(|body| self.courses.of(scene.bodies, scene.dt, body));
         self.note_squeezed(scene, hit, &mut old);
-        let mut impact = Impact {
-            courses: old,
-            bodies: bodies.map(|body| {
-                let row = &scene.bodies.rows[body as usize];
-                let reach = scene.bodies.infos[body as usize].max_extent;
-                [row[Slot::INV_MASS], row[Slot::INV_INERTIA], reach]
-            }),
-            rest,
-        };
-        for arms in hit.arms {
+        let mut impact = Impact::new(scene.bodies, old, rest);
+        let half = bodies.map(|body| scene.bodies.infos[body as usize].min_extent);
+        let thinner = if half[0] < half[1] { half[0] } else { half[1] };
+        let mut pushed = self.put_forward(hit, fraction, scene.dt, &mut impact);
+        for (arms, pushed) in hit.arms.into_iter().zip(&mut pushed) {
             let (speed, mass) = impact.approach(hit.normal, arms.normal);
+            if speed * scene.dt < -HARD * thinner {
+                self.hard.push(hit.contact);
+            }
             if speed < 0.0 {
                 let impulse = -(1.0 + contact.restitution) * speed * mass;
+                *pushed += impulse;
                 impact.push(impulse, hit.normal, arms.normal);
                 let tangent = -hit.normal.perp();
                 let (slip, mass) = impact.approach(tangent, arms.tangent);
@@ -280,11 +275,31 @@ impl Predictions {
                 impact.push((-slip * mass).max(-limit).min(limit), tangent, arms.tangent);
             }
         }
+        if let Some(known) = self.known_mut(hit.contact) {
+            known.pushed = pushed;
+        }
         for (old, course) in old.iter().zip(impact.courses) {
             if course.astray > old.astray {
-                self.keep(course);
+                self.courses.keep(course);
             }
         }
+    }
+
+    /// A known hit that comes sooner than was thought: what it has pushed so far moves bodies for longer. Says what that is.
+    fn put_forward(&mut self, hit: &Hit, fraction: f32, dt: f32, impact: &mut Impact) -> [f32; 2] {
+        let Some(known) = self.known_mut(hit.contact) else { return [0.0; 2] };
+        let sooner = known.fraction - fraction;
+        if sooner > 0.0 {
+            known.fraction = fraction;
+            for (arms, impulse) in hit.arms.iter().zip(known.pushed) {
+                impact.shift(impulse, hit.normal, arms.normal, sooner * dt);
+            }
+        }
+        known.pushed
+    }
+
+    fn known_mut(&mut self, contact: u32) -> Option<&mut Prediction> {
+        self.list.get_mut(self.places[contact as usize].wrapping_sub(1) as usize)
     }
 
     /// Notes a light body that a heavy one hits, or that is in it already; it hits others as the heavy one would.
@@ -332,35 +347,6 @@ impl Predictions {
         self.squeezed.weighed.len()
     }
 
-    fn keep(&mut self, course: Course) {
-        let place = &mut self.course_places[course.body as usize];
-        if *place == 0 {
-            self.courses.push(course);
-            *place = self.courses.len() as u32;
-        } else {
-            self.courses[*place as usize - 1] = course;
-        }
-    }
-
-    /// How a body moves in this step.
-    fn course(&self, scene: Scene<'_>, body: u32) -> Course {
-        match self.course_places[body as usize] {
-            0 => Course::of(scene.bodies, scene.dt, body),
-            place => self.courses[place as usize - 1],
-        }
-    }
-
-    /// Is a body known to be hit in this step?
-    fn is_struck(&self, body: u32) -> bool {
-        self.course_places[body as usize] > 0
-    }
-
-    /// How it moves, as far off its way as it is looked for.
-    fn far_course(&self, scene: Scene<'_>, body: u32) -> Course {
-        let course = self.course(scene, body);
-        if self.is_struck(body) { course.amiss(scene.bodies, scene.dt) } else { course }
-    }
-
     /// Lists the bodies that hits have taken off their ways since they were last looked at.
     fn list_struck(&mut self, bodies: &Bodies) {
         self.candidates.clear();
@@ -368,10 +354,10 @@ impl Predictions {
         if self.rounds == ROUNDS || self.budget == 0 {
             return;
         }
-        for course in &mut self.courses {
+        for course in &mut self.courses.list {
             let astray = course.astray / bodies.infos[course.body as usize].min_extent;
             if astray > HARMLESS {
-                self.struck.push(Struck { body: course.body, astray, motion: course.motion });
+                self.struck.push(Struck { body: course.body, astray });
                 course.astray = 0.0;
             }
         }
@@ -403,6 +389,7 @@ impl Again {
         struck: Struck,
         (broad_phase, graph): (&BroadPhase, &Graph),
         partners: &Partners<'_>,
+        motion_of: &impl Fn(u32) -> Vec2,
     ) {
         let Partners { bodies, shapes, contacts, .. } = *partners;
         let info = &bodies.infos[struck.body as usize];
@@ -410,7 +397,8 @@ impl Again {
             let contact = &contacts.records[index as usize];
             let near = || partners.come_near(contact.shape_a, contact.shape_b);
             // What touched a step ago may be apart by now.
-            if graph.touches(contact) { struck.goes_into(contact, graph) } else { near() }
+            let closes = || goes_in(contact, graph, motion_of);
+            if graph.touches(contact) { closes() } else { near() }
         };
         self.candidates.extend(contacts.of_body(info.first_contact).filter(meets).map(|of| of.0));
         for shape in shapes.of_body(info.first_shape) {
@@ -418,7 +406,7 @@ impl Again {
             let path = shapes.tight[shape as usize].swept(partners.ways[shape as usize]);
             for kind in [ProxyKind::Dynamic, ProxyKind::Static, ProxyKind::Kinematic] {
                 broad_phase.each_of(kind, &path, mask, |other| {
-                    if partners.come_near(shape, other) && partners.may_meet(shape, other) {
+                    if partners.may_meet(shape, other) && partners.come_near(shape, other) {
                         self.pairs.push((shape.min(other), shape.max(other)));
                     }
                 });
@@ -427,77 +415,12 @@ impl Again {
     }
 }
 
-impl Struck {
-    /// Does its way lead into the other body of a contact, as the constraint of the step's start says?
-    fn goes_into(&self, contact: &Contact, graph: &Graph) -> bool {
-        graph.normal(contact).is_none_or(|normal| {
-            let along = normal.dot(self.motion);
-            let into = if contact.body_a == self.body { along } else { -along };
-            into > HEAD_ON * self.motion.length()
-        })
-    }
-}
-
-/// Two bodies that hit each other, and how many seconds they go on afterwards.
-struct Impact {
-    courses: [Course; 2],
-    /// Inverse mass and inertia, and how far they reach from their centres of mass.
-    bodies: [[f32; 3]; 2],
-    rest: f32,
-}
-
-impl Impact {
-    /// How fast B leaves A along an axis, and the mass that an impulse along it moves: nothing where neither can move.
-    fn approach(&self, axis: Vec2, arms: [f32; 2]) -> (f32, f32) {
-        let [a, b] = [0, 1].map(|k| self.courses[k].speed_at(arms[k], axis));
-        let [give_a, give_b] = [0, 1].map(|k| {
-            let [inv_mass, inv_inertia, _] = self.bodies[k];
-            inv_mass + inv_inertia * arms[k] * arms[k]
-        });
-        let give = give_a + give_b;
-        (b - a, if give > 0.0 { 1.0 / give } else { 0.0 })
-    }
-
-    /// Gives B an impulse along an axis, and A the opposite one.
-    fn push(&mut self, impulse: f32, axis: Vec2, arms: [f32; 2]) {
-        for (k, impulse) in [-impulse, impulse].into_iter().enumerate() {
-            let ([inv_mass, inv_inertia, reach], course) = (self.bodies[k], &mut self.courses[k]);
-            let (velocity, spin) = (axis * (impulse * inv_mass), impulse * arms[k] * inv_inertia);
-            course.velocity += velocity;
-            course.spin += spin;
-            course.motion += velocity * self.rest;
-            course.turn += spin * self.rest;
-            course.astray += (velocity.length() + spin.abs() * reach) * self.rest;
-        }
-    }
-}
-
-impl Course {
-    /// That of a body that nothing hits.
-    fn of(bodies: &Bodies, dt: f32, body: u32) -> Self {
-        let row = &bodies.rows[body as usize];
-        let (velocity, spin) = (Vec2::new(row[Slot::VX], row[Slot::VY]), row[Slot::W]);
-        let (motion, turn) = (velocity * dt, spin * dt);
-        Self { body, motion, turn, velocity, spin, astray: 0.0, inverse_mass: row[Slot::INV_MASS] }
-    }
-
-    /// As far off the way as it is looked for, see [`AMISS`].
-    fn amiss(self, bodies: &Bodies, dt: f32) -> Self {
-        let first = Self::of(bodies, dt, self.body);
-        let motion = first.motion + (self.motion - first.motion) * AMISS;
-        let turn = first.turn + (self.turn - first.turn) * AMISS;
-        Self { motion, turn, ..self }
-    }
-
-    fn way(&self, bodies: &Bodies) -> Way {
-        let Self { body, motion, turn, .. } = *self;
-        Way { start: bodies.poses[body as usize], motion, turn }
-    }
-
-    /// Speed of a point along a normal.
-    fn speed_at(&self, arm: f32, normal: Vec2) -> f32 {
-        normal.dot(self.velocity) + self.spin * arm
-    }
+/// Do the ways of the bodies of a contact lead into each other, as the constraint of the step's start says?
+fn goes_in(contact: &Contact, graph: &Graph, motion_of: &impl Fn(u32) -> Vec2) -> bool {
+    graph.normal(contact).is_none_or(|normal| {
+        let motion = motion_of(contact.body_a) - motion_of(contact.body_b);
+        normal.dot(motion) > HEAD_ON * motion.length()
+    })
 }
 
 /// The search for a hit.
@@ -524,7 +447,7 @@ impl Look<'_> {
         let contact = &self.scene.contacts.records[index as usize];
         let Place::Graph { colour, slot } = contact.place else { return None };
         if let Some(known) = self.known.of(index) {
-            return Some(known.hit(index, self.near()));
+            return Some(self.known_hit(contact, index, known));
         }
         let bucket = self.scene.graph.bucket(colour.into(), contact.class);
         let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
@@ -557,6 +480,21 @@ impl Look<'_> {
         Some(Hit { prediction: Some(prediction), ..prediction.hit(index, self.near()) })
     }
 
+    /// One that is known already, perhaps sooner than it was thought: other hits may have stopped what ran away from it.
+    fn known_hit(&self, contact: &Contact, index: u32, known: &Prediction) -> Hit {
+        let [a, b] = [contact.body_a, contact.body_b]
+            .map(|body| self.known.courses.of(self.scene.bodies, self.scene.dt, body));
+        let hit = known.hit(index, self.near());
+        let closing = hit.arms.iter().map(|arms| {
+            let [on_a, on_b] = arms.normal;
+            -(hit.normal.dot(b.motion - a.motion) + b.turn * on_b - a.turn * on_a)
+        });
+        let closing = closing.fold(0.0, f32::max);
+        let apart = known.separation[0].min(known.separation[1]);
+        let fraction = if closing > 0.0 { (apart / closing).max(0.0) } else { 1.0 };
+        Hit { fraction: known.fraction.min(fraction), ..hit }
+    }
+
     /// A contact that touches at one point, with the other: hits may turn a body so that this comes down in the step.
     fn other_point(
         &self,
@@ -569,7 +507,7 @@ impl Look<'_> {
         }
         let both = constraint.points.iter().all(|point| point.normal_mass[lane] > 0.0);
         let struck =
-            [contact.body_a, contact.body_b].iter().any(|&body| self.known.is_struck(body));
+            [contact.body_a, contact.body_b].iter().any(|&body| self.known.courses.is_struck(body));
         if both || !struck {
             return None;
         }
@@ -594,11 +532,11 @@ impl Look<'_> {
     }
 
     fn meeting(&self, contact: &Contact) -> Meeting<'_> {
-        let Scene { bodies, shapes, .. } = self.scene;
+        let Scene { bodies, shapes, dt, .. } = self.scene;
         let [shape_a, shape_b] = [contact.shape_a, contact.shape_b];
         let shapes_of = [shape_a, shape_b].map(|shape| &shapes.records[shape as usize]);
         let both = [contact.body_a, contact.body_b];
-        let courses = both.map(|body| self.known.far_course(self.scene, body));
+        let courses = both.map(|body| self.known.courses.far(bodies, dt, body));
         let [pose_a, pose_b] = both.map(|body| bodies.poses[body as usize]);
         let between = pose_b.p.relative_to(pose_a.p);
         let way = courses[1].motion - courses[0].motion;
@@ -676,6 +614,7 @@ impl Meeting<'_> {
             separation: [f32::MAX; 2],
             id: [0.0; 2],
             fraction,
+            pushed: [0.0; 2],
         };
         for (k, point) in manifold.points().iter().enumerate() {
             let arm = frame.apply(point.point);
