@@ -14,8 +14,12 @@ use tiny_physics_scenes::Scene;
 const LIMIT: Duration = Duration::from_secs(120);
 /// Worlds that are tried for making one smaller.
 const TRIES: u32 = 60;
-/// Our cost counts as worse from this multiple of the best other's on: single runs are noisy.
+/// Our cost counts as worse from this multiple of the best other's on, and some milliseconds more.
 const DEAR: f64 = 2.0;
+const DEAR_BY: f64 = 5.0;
+/// A world in which ours is dear is played so many times more, and the least cost of each engine counts: times of a busy
+/// machine are noisy.
+const AGAIN: usize = 2;
 
 /// Options of `arena`.
 #[derive(Args)]
@@ -73,15 +77,11 @@ impl Arena {
     /// In what is ours worse in a world? `None` where it could not be played by all.
     fn judge(&self, scene: &Scene) -> Option<Vec<(String, f64, f64)>> {
         let Some(engines) = &self.engines else { return Some(self.alone(scene)) };
-        let answers = engines.each(&Task::Arena(Box::new(scene.clone())), LIMIT);
-        let mut found = answers.into_iter().map(|answer| match answer {
-            Ok(Answer::Arena(found)) => found,
-            _ => None,
-        });
-        let Some(ours) = found.next().flatten() else {
+        let found = play(engines, scene);
+        let Some(ours) = &found[0] else {
             return Some(vec![("crashed or took too long".into(), 1.0, 0.0)]);
         };
-        let others: Vec<Findings> = found.flatten().collect();
+        let others: Vec<Findings> = found[1..].iter().flatten().cloned().collect();
         if others.is_empty() {
             return None;
         }
@@ -89,9 +89,16 @@ impl Arena {
         worse.extend(
             ours.worse_than(&others).into_iter().map(|(name, a, b)| (name.to_owned(), a, b)),
         );
-        let cheapest = others.iter().map(|other| other.cost).fold(f64::INFINITY, f64::min);
-        if ours.cost > DEAR * cheapest + 5.0 {
-            worse.push(("cost".into(), ours.cost, cheapest));
+        let mut costs = cost(&found);
+        for _ in 0..AGAIN {
+            if is_dear(costs) {
+                let again = play(engines, scene);
+                let [ours, best] = cost(&again);
+                costs = [costs[0].min(ours), costs[1].min(best)];
+            }
+        }
+        if is_dear(costs) {
+            worse.push(("cost".into(), costs[0], costs[1]));
         }
         Some(worse)
     }
@@ -118,6 +125,28 @@ impl Arena {
             Err(why) => vec![(format!("unsound: {why}"), 1.0, 0.0)],
         }
     }
+}
+
+/// What each engine makes of a world, ours first; `None` for one that could not play it.
+fn play(engines: &Engines, scene: &Scene) -> Vec<Option<Findings>> {
+    let answers = engines.each(&Task::Arena(Box::new(scene.clone())), LIMIT);
+    let found = answers.into_iter().map(|answer| match answer {
+        Ok(Answer::Arena(found)) => found,
+        _ => None,
+    });
+    found.collect()
+}
+
+/// CPU time of ours and of the best other, milliseconds.
+fn cost(found: &[Option<Findings>]) -> [f64; 2] {
+    let least = |found: &[Option<Findings>]| {
+        found.iter().flatten().map(|found| found.cost).fold(f64::INFINITY, f64::min)
+    };
+    [least(&found[..1]), least(&found[1..])]
+}
+
+fn is_dear([ours, best]: [f64; 2]) -> bool {
+    ours > DEAR * best + DEAR_BY
 }
 
 /// Plays the worlds and prints those in which ours is worse, the smallest first.
