@@ -22,5 +22,6 @@ pub(crate) mod sensors;
 pub(crate) mod sleep;
 pub(crate) mod solve;
 pub(crate) mod surfaces;
+pub(crate) mod sway;
 pub(crate) mod touching;
 pub(crate) mod tree_contacts;

@@ -23,6 +23,7 @@ footprint!(Scratch {
     hinges,
     schedule,
     solver,
+    sway,
     overlaps,
     touching
 } each { found_changes, findings, found_overlaps, answers });

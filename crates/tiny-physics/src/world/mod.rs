@@ -56,7 +56,7 @@ use crate::stages::solve::{Lengths, Solver};
 use crate::stages::touching::Changes;
 use crate::stages::{
     ahead, boxes, continuous, finalize, narrow_context, narrow_phase, paces, pairs, sleep, solve,
-    surfaces, touching,
+    surfaces, sway, touching,
 };
 use crate::threads::{Pool, Team};
 use state::State;
@@ -121,6 +121,7 @@ struct Scratch {
     hinges: Vec<u32>,
     schedule: Schedule,
     solver: Solver,
+    sway: sway::Memory,
     overlaps: Vec<Overlap>,
     found_overlaps: Vec<Vec<Overlap>>,
     touching: Vec<hooks::At>,
@@ -191,6 +192,7 @@ impl World {
         watch.lap(&mut self.stats, Stage::Touching);
         self.solve(team, lengths);
         self.settle_predictions(team);
+        self.calm_sway(lengths);
         watch.lap(&mut self.stats, Stage::Solve);
         self.finalize(team, lengths);
         watch.lap(&mut self.stats, Stage::Finalize);
@@ -418,6 +420,15 @@ impl World {
         self.stats.withheld_energy = self.scratch.solver.passivity.withheld;
         self.collect_hits();
         self.break_joints();
+    }
+
+    /// Now and then takes away what swings on something firm.
+    fn calm_sway(&mut self, lengths: Lengths) {
+        if sway::is_due(self.state.step_count) {
+            let State { bodies, graph, .. } = &mut self.state;
+            let scale = (lengths.dt, self.settings.length_unit);
+            sway::calm(bodies, graph, scale, &mut self.scratch.sway);
+        }
     }
 
     /// Takes the motion over into poses and boxes.
