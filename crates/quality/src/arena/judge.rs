@@ -3,7 +3,7 @@
 use super::topology::Sides;
 use crate::lab::{Lab, MakeSubject, Trial, Variant, greatest};
 use serde::{Deserialize, Serialize};
-use tiny_physics::{BodyKind, JointKind};
+use tiny_physics::{BodyKind, JointKind, Shape, ShapeDef};
 use tiny_physics_scenes::{Deed, Scene, Script, When};
 
 /// What came of a world in an engine. Numbers that a world says nothing about are `None`.
@@ -19,9 +19,10 @@ pub struct Findings {
     pub resting_overlap: f64,
     /// Energy gained over that turned over, where nothing from outside adds any.
     pub gain: Option<f64>,
-    /// Speed of the fastest body in the last half second, m/s, where everything should come to rest.
+    /// Speed of the fastest body in the last half second, m/s, where everything should come to rest; what rolls only so far
+    /// as it slides or hops.
     pub restless: Option<f64>,
-    /// Seconds until everything sleeps, where it should.
+    /// Seconds until everything sleeps, where it should, but for disks: nothing stops one that rolls.
     pub asleep: Option<f64>,
     /// Widest gap of a joint after the first second, metres.
     pub gap: Option<f64>,
@@ -103,6 +104,26 @@ pub fn play(scene: &Scene, make: MakeSubject<'_>, time: &dyn Fn() -> f64) -> Fin
         judge.look(&trial, step);
     }
     judge.finish(&trial)
+}
+
+/// Radius of a body that is a disk.
+fn disk(trial: &Trial, body: usize) -> Option<f64> {
+    match trial.scene().bodies[body].shapes[..] {
+        [ShapeDef { shape: Shape::Circle { radius }, .. }] => Some(radius.into()),
+        _ => None,
+    }
+}
+
+/// Speed of a body, that of a disk only so far as it does not roll, m/s.
+fn stir(trial: &Trial, body: usize) -> f64 {
+    let rolled = disk(trial, body).map(|radius| radius * trial.angular_velocity(body).abs());
+    (trial.speed(body) - rolled.unwrap_or(0.0)).max(0.0)
+}
+
+/// Do all bodies sleep that do not roll?
+fn sleeps(trial: &Trial) -> bool {
+    let mut others = trial.dynamic().into_iter().filter(|&body| disk(trial, body).is_none());
+    !others.any(|body| trial.is_awake(body))
 }
 
 /// Does what a timeline asks for before a step.
@@ -193,11 +214,11 @@ impl Judge {
             self.found.gap = Some(self.found.gap.unwrap_or(0.0).max(widest));
             self.found.overrun = Some(self.found.overrun.unwrap_or(0.0).max(beyond));
         }
-        if self.rests && self.found.asleep.is_none() && trial.sleeps() {
+        if self.rests && self.found.asleep.is_none() && sleeps(trial) {
             self.found.asleep = Some(trial.time());
         }
         if self.rests && step + 30 > self.steps {
-            let fastest = trial.fastest(&trial.dynamic());
+            let fastest = greatest(trial.dynamic().into_iter().map(|body| stir(trial, body)));
             self.found.restless = Some(self.found.restless.unwrap_or(0.0).max(fastest));
         }
     }

@@ -61,6 +61,28 @@ mod tests {
     }
 
     #[test]
+    fn what_rolls_is_at_rest_and_what_slides_is_not() {
+        use tiny_physics::{RigidBody, Shape, ShapeDef, Vec2};
+        let found = |shape: Shape| {
+            let mut scene = draw(1);
+            (scene.bodies, scene.joints, scene.script) = (Vec::new(), Vec::new(), None);
+            scene.steps = 120;
+            let ground = Shape::rect(100.0, 1.0).expect("a ground");
+            scene.body(RigidBody::fixed().position(Vec2::new(0.0, -1.0)).shape(ground));
+            let friction = if matches!(shape, Shape::Circle { .. }) { 0.6 } else { 0.0 };
+            let body = RigidBody::dynamic().position(Vec2::new(0.0, 0.5));
+            let body = body.velocity(Vec2::new(1.0, 0.0)).angular_velocity(-2.0);
+            scene.body(body.shape(ShapeDef::new(shape).friction(friction)));
+            let found = play(&scene, &our_engine, &|| 0.0);
+            (found.restless.expect("it should rest"), found.asleep.expect("it should sleep"))
+        };
+        let (restless, asleep) = found(Shape::Circle { radius: 0.5 });
+        assert!(restless < 0.01 && asleep < 0.1, "a ball: {restless} m/s, {asleep} s");
+        let (restless, asleep) = found(Shape::rect(0.5, 0.5).expect("a crate"));
+        assert!(restless > 0.5 && asleep > 2.0, "a crate: {restless} m/s, {asleep} s");
+    }
+
+    #[test]
     fn a_ball_that_flies_through_a_wall_is_seen() {
         use tiny_physics::{RigidBody, Shape, Vec2};
         let mut scene = draw(1);
