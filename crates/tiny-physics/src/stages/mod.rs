@@ -25,3 +25,4 @@ pub(crate) mod surfaces;
 pub(crate) mod sway;
 pub(crate) mod touching;
 pub(crate) mod tree_contacts;
+pub(crate) mod turning;

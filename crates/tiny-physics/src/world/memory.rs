@@ -24,6 +24,7 @@ footprint!(Scratch {
     schedule,
     solver,
     sway,
+    leans,
     overlaps,
     touching
 } each { found_changes, findings, found_overlaps, answers });

@@ -56,7 +56,7 @@ use crate::stages::solve::{Lengths, Solver};
 use crate::stages::touching::Changes;
 use crate::stages::{
     ahead, boxes, continuous, finalize, narrow_context, narrow_phase, paces, pairs, sleep, solve,
-    surfaces, sway, touching,
+    surfaces, sway, touching, turning,
 };
 use crate::threads::{Pool, Team};
 use state::State;
@@ -122,6 +122,7 @@ struct Scratch {
     schedule: Schedule,
     solver: Solver,
     sway: sway::Memory,
+    leans: Vec<turning::Lean>,
     overlaps: Vec<Overlap>,
     found_overlaps: Vec<Vec<Overlap>>,
     touching: Vec<hooks::At>,
@@ -415,8 +416,11 @@ impl World {
         self.state.inv_h = 1.0 / lengths.h;
         let Self { settings, gravity, level, .. } = *self;
         let rules = solve::Rules { settings: &settings, gravity, level, lengths };
-        let Scratch { solver, predictions, .. } = &mut self.scratch;
-        solver.run(team, &mut self.state.solved(), rules, predictions);
+        let Scratch { solver, predictions, leans, .. } = &mut self.scratch;
+        let (shapes, mut stores) = self.state.shapes_and_solved();
+        turning::lean(&mut stores, (shapes, lengths.dt), predictions, leans);
+        solver.run(team, &mut stores, rules, predictions);
+        turning::straighten(stores.contacts, stores.graph, leans);
         self.stats.withheld_energy = self.scratch.solver.passivity.withheld;
         self.collect_hits();
         self.break_joints();

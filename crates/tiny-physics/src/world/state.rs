@@ -86,8 +86,13 @@ impl State {
 
     /// What the solver works on.
     pub(super) fn solved(&mut self) -> Stores<'_> {
-        let Self { bodies, contacts, graph, joints, joint_graph, .. } = self;
-        Stores { bodies, contacts, graph, joints, joint_graph }
+        self.shapes_and_solved().1
+    }
+
+    /// The same beside the shapes.
+    pub(super) fn shapes_and_solved(&mut self) -> (&Shapes, Stores<'_>) {
+        let Self { bodies, shapes, contacts, graph, joints, joint_graph, .. } = self;
+        (shapes, Stores { bodies, contacts, graph, joints, joint_graph })
     }
 }
 

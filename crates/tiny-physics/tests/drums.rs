@@ -1,0 +1,53 @@
+//! What turns takes along what lies on it, and keeps it out of itself and of others.
+
+mod common;
+
+use common::{DT, Random, circle, drop_at, position, rect, world};
+use tiny_physics::{RigidBody, ShapeDef, Vec2};
+
+/// Thirty balls in a drum of twenty sides, with paddles; how far into each other they go after the third second, of a diameter.
+fn balls_in_a_drum(random: &mut Random) -> f32 {
+    let (radius, ball) = (random.range(2.0, 6.0), random.range(0.1, 0.25));
+    // No more than a tenth of a turn of a radian in a step, nor a way in from the arc of more than half a ball.
+    let spin = random.range(2.0, 6.0).min(60.0 * (ball / radius).sqrt());
+    let half_side = radius * (core::f32::consts::PI / 20.0).tan() + 0.05;
+    let mut drum = RigidBody::kinematic().angular_velocity(spin);
+    for i in 0..20 {
+        let angle = core::f32::consts::TAU * i as f32 / 20.0;
+        let out = Vec2::new(angle.cos(), angle.sin());
+        drum = drum.shape(ShapeDef::new(rect(0.1, half_side)).offset(out * radius).angle(angle));
+        if i % 5 == 0 {
+            let paddle = ShapeDef::new(rect(0.2 * radius, 0.1)).offset(out * (0.8 * radius));
+            drum = drum.shape(paddle.angle(angle));
+        }
+    }
+    let mut world = world();
+    world.add_body(drum).expect("a drum");
+    let balls: Vec<_> = (0..30)
+        .map(|i| {
+            let place = Vec2::new((i % 6) as f32 - 2.5, (i / 6) as f32 - 2.0) * (2.1 * ball);
+            drop_at(&mut world, circle(ball), place.x, place.y)
+        })
+        .collect();
+    let mut deepest = 0.0_f32;
+    for step in 0..360 {
+        world.step(DT);
+        let places: Vec<_> = balls.iter().map(|&ball| position(&world, ball)).collect();
+        for (i, a) in places.iter().enumerate().filter(|_| step >= 180) {
+            assert!(a.length() < radius + 0.3, "a ball is out of the drum");
+            let near = |b: &Vec2| 1.0 - (*a - *b).length() / (2.0 * ball);
+            deepest = places[..i].iter().map(near).fold(deepest, f32::max);
+        }
+    }
+    deepest
+}
+
+/// A wall that turns leaves the straight way of what lies on it: before contacts went along the arc, in 19 of 30 drums balls
+/// ended up to a whole diameter inside of each other.
+#[test]
+fn balls_in_a_drum_stay_out_of_each_other() {
+    let mut random = Random::new(31);
+    let shares: Vec<_> = (0..30).map(|_| balls_in_a_drum(&mut random)).collect();
+    let deep = shares.iter().filter(|&&share| share > 0.2).count();
+    assert!(deep == 0, "{deep} of 30: {shares:.2?}");
+}
