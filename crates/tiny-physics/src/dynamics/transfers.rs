@@ -7,6 +7,7 @@ use super::bodies::Bodies;
 use super::coloured::Place;
 use super::contacts::Contacts;
 use super::graph::{Bucket, Graph, key, place_at};
+use crate::math::sort_by_number;
 use crate::threads::{SharedSlice, Team};
 use core::ops::Range;
 
@@ -18,11 +19,12 @@ const MANY: usize = 128;
 pub(crate) struct Transfers {
     /// Bucket, slot, contact.
     moves: Vec<(u32, u32, u32)>,
+    spare: Vec<(u32, u32, u32)>,
     /// The moves of each bucket.
     groups: Vec<Range<usize>>,
 }
 
-crate::footprint::footprint!(Transfers { moves, groups });
+crate::footprint::footprint!(Transfers { moves, spare, groups });
 
 impl Transfers {
     /// Puts contacts into the graph, in this order: each into a colour if it touches, else among the idle ones.
@@ -83,9 +85,9 @@ impl Transfers {
 
     /// Sorts the moves by bucket and slot.
     fn group(&mut self) {
-        // By one number: one comparison in place of three.
-        self.moves
-            .sort_unstable_by_key(|&(bucket, slot, _)| u64::from(bucket) << 32 | u64::from(slot));
+        sort_by_number(&mut self.moves, &mut self.spare, |&(bucket, slot, _)| {
+            u64::from(bucket) << 32 | u64::from(slot)
+        });
         self.groups.clear();
         let mut first = 0;
         for group in self.moves.chunk_by(|a, b| a.0 == b.0) {
@@ -101,7 +103,7 @@ impl Transfers {
         graph: &mut Graph,
         work: impl Fn(&mut Bucket, usize, &[(u32, u32, u32)]) + Sync,
     ) {
-        let Self { moves, groups } = self;
+        let Self { moves, groups, .. } = self;
         let chunk = if moves.len() < MANY { usize::MAX } else { 1 };
         let buckets = graph.buckets.share();
         team.for_each_chunk(groups.len(), chunk, |range| {

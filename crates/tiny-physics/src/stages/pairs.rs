@@ -4,7 +4,7 @@
 //! a contact. Where everything moves fast, most pairs never do: in spinner, 15,300 pairs a step came to
 //! overlap with their fat boxes while 1,200 contacts began.
 
-use crate::broad_phase::{BroadPhase, ProxyId, sort_pairs};
+use crate::broad_phase::{BroadPhase, ProxyId};
 use crate::describe::{Mix, Settings};
 use crate::dynamics::{
     Bodies, Contact, Contacts, Graph, Joints, NULL, Place, SavedPoint, Schedule, ShapeRecord,
@@ -12,7 +12,7 @@ use crate::dynamics::{
 };
 use crate::footprint::footprint;
 use crate::geometry::manifold::{PairClass, ShapeClass};
-use crate::math::Vec2;
+use crate::math::{Vec2, sort_by_number};
 use crate::simd::BLOCK;
 use crate::threads::{SharedSlice, Team};
 use core::sync::atomic::{AtomicBool, Ordering};
@@ -33,12 +33,14 @@ pub(crate) struct Search {
     pub(crate) parted: Vec<u32>,
     /// Pairs that need a contact now, sorted.
     pub(crate) pairs: Vec<(u32, u32)>,
+    spare_pairs: Vec<(u32, u32)>,
     /// By shape: has it left its fat box, see [`motion`]?
     moved: Vec<u8>,
     /// The bodies of those shapes, ascending.
     moved_bodies: Vec<u32>,
     /// Did one of those that sleeps?
     sleeper_moved: bool,
+    spare: Vec<u32>,
     found: Vec<Found>,
     schedule: Schedule,
     found_parted: Vec<Vec<u32>>,
@@ -61,7 +63,7 @@ struct Found {
 }
 
 footprint!(Found { near, waiting });
-footprint!(Search { parted, pairs, moved, moved_bodies, schedule } each { found, found_parted } none { sleeper_moved });
+footprint!(Search { parted, pairs, spare_pairs, moved, moved_bodies, spare, schedule } each { found, found_parted } none { sleeper_moved });
 
 /// What becomes of a pair whose fat boxes overlap.
 enum Fate {
@@ -145,7 +147,10 @@ impl Search {
             boxes.query_groups(range, |a, b| partners.sort(a, b, careful, waiting), near);
         });
         chunks.iter().for_each(|found| found.append_to(&mut self.pairs, waiting));
-        sort_pairs(&mut self.pairs);
+        sort_by_number(&mut self.pairs, &mut self.spare_pairs, |&(a, b)| {
+            u64::from(a) << 32 | u64::from(b)
+        });
+        self.pairs.dedup();
     }
 
     /// Lists the contacts of moved shapes whose fat boxes no longer overlap, ascending.
@@ -166,7 +171,7 @@ impl Search {
         self.moved_bodies.clear();
         self.moved_bodies
             .extend(moved_shapes(broad_phase).map(|i| shapes.records[i as usize].body));
-        self.moved_bodies.sort_unstable();
+        sort_by_number(&mut self.moved_bodies, &mut self.spare, |&body| body.into());
         self.moved_bodies.dedup();
         for &body in &self.moved_bodies {
             let body = &bodies.infos[body as usize];
@@ -185,7 +190,7 @@ impl Search {
         if much {
             self.find_parted_in_graph(team, shapes, graph);
         }
-        self.parted.sort_unstable();
+        sort_by_number(&mut self.parted, &mut self.spare, |&contact| contact.into());
         self.parted.dedup();
     }
 

@@ -1,6 +1,7 @@
 //! Which contacts began and which ended: between the narrow phase and the solver.
 
 use crate::dynamics::{Graph, IDLE, Run, Schedule};
+use crate::math::sort_by_number;
 use crate::simd::BLOCK;
 use crate::threads::Team;
 
@@ -12,9 +13,11 @@ const CHUNK: usize = 128;
 pub(crate) struct Changes {
     pub(crate) began: Vec<u32>,
     pub(crate) ended: Vec<u32>,
+    /// Memory for sorting them.
+    spare: Vec<u32>,
 }
 
-crate::footprint::footprint!(Changes { began, ended });
+crate::footprint::footprint!(Changes { began, ended, spare });
 
 /// Compares what the narrow phase found with where the contacts are. The schedule has all blocks of the graph.
 pub(crate) fn find_changes(
@@ -33,8 +36,9 @@ pub(crate) fn find_changes(
         changes.began.extend_from_slice(&found.began);
         changes.ended.extend_from_slice(&found.ended);
     }
-    changes.began.sort_unstable();
-    changes.ended.sort_unstable();
+    let Changes { began, ended, spare } = changes;
+    sort_by_number(began, spare, |&contact| contact.into());
+    sort_by_number(ended, spare, |&contact| contact.into());
 }
 
 impl Changes {

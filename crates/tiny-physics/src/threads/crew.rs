@@ -237,7 +237,9 @@ impl Shared {
         }
     }
 
-    /// Works on chunks until none is left to claim.
+    /// Works on chunks until none is left to claim. A function of its own, as is the wait: what `scripts/serial-share.sh`
+    /// counts is what a step does outside of both.
+    #[inline(never)]
     fn take_part(&self, member: usize) {
         let mut done = 0;
         while let Some(chunk) = self.seats[member].claim_first() {
@@ -274,7 +276,7 @@ impl Shared {
     }
 
     /// Waits until every claimed chunk of the stage is counted off.
-    #[inline]
+    #[inline(never)]
     fn wait_for_the_others(&self) {
         let mut looks = 0;
         while self.unfinished.0.load(Ordering::Acquire) != 0 {
