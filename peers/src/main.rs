@@ -14,6 +14,7 @@ mod plots;
 mod quality;
 mod svg;
 mod table;
+mod worlds;
 
 use clap::{Parser, Subcommand};
 use engines::Config;
@@ -64,6 +65,8 @@ enum Command {
     Plots(plots::PlotsArgs),
     /// Measure what it costs to keep a world of 10,000 touching bodies and to go back to it.
     Frames(frames::FramesArgs),
+    /// Step many small worlds in turn, as those do who train agents.
+    Worlds(worlds::WorldsArgs),
 }
 
 fn main() -> std::process::ExitCode {
@@ -74,6 +77,7 @@ fn main() -> std::process::ExitCode {
         Some(Command::Arena(args)) => arena::run(args),
         Some(Command::Plots(args)) => plots::run(args),
         Some(Command::Frames(args)) => frames::run(args),
+        Some(Command::Worlds(args)) => worlds::run(args),
     };
     match done {
         Ok(()) => std::process::ExitCode::SUCCESS,

@@ -32,6 +32,9 @@ impl Engine for Box2d {
         let def = world_def(setup);
         // SAFETY: `def` began as the default and outlives the call.
         let world = unsafe { b2CreateWorld(&def) };
+        if world.index1 == 0 {
+            return Err("it holds no more worlds".into());
+        }
         let substeps = match setup.tuning {
             Tuning::Scene => setup.settings.substeps as i32,
             Tuning::Own => SUBSTEPS,

@@ -1,6 +1,6 @@
 //! What the runner and the workers say to each other.
 
-use crate::{Frames, Summary};
+use crate::{Frames, Summary, Worlds, WorldsJob};
 use serde::{Deserialize, Serialize};
 use tiny_physics_quality::arena::Findings;
 use tiny_physics_scenes::Scene;
@@ -15,6 +15,8 @@ pub enum Task {
     Quality(QualityJob),
     /// Measure what frames cost.
     Frames,
+    /// Step many worlds in turn.
+    Worlds(WorldsJob),
     /// Play a world of the arena.
     Arena(Box<Scene>),
 }
@@ -119,6 +121,8 @@ pub enum Answer {
     Played(Played),
     /// Frames were measured.
     Frames(Frames),
+    /// Worlds were stepped.
+    Worlds(Worlds),
     /// The world was played; nothing where the engine cannot express it.
     Arena(Option<Findings>),
     /// The engine cannot do this; the reason.

@@ -5,7 +5,7 @@
 //! before it (spawning, removing) included.
 
 use crate::clock::{Stopwatch, mean, peak_mib, percentile};
-use crate::{Answer, Engine, Job, Report, Setup, Task, Tuning, frames, quality};
+use crate::{Answer, Engine, Job, Report, Setup, Task, Tuning, frames, quality, worlds};
 use std::time::Instant;
 use tiny_physics_scenes::{Options, Player, find};
 
@@ -15,6 +15,7 @@ pub fn serve<E: Engine + 'static>() {
         Task::Time(job) => run::<E>(&job).map(Answer::Done),
         Task::Quality(job) => quality::play::<E>(&job).map(Answer::Played),
         Task::Frames => frames::measure::<E>().map(Answer::Frames),
+        Task::Worlds(job) => worlds::measure::<E>(&job).map(Answer::Worlds),
         Task::Arena(scene) => quality::fight::<E>(&scene).map(Answer::Arena),
     });
     match serde_json::to_string(&answer.unwrap_or_else(Answer::Failed)) {
