@@ -3,6 +3,7 @@
 use crate::codec::{Data, Reader, Sink};
 use crate::error::Error;
 use crate::math::{Aabb, Vec2};
+use fearless_simd::{Level, Simd, SimdBase, SimdMask, f32x8};
 
 /// Children of a node.
 pub(super) const WIDTH: usize = 8;
@@ -64,16 +65,29 @@ impl Boxes {
     /// Bit `i` set where lane `i` overlaps the box.
     #[inline]
     pub(super) fn overlaps(&self, aabb: &Aabb) -> u32 {
-        let mut bits = [0u32; WIDTH];
-        for (lane, bit) in bits.iter_mut().enumerate() {
-            let hit = (self.min_x[lane] <= aabb.max.x)
-                & (aabb.min.x <= self.max_x[lane])
-                & (self.min_y[lane] <= aabb.max.y)
-                & (aabb.min.y <= self.max_y[lane]);
-            *bit = u32::from(hit).wrapping_neg() & 1 << lane;
+        fearless_simd::dispatch!(Level::baseline(), simd => self.overlaps_by(simd, aabb))
+    }
+
+    #[inline(always)]
+    fn overlaps_by<S: Simd>(&self, simd: S, aabb: &Aabb) -> u32 {
+        let lanes = |values: &[f32; WIDTH]| f32x8::from_slice(simd, values);
+        let all = |value| f32x8::splat(simd, value);
+        let hit = lanes(&self.min_x).simd_le(all(aabb.max.x))
+            & all(aabb.min.x).simd_le(lanes(&self.max_x))
+            & lanes(&self.min_y).simd_le(all(aabb.max.y))
+            & all(aabb.min.y).simd_le(lanes(&self.max_y));
+        hit.to_bitmask() as u32
+    }
+
+    /// The union of some lanes.
+    #[inline]
+    pub(super) fn union_of(&self, mut lanes: u32) -> Aabb {
+        let mut all = Aabb::EMPTY;
+        while lanes != 0 {
+            all = all.union(&self.get(lanes.trailing_zeros() as usize % WIDTH));
+            lanes &= lanes - 1;
         }
-        let [a, b, c, d, e, f, g, h] = bits;
-        ((a | e) | (b | f)) | ((c | g) | (d | h))
+        all
     }
 
     /// The union of all lanes.

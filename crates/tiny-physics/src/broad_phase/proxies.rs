@@ -7,7 +7,8 @@
 //! Invariants: a proxy is in the tree of its kind under its own number; it is flagged as moved
 //! exactly when it is in the buffer; nodes hold the fat boxes below them.
 
-use super::node_boxes::WIDTH;
+use super::node_boxes::{Boxes, WIDTH};
+use super::tree::Spare;
 use super::{BoxCast, DynamicTree, clamped, sort_pairs};
 use crate::codec::{Data, Reader, Sink, bad, data_enum, record, store};
 use crate::error::Error;
@@ -96,78 +97,15 @@ const _: () = assert!(size_of::<Proxy>() == 64);
 
 data_enum!(ProxyKind { 0 => Static, 1 => Kinematic, 2 => Dynamic });
 
-/// A moved proxy that asks for its partners.
-#[derive(Clone, Copy)]
-struct Member {
-    aabb: Aabb,
-    asked: Aabb,
-    category: u64,
-    mask: u64,
-    id: u32,
-    user: u32,
-}
-
-impl Member {
-    const NONE: Self =
-        Self { aabb: Aabb::EMPTY, asked: Aabb::EMPTY, category: 0, mask: 0, id: 0, user: 0 };
-}
-
-/// The moved proxies of one node: they are near each other and go down the trees together.
+/// A node with moved proxies: they are near each other and go down the trees together.
 struct Group {
-    members: [Member; WIDTH],
-    count: usize,
-    aabb: Aabb,
+    kind: ProxyKind,
+    node: u32,
+    /// The lanes that moved.
+    moved: u32,
+    /// What any of those pairs with.
     mask: u64,
 }
-
-impl Group {
-    #[inline]
-    fn members(&self) -> &[Member] {
-        &self.members[..self.count]
-    }
-
-    /// Is the common box small enough to ask together? One huge member would send the others
-    /// everywhere.
-    #[inline]
-    fn is_compact(&self) -> bool {
-        let total = self.members().iter().fold(0.0, |sum, member| sum + member.aabb.perimeter());
-        self.aabb.perimeter() * self.count as f32 <= COMPACT * total
-    }
-}
-
-/// Children of nodes that were hit, set aside for [`BroadPhase::drain`].
-struct Hits {
-    /// Node in the upper half, then the member's index, then one bit a child.
-    words: [u64; Self::CAPACITY + 1],
-    count: usize,
-    /// Member's index and proxy of the pairs to report.
-    kept: [(u32, u32); Self::CAPACITY * WIDTH + 1],
-}
-
-impl Hits {
-    const CAPACITY: usize = 64;
-
-    fn new() -> Self {
-        let (words, kept) = ([0; Self::CAPACITY + 1], [(0, 0); Self::CAPACITY * WIDTH + 1]);
-        Self { words, count: 0, kept }
-    }
-
-    #[inline]
-    fn push(&mut self, node: u32, member: usize, bits: u32) {
-        self.words[self.count] = u64::from(node) << 32 | (member as u64) << 8 | u64::from(bits);
-        self.count += usize::from(bits != 0);
-    }
-
-    /// Is there no room for another node and all members?
-    #[inline]
-    fn is_full(&self) -> bool {
-        self.count + WIDTH > Self::CAPACITY
-    }
-}
-
-/// A group is compact while its perimeter is at most this many times the mean of its members'. With
-/// 3, too many groups were split up (half as slow again); 4 and 8 are within noise of 5.
-const COMPACT: f32 = 5.0;
 
 store! {
     /// Proxies of all shapes, and which of them have to look for new partners.
@@ -188,6 +126,8 @@ store! {
         groups: Vec<(ProxyKind, u32)> as derived,
         /// For each node, which children moved.
         marks: [Vec<u8>; 3] as derived,
+        /// For each node of which some moved, the boxes with which its children last asked.
+        asked: Spare<[Vec<Boxes>; 3]> as derived,
         /// By [`ProxyKind`].
         trees: [DynamicTree; 3],
     }
@@ -331,20 +271,29 @@ impl BroadPhase {
     /// Gets ready for [`BroadPhase::query_groups`] and returns the number of groups: moved proxies
     /// that are near each other ask together. It also keeps the trees good.
     pub fn prepare_pairs(&mut self) -> usize {
-        for (tree, marks) in self.trees.iter_mut().zip(&mut self.marks) {
+        for (tree, (marks, asked)) in
+            self.trees.iter_mut().zip(self.marks.iter_mut().zip(&mut self.asked.0))
+        {
             tree.maintain();
             marks.clear();
             marks.resize(tree.node_count(), 0);
+            asked.resize(tree.node_count(), Boxes::EMPTY);
         }
         self.groups.clear();
         for &id in &self.moved {
-            let Some(kind) = self.proxies[id.0 as usize].kind else { continue };
-            let Some((node, lane)) = self.trees[kind as usize].place(id.0) else { continue };
+            let Proxy { kind: Some(kind), asked, .. } = self.proxies[id.0 as usize] else {
+                continue;
+            };
+            let tree = &self.trees[kind as usize];
+            let Some((node, lane)) = tree.place(id.0) else { continue };
             let mark = &mut self.marks[kind as usize][node as usize];
+            let boxes = &mut self.asked.0[kind as usize][node as usize];
             if *mark == 0 {
                 self.groups.push((kind, node));
+                *boxes = *tree.boxes(node);
             }
             *mark |= 1 << lane;
+            boxes.set(lane, asked);
         }
         // Near in the tree is near in memory: a quarter less for refitting 300,000 boxes, nothing
         // lost on few.
@@ -369,117 +318,71 @@ impl BroadPhase {
         mut accept: impl FnMut(u32, u32) -> bool,
         out: &mut Vec<(u32, u32)>,
     ) {
-        let mut hits = Hits::new();
         for &(kind, node) in self.groups.get(range).unwrap_or_default() {
             let group = self.group(kind, node);
-            let mut report = |member: usize, other: u32| {
-                let pair = ordered(group.members[member].user, self.proxies[other as usize].user);
+            let mut report = |a: &Proxy, b: &Proxy| {
+                let pair = ordered(a.user, b.user);
                 if accept(pair.0, pair.1) {
                     out.push(pair);
                 }
             };
             for &partner in kind.partners() {
-                let tree = &self.trees[partner as usize];
-                if group.is_compact() {
-                    self.query_together(tree, &group, &mut hits, &mut report);
-                } else {
-                    self.query_one_by_one(tree, &group, &mut report);
+                let boxes = self.tree(kind).boxes(node);
+                let tree = self.tree(partner);
+                tree.walk_together(boxes, group.moved, group.mask, |other, members| {
+                    self.meet(&group, members, (partner, other), &mut report);
+                });
+            }
+        }
+    }
+
+    /// Reports the children of a node that some members of a group have come to overlap, if it is for the group to do
+    /// so. Most boxes that overlap did so when they last asked: that is seen side by side.
+    #[inline]
+    fn meet(
+        &self,
+        group: &Group,
+        mut members: u32,
+        (kind, node): (ProxyKind, u32),
+        report: &mut impl FnMut(&Proxy, &Proxy),
+    ) {
+        let (own_tree, tree) = (self.tree(group.kind), self.tree(kind));
+        let moved = u32::from(self.marks[kind as usize][node as usize]);
+        let is_itself = kind == group.kind && node == group.node;
+        let is_later = group.kind as u8 > kind as u8 || group.kind == kind && node > group.node;
+        if !is_itself && !is_later && tree.is_all(node, moved) {
+            return;
+        }
+        let (own, boxes) = (own_tree.boxes(group.node), tree.boxes(node));
+        let own_asked = &self.asked.0[group.kind as usize][group.node as usize];
+        let asked = if moved == 0 { boxes } else { &self.asked.0[kind as usize][node as usize] };
+        while members != 0 {
+            let lane = members.trailing_zeros() as usize % WIDTH;
+            members &= members - 1;
+            // Of two that moved the earlier one reports the later one.
+            let found = if is_later { u32::MAX } else { !moved };
+            let found = if is_itself { found | u32::MAX << 1 << lane } else { found };
+            let mut bits = boxes.overlaps(&own.get(lane)) & found;
+            bits &= !asked.overlaps(&own_asked.get(lane));
+            while bits != 0 {
+                let other = tree.child(node, bits.trailing_zeros() as usize % WIDTH);
+                bits &= bits - 1;
+                let pair = [own_tree.child(group.node, lane), other];
+                let [a, b] = pair.map(|id| &self.proxies[id as usize]);
+                if a.mask & b.category != 0 && b.mask & a.category != 0 {
+                    report(a, b);
                 }
             }
         }
-    }
-
-    #[inline]
-    fn query_together(
-        &self,
-        tree: &DynamicTree,
-        group: &Group,
-        hits: &mut Hits,
-        report: &mut impl FnMut(usize, u32),
-    ) {
-        tree.walk(&group.aabb, group.mask, |node| {
-            for (index, member) in group.members().iter().enumerate() {
-                hits.push(node, index, tree.overlaps(node, &member.aabb));
-            }
-            if hits.is_full() {
-                self.drain(tree, group, hits, report);
-            }
-            ControlFlow::Continue(())
-        });
-        self.drain(tree, group, hits, report);
-    }
-
-    /// Turns the hits that were set aside into pairs. How many children of a node are hit, and
-    /// which of two moved proxies reports, is noise to the branch predictor: so both loops go on by
-    /// arithmetic.
-    #[inline]
-    fn drain(
-        &self,
-        tree: &DynamicTree,
-        group: &Group,
-        hits: &mut Hits,
-        report: &mut impl FnMut(usize, u32),
-    ) {
-        let (mut at, mut kept) = (0, 0);
-        let mut word = hits.words[0];
-        while at < hits.count {
-            let index = (word >> 8) as usize % WIDTH;
-            let other = tree.child((word >> 32) as u32, word.trailing_zeros() as usize % WIDTH);
-            hits.kept[kept] = (index as u32, other);
-            kept += usize::from(self.is_mine(&group.members[index], other));
-            word &= word - 1;
-            let done = word & 0xff == 0;
-            at += usize::from(done);
-            word = if done { hits.words[at] } else { word };
-        }
-        hits.count = 0;
-        for &(member, other) in &hits.kept[..kept] {
-            report(member as usize, other);
-        }
-    }
-
-    #[inline]
-    fn query_one_by_one(
-        &self,
-        tree: &DynamicTree,
-        group: &Group,
-        report: &mut impl FnMut(usize, u32),
-    ) {
-        for (index, member) in group.members().iter().enumerate() {
-            tree.query(&member.aabb, member.mask, |other| {
-                if self.is_mine(member, other) {
-                    report(index, other);
-                }
-                ControlFlow::Continue(())
-            });
-        }
-    }
-
-    /// Is it for the moved `member` to report its pair with `other`, if the filters agree to one and it is new?
-    #[inline]
-    fn is_mine(&self, member: &Member, other_id: u32) -> bool {
-        let other = &self.proxies[other_id as usize];
-        ((other_id > member.id) | ((other_id != member.id) & !other.moved))
-            & (other.mask & member.category != 0)
-            & (other.category & member.mask != 0)
-            & !member.asked.overlaps(&other.asked)
     }
 
     #[inline]
     fn group(&self, kind: ProxyKind, node: u32) -> Group {
-        let mut group =
-            Group { members: [Member::NONE; WIDTH], count: 0, aabb: Aabb::EMPTY, mask: 0 };
-        let mut lanes = self.marks[kind as usize][node as usize];
-        while lanes != 0 {
-            let (id, aabb) = self.trees[kind as usize].leaf(node, lanes.trailing_zeros() as usize);
-            lanes &= lanes - 1;
-            let Proxy { category, mask, user, asked, .. } = self.proxies[id as usize];
-            group.members[group.count] = Member { aabb, asked, category, mask, id, user };
-            group.count += 1;
-            group.aabb = group.aabb.union(&aabb);
-            group.mask |= mask;
-        }
-        group
+        let moved = u32::from(self.marks[kind as usize][node as usize]);
+        let lanes = (0..WIDTH).filter(|lane| moved >> lane & 1 != 0);
+        let ids = lanes.map(|lane| self.tree(kind).child(node, lane));
+        let mask = ids.fold(0, |mask, id| mask | self.proxies[id as usize].mask);
+        Group { kind, node, moved, mask }
     }
 
     /// Forgets which proxies moved. Call it after all groups have been queried.

@@ -18,6 +18,7 @@ use crate::dynamics::{Bodies, Joints, NULL, ShapeRecord, Shapes, Slot, is_rigid}
 use crate::geometry::manifold::ShapeClass;
 use crate::geometry::{LINEAR_SLOP, Shape, Sweep, ToiState, distance, impact_within};
 use crate::math::{Aabb, Pose, Rot, Transform, Vec2};
+use crate::simd::Row;
 use crate::threads::{SharedSlice, Team};
 
 /// What decides about pairs besides filters.
@@ -160,6 +161,11 @@ impl Inner {
         Self { disk: Shape::Circle { radius }, sweep }
     }
 
+    /// How far it reaches from the body's centre of mass.
+    fn reach(&self) -> f32 {
+        self.disk.bounding_radius() + self.sweep.local_center.length()
+    }
+
     /// How the disk moves as the other shape sees it, in the common axes of the start.
     fn relative_way(&self, other: &Sweep) -> Vec2 {
         let middle = |fraction| self.sweep.at(fraction).apply(Vec2::ZERO);
@@ -188,6 +194,21 @@ impl Inner {
             ToiState::Separated | ToiState::Touching => None,
         }
     }
+}
+
+/// How far the way of a body's centre of mass certainly stays from a shape, given as a rounded box (see
+/// [`Shapes::rows`](crate::dynamics::Shapes)) on something that stands still, metres; 0 on what moves.
+fn clear_room(row: &Row, their: &Sweep, body: &Sweep) -> f32 {
+    if their.angle != 0.0 || their.start != their.end {
+        return 0.0;
+    }
+    let frame = Transform::new(Vec2::new(row[0], row[1]), Rot { c: row[2], s: row[3] });
+    let place = their.at(0.0).compose(frame);
+    let (from, to) = (place.unapply(body.start), place.unapply(body.end));
+    let apart = |a: f32, b: f32| if a * b > 0.0 { a.abs().min(b.abs()) } else { 0.0 };
+    let (x, y) = (apart(from.x, to.x) - row[4], apart(from.y, to.y) - row[5]);
+    let rounding = 1.0e-5 * (place.p.x.abs() + place.p.y.abs() + x.abs() + y.abs());
+    x.max(y) - row[6] - rounding
 }
 
 /// Where the search for impacts looks.
@@ -275,13 +296,13 @@ impl Search<'_> {
         let whole = Course { sweep, from: 0.0 };
         let stop = self.first(&whole, ProxyKind::Static, Meeting::none(1.0));
         let ride = self.first(&whole, ProxyKind::Kinematic, stop);
+        if ride.fraction == 1.0 {
+            return *self.fast;
+        }
         let place = sweep.at(ride.fraction);
         if ride.fraction < stop.fraction {
             let end = self.ended(self.carried(place, ride.fraction, ride.body), ride);
             return FastBody { fraction: f32::INFINITY, ..end };
-        }
-        if stop.fraction == 1.0 {
-            return *self.fast;
         }
         // It waits where it is, and may be met there.
         let rest = Sweep::fixed(place);
@@ -400,6 +421,11 @@ impl Search<'_> {
             their.translation() * rest,
             their.angle * rest,
         );
+        let room = clear_room(&shapes.rows[index as usize], &their, body)
+            - 2.0 * LINEAR_SLOP * length_unit;
+        if room > bodies.infos[self.fast.body as usize].max_extent {
+            return None;
+        }
         // How it moves seen from the other.
         let relative = body.translation() - their.translation();
         if course.from == 0.0 && their.angle == 0.0 && self.cannot_jump(relative) {
@@ -428,6 +454,9 @@ impl Search<'_> {
             return None;
         }
         let inner = Inner::new(record, body);
+        if room > inner.reach() {
+            return None;
+        }
         let (fraction, normal) = inner.first_fraction(&other.shape, &motion, first, length_unit)?;
         let lost = self.driving_velocity(inner.relative_way(&motion), normal);
         Some(Meeting { fraction, body: other.body, lost })

@@ -169,15 +169,14 @@ impl Search {
         self.parted.clear();
         let much = broad_phase.moved().len() * 64 > graph.len();
         self.moved_bodies.clear();
+        // Those that sleep have no contacts in the graph.
+        let bodies_moved = moved_shapes(broad_phase).map(|i| shapes.records[i as usize].body);
         self.moved_bodies
-            .extend(moved_shapes(broad_phase).map(|i| shapes.records[i as usize].body));
-        sort_by_number(&mut self.moved_bodies, &mut self.spare, |&body| body.into());
+            .extend(bodies_moved.filter(|&body| !much || !bodies.infos[body as usize].awake));
+        self.moved_bodies.sort_unstable();
         self.moved_bodies.dedup();
         for &body in &self.moved_bodies {
             let body = &bodies.infos[body as usize];
-            if much && body.awake {
-                continue;
-            }
             for (index, _) in contacts.of_body(body.first_contact) {
                 let contact = &contacts.records[index as usize];
                 let (a, b) = (contact.shape_a, contact.shape_b);

@@ -87,21 +87,21 @@ store! {
         changes: usize,
         /// [`cost`](Self::cost) after the last rebuild.
         built_cost: f32,
-        spare: Spare as derived,
+        spare: Spare<Vec<Branch>> as derived,
     }
 }
 
-/// Memory for rebuilding; empty otherwise, and no part of what a tree is.
+/// Memory that is filled anew where it is used, and no part of what holds it: copies have none.
 #[derive(Debug, Default)]
-struct Spare(Vec<Branch>);
+pub(super) struct Spare<T>(pub(super) T);
 
-impl Footprint for Spare {
+impl<T: Footprint> Footprint for Spare<T> {
     fn footprint(&self) -> MemoryUse {
         self.0.footprint()
     }
 }
 
-impl Clone for Spare {
+impl<T: Default> Clone for Spare<T> {
     fn clone(&self) -> Self {
         Self::default()
     }
@@ -255,53 +255,76 @@ impl DynamicTree {
     #[inline]
     pub fn query(&self, aabb: &Aabb, mask: u64, mut visit: impl FnMut(u32) -> ControlFlow<()>) {
         let aabb = clamped(*aabb);
-        self.walk(&aabb, mask, |index| {
+        let mut stack = Stack::new();
+        let mut next = (self.root != NONE).then_some(self.root);
+        while let Some(index) = next {
             let node = &self.nodes[index as usize];
-            let mut bits = self.boxes[index as usize].overlaps(&aabb);
+            let mut bits = self.overlaps(index, &aabb);
             while bits != 0 {
                 let lane = bits.trailing_zeros() as usize % WIDTH;
                 bits &= bits - 1;
-                if node.category[lane] & mask != 0 {
-                    visit(node.child[lane])?;
+                if node.category[lane] & mask == 0 {
+                    continue;
+                }
+                if node.level > 0 {
+                    stack.push(node.child[lane]);
+                } else if visit(node.child[lane]).is_break() {
+                    return;
                 }
             }
-            ControlFlow::Continue(())
-        });
+            next = stack.pop();
+        }
     }
 
-    /// Calls `visit` with every node of the lowest level that may have children which overlap
-    /// `aabb` and have a bit of `mask`.
+    /// Calls `visit` with every node of the lowest level that may have children which overlap one of some boxes and
+    /// have a bit of `mask`, and with the lanes of those boxes, of the lanes asked for.
     #[inline]
-    pub(super) fn walk(
+    pub(super) fn walk_together(
         &self,
-        aabb: &Aabb,
+        boxes: &Boxes,
+        lanes: u32,
         mask: u64,
-        mut visit: impl FnMut(u32) -> ControlFlow<()>,
+        mut visit: impl FnMut(u32, u32),
     ) {
         if self.root == NONE {
             return;
         }
+        if self.nodes[self.root as usize].level == 0 {
+            return visit(self.root, lanes);
+        }
+        let bounds = boxes.union_of(lanes);
         let mut stack = Stack::new();
         let mut next = Some(self.root);
         while let Some(index) = next {
-            let node = &self.nodes[index as usize];
-            if node.level == 0 {
-                if visit(index).is_break() {
-                    return;
-                }
-                next = stack.pop();
-                continue;
-            }
-            let mut bits = self.boxes[index as usize].overlaps(aabb);
+            let (node, children) = (&self.nodes[index as usize], &self.boxes[index as usize]);
+            let mut bits = children.overlaps(&bounds);
             while bits != 0 {
                 let lane = bits.trailing_zeros() as usize % WIDTH;
                 bits &= bits - 1;
-                if node.category[lane] & mask != 0 {
+                let near = boxes.overlaps(&children.get(lane)) & lanes;
+                if near == 0 || node.category[lane] & mask == 0 {
+                    continue;
+                }
+                if node.level == 1 {
+                    visit(node.child[lane], near);
+                } else {
                     stack.push(node.child[lane]);
                 }
             }
             next = stack.pop();
         }
+    }
+
+    /// Are these all the lanes of a node that have children?
+    #[inline]
+    pub(super) fn is_all(&self, index: u32, lanes: u32) -> bool {
+        lanes.count_ones() == u32::from(self.nodes[index as usize].count)
+    }
+
+    /// The boxes of a node's children.
+    #[inline]
+    pub(super) fn boxes(&self, index: u32) -> &Boxes {
+        &self.boxes[index as usize]
     }
 
     /// Bit `i` set where child `i` of a node overlaps the box.
