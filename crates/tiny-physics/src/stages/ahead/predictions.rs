@@ -8,9 +8,9 @@ use crate::dynamics::{
 };
 use crate::footprint::footprint;
 use crate::geometry::manifold::{self, Manifold};
-use crate::geometry::{LINEAR_SLOP, Sweep, ToiState, impact_within};
+use crate::geometry::{LINEAR_SLOP, Sweep, SweptBox, ToiState, hit_at, impact_within};
 use crate::math::{Rot, Transform, Vec2};
-use crate::simd::BLOCK;
+use crate::simd::{BLOCK, Row};
 use crate::stages::ahead::{Found, HARMLESS, SLIGHT, Ways};
 use crate::stages::boxes;
 use crate::stages::narrow_context::Context;
@@ -24,6 +24,8 @@ const ROUNDS: usize = 6;
 const CHUNK: usize = 32;
 /// What touches already is looked at again only if its body goes into it: so much of its way is along the normal.
 const HEAD_ON: f32 = 0.7;
+/// What rounding makes of places, as a part of how large and far away things are.
+const ROUNDING: f32 = 1.0e-6;
 /// Points whose separations differ by less than this are hit together, metres; multiplied by the length unit.
 const NEAR: f32 = 0.02;
 /// So many bodies that were taken off their ways may be looked at again in a step, and one in [`SHARE`] of all: those
@@ -432,12 +434,13 @@ struct Look<'a> {
 /// Two shapes on their ways, in a frame that goes with the centre of mass of A.
 struct Meeting<'a> {
     shapes: [&'a ShapeRecord; 2],
-    courses: [Course; 2],
+    rows: [&'a Row; 2],
+    /// Of the bodies at the start, and how far they turn, radians.
+    turned: [Rot; 2],
+    turns: [f32; 2],
     /// From the centre of mass of A to that of B at the start, and how that changes over the step.
     between: Vec2,
     way: Vec2,
-    /// Of the shapes.
-    sweeps: [Sweep; 2],
     /// How far they reach from the centres of mass of their bodies, metres.
     extents: [f32; 2],
 }
@@ -463,20 +466,23 @@ impl Look<'_> {
         }
         let [a, b] = meeting.shapes;
         if touches {
-            let manifold = meeting.manifold(0.0, self.reach());
+            let frames = meeting.sweeps().map(|sweep| sweep.at(0.0));
+            let manifold = meeting.manifold(&frames, self.reach());
             return (manifold.count > 0)
-                .then(|| meeting.predict(&manifold, 0.0).hit(index, self.near()));
+                .then(|| meeting.predict(&manifold, &frames[0], 0.0).hit(index, self.near()));
         }
-        if meeting.is_special() {
+        let slop = LINEAR_SLOP * self.length_unit();
+        if meeting.is_special() || meeting.stays_away(slop) {
             return None;
         }
-        let ([way_a, way_b], slop) = (&meeting.sweeps, LINEAR_SLOP * self.length_unit());
-        let toi = impact_within(&a.shape, way_a, &b.shape, way_b, 1.0, slop)?;
+        let sweeps = meeting.sweeps();
+        let toi = impact_within(&a.shape, &sweeps[0], &b.shape, &sweeps[1], 1.0, slop)?;
         if toi.state == ToiState::Touching {
             return None;
         }
-        let manifold = self.correct(contact, &meeting, toi.fraction)?;
-        let prediction = meeting.predict(&manifold, toi.fraction);
+        let frames = sweeps.map(|sweep| sweep.at(toi.fraction));
+        let manifold = self.correct(contact, &meeting, &frames)?;
+        let prediction = meeting.predict(&manifold, &frames[0], toi.fraction);
         Some(Hit { prediction: Some(prediction), ..prediction.hit(index, self.near()) })
     }
 
@@ -515,8 +521,9 @@ impl Look<'_> {
         if meeting.is_special() {
             return None;
         }
-        let manifold = self.correct(contact, &meeting, 0.0)?;
-        (manifold.count == 2).then(|| meeting.predict(&manifold, 0.0))
+        let frames = meeting.sweeps().map(|sweep| sweep.at(0.0));
+        let manifold = self.correct(contact, &meeting, &frames)?;
+        (manifold.count == 2).then(|| meeting.predict(&manifold, &frames[0], 0.0))
     }
 
     fn reach(&self) -> f32 {
@@ -538,32 +545,32 @@ impl Look<'_> {
         let both = [contact.body_a, contact.body_b];
         let courses = both.map(|body| self.known.courses.far(bodies, dt, body));
         let [pose_a, pose_b] = both.map(|body| bodies.poses[body as usize]);
-        let between = pose_b.p.relative_to(pose_a.p);
-        let way = courses[1].motion - courses[0].motion;
-        let sweep = |k: usize, q: Rot, place: Vec2, way: Vec2| {
-            let frame = Transform::new(place, q);
-            Sweep::new(frame, Vec2::ZERO, way, courses[k].turn).child(shapes_of[k].central)
-        };
         Meeting {
             shapes: shapes_of,
-            courses,
-            between,
-            way,
-            sweeps: [sweep(0, pose_a.q, Vec2::ZERO, Vec2::ZERO), sweep(1, pose_b.q, between, way)],
+            rows: [shape_a, shape_b].map(|shape| &shapes.rows[shape as usize]),
+            turns: courses.map(|course| course.turn),
+            between: pose_b.p.relative_to(pose_a.p),
+            turned: [pose_a.q, pose_b.q],
+            way: courses[1].motion - courses[0].motion,
             extents: [shapes.reach(shape_a), shapes.reach(shape_b)],
         }
     }
 
-    /// The manifold at a fraction of the step, without what only seams make; nothing where that is all.
-    fn correct(&self, contact: &Contact, meeting: &Meeting<'_>, fraction: f32) -> Option<Manifold> {
+    /// The manifold where the shapes are then, without what only seams make; nothing where that is all.
+    fn correct(
+        &self,
+        contact: &Contact,
+        meeting: &Meeting<'_>,
+        frames: &[Transform; 2],
+    ) -> Option<Manifold> {
         let reach = self.reach() + meeting.longest_way();
-        let mut manifold = meeting.manifold(fraction, reach);
+        let mut manifold = meeting.manifold(frames, reach);
         let context = &self.scene.narrow_phase;
         let (shape_a, shape_b) = (contact.shape_a, contact.shape_b);
         let guards = &self.scene.shapes.guards;
         if guards[shape_a as usize] | guards[shape_b as usize] != 0 && manifold.count > 0 {
             let [a, b] = meeting.shapes;
-            let [frame_a, frame_b] = meeting.sweeps.map(|sweep| sweep.at(fraction));
+            let [frame_a, frame_b] = frames;
             let (box_a, box_b) = (frame_a.compose(a.box_frame), frame_b.compose(b.box_frame));
             let b_in_a = box_b.relative_to(box_a);
             let mut points = LanePoints::of(&manifold, a.box_frame);
@@ -581,15 +588,35 @@ impl Meeting<'_> {
     }
 
     /// In the frame of shape A.
-    fn manifold(&self, fraction: f32, reach: f32) -> Manifold {
-        let [frame_a, frame_b] = self.sweeps.map(|sweep| sweep.at(fraction));
+    fn manifold(&self, [frame_a, frame_b]: &[Transform; 2], reach: f32) -> Manifold {
         let [a, b] = self.shapes;
-        manifold::collide(&a.shape, &b.shape, frame_b.relative_to(frame_a), reach)
+        manifold::collide(&a.shape, &b.shape, frame_b.relative_to(*frame_a), reach)
+    }
+
+    /// The ways of the shapes.
+    fn sweeps(&self) -> [Sweep; 2] {
+        let sweep = |k: usize, place: Vec2, way: Vec2| {
+            let frame = Transform::new(place, self.turned[k]);
+            Sweep::new(frame, Vec2::ZERO, way, self.turns[k]).child(self.shapes[k].central)
+        };
+        [sweep(0, Vec2::ZERO, Vec2::ZERO), sweep(1, self.between, self.way)]
+    }
+
+    /// Do the boxes around the shapes show that these never come as near as a hit?
+    fn stays_away(&self, slop: f32) -> bool {
+        let [a, b] = self.rows;
+        let size = self.between.x.abs() + self.between.y.abs() + self.longest_way();
+        let least =
+            hit_at(a[6] + b[6], slop) + ROUNDING * (self.extents[0] + self.extents[1] + size);
+        let swept = |k: usize, way| SweptBox::new(self.rows[k], self.turned[k], way);
+        let still = swept(0, (Vec2::ZERO, Vec2::ZERO, self.turns[0]));
+        let moving = swept(1, (self.between, self.way, self.turns[1]));
+        still.stays_away(&moving, least)
     }
 
     /// How far a point can come nearer in the step, metres.
     fn longest_way(&self) -> f32 {
-        let turned = |k: usize| self.courses[k].turn.abs() * self.extents[k];
+        let turned = |k: usize| self.turns[k].abs() * self.extents[k];
         self.way.length() + turned(0) + turned(1)
     }
 
@@ -603,8 +630,7 @@ impl Meeting<'_> {
     }
 
     /// The contact of the time of impact, its points as far apart as they still have to come.
-    fn predict(&self, manifold: &Manifold, fraction: f32) -> Prediction {
-        let frame = self.sweeps[0].at(fraction);
+    fn predict(&self, manifold: &Manifold, frame: &Transform, fraction: f32) -> Prediction {
         let (normal, between) =
             (frame.q.rotate(manifold.normal), self.between + self.way * fraction);
         let mut prediction = Prediction {
@@ -618,8 +644,8 @@ impl Meeting<'_> {
         };
         for (k, point) in manifold.points().iter().enumerate() {
             let arm = frame.apply(point.point);
-            let turned = (arm - between).cross(normal) * self.courses[1].turn
-                - arm.cross(normal) * self.courses[0].turn;
+            let turned =
+                (arm - between).cross(normal) * self.turns[1] - arm.cross(normal) * self.turns[0];
             let opened = fraction * (normal.dot(self.way) + turned);
             let coming = if opened < 0.0 { -opened } else { 0.0 };
             prediction.points[k] = arm;
