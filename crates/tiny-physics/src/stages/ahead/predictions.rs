@@ -1,20 +1,18 @@
 //! Contacts of the moments of impact; see the [stage](super).
 
+use super::again::{Again, Around, Struck};
 use super::courses::{Course, Courses, Impact};
 use super::squeezed::{self, Pressed, Squeezed};
-use crate::broad_phase::{BroadPhase, ProxyKind};
-use crate::dynamics::{
-    Bodies, ConstraintBlock, Contact, Contacts, Graph, Place, ShapeRecord, Shapes,
-};
+use crate::broad_phase::BroadPhase;
+use crate::dynamics::{Bodies, ConstraintBlock, Contact, Contacts, Graph, ShapeRecord, Shapes};
 use crate::footprint::footprint;
 use crate::geometry::manifold::{self, Manifold};
 use crate::geometry::{LINEAR_SLOP, Sweep, SweptBox, ToiState, hit_at, impact_within};
 use crate::math::{Rot, Transform, Vec2};
-use crate::simd::{BLOCK, Row};
+use crate::simd::Row;
 use crate::stages::ahead::{Found, HARMLESS, SLIGHT, Ways};
 use crate::stages::boxes;
 use crate::stages::narrow_context::Context;
-use crate::stages::pairs::Partners;
 use crate::stages::surfaces::{self, LanePoints};
 use crate::threads::Team;
 
@@ -22,8 +20,6 @@ use crate::threads::Team;
 const ROUNDS: usize = 6;
 /// Contacts that one member of the team looks at at a time.
 const CHUNK: usize = 32;
-/// What touches already is looked at again only if its body goes into it: so much of its way is along the normal.
-const HEAD_ON: f32 = 0.7;
 /// What rounding makes of places, as a part of how large and far away things are.
 const ROUNDING: f32 = 1.0e-6;
 /// Points whose separations differ by less than this are hit together, metres; multiplied by the length unit.
@@ -71,14 +67,6 @@ struct Arms {
     tangent: [f32; 2],
 }
 
-/// A body that was taken off its way.
-#[derive(Clone, Copy, Debug)]
-struct Struck {
-    body: u32,
-    /// How far, in half thicknesses of its own.
-    astray: f32,
-}
-
 /// The predictions of a step.
 #[derive(Debug, Default)]
 pub(crate) struct Predictions {
@@ -101,13 +89,12 @@ pub(crate) struct Predictions {
     /// Bodies that may still be looked at again in this step.
     budget: usize,
     found: Vec<Vec<Hit>>,
-    /// Hits of a round, the earliest first: time, chunk and place.
-    order: Vec<(u32, u32, u32)>,
-    looks: Vec<Again>,
+    /// Hits of a round, the earliest first: time and contact, and place.
+    order: Vec<(u64, u32)>,
+    again: Again,
     reached: Found,
 }
 
-footprint!(Again { candidates, pairs });
 footprint!(Predictions {
     candidates,
     contacts,
@@ -119,8 +106,9 @@ footprint!(Predictions {
     struck,
     squeezed,
     order,
+    again,
     reached
-} each { found, looks } none { rounds, budget });
+} each { found } none { rounds, budget });
 
 /// What predictions are made from.
 #[derive(Clone, Copy)]
@@ -146,6 +134,7 @@ impl Predictions {
         self.squeezed.clear();
         (self.rounds, self.budget) = (0, 0);
         self.courses.clear();
+        self.again.clear();
     }
 
     /// That of a contact.
@@ -184,8 +173,8 @@ impl Predictions {
         });
         let mut order = core::mem::take(&mut self.order);
         list_by_time(chunks, &mut order);
-        order.iter().for_each(|&(_, chunk, place)| {
-            self.take(scene, &chunks[chunk as usize][place as usize]);
+        order.iter().for_each(|&(_, place)| {
+            self.take(scene, &chunks[place as usize / CHUNK][place as usize % CHUNK]);
         });
         (self.found, self.order) = (found, order);
         self.rounds += 1;
@@ -214,34 +203,16 @@ impl Predictions {
         self.reached = found;
     }
 
-    /// Makes candidates of the contacts of bodies that hits took off their ways (of those that touch only where their
-    /// ways lead into them), and lists the pairs that need a contact now, sorted.
+    /// Makes candidates of the contacts of bodies that hits took off their ways, and lists the pairs that need a contact now,
+    /// sorted.
     pub(crate) fn look_again(
         &mut self,
         team: &Team,
-        (broad_phase, graph): (&BroadPhase, &Graph),
-        partners: &Partners<'_>,
-        dt: f32,
+        around: Around<'_>,
         pairs: &mut Vec<(u32, u32)>,
     ) {
-        let mut looks = core::mem::take(&mut self.looks);
-        let motion_of = |body: u32| self.courses.of(partners.bodies, dt, body).motion;
-        let chunks = team.map_chunks(self.struck.len(), CHUNK, &mut looks, |range, look| {
-            look.clear();
-            for &struck in &self.struck[range] {
-                look.add(struck, (broad_phase, graph), partners, &motion_of);
-            }
-        });
-        pairs.clear();
-        for look in chunks.iter() {
-            self.candidates.extend_from_slice(&look.candidates);
-            pairs.extend_from_slice(&look.pairs);
-        }
-        self.looks = looks;
-        self.candidates.sort_unstable();
-        self.candidates.dedup();
-        pairs.sort_unstable();
-        pairs.dedup();
+        let Self { again, candidates, struck, reached, courses, .. } = self;
+        again.run(team, around, (struck, &reached.moved, courses), candidates, pairs);
     }
 
     /// Keeps what a hit predicts and hands on its impulse.
@@ -371,60 +342,6 @@ impl Predictions {
     }
 }
 
-/// What is looked at again.
-#[derive(Debug, Default)]
-struct Again {
-    candidates: Vec<u32>,
-    /// Of shapes that need a contact now.
-    pairs: Vec<(u32, u32)>,
-}
-
-impl Again {
-    fn clear(&mut self) {
-        self.candidates.clear();
-        self.pairs.clear();
-    }
-
-    /// Adds what a body may meet on its new way.
-    fn add(
-        &mut self,
-        struck: Struck,
-        (broad_phase, graph): (&BroadPhase, &Graph),
-        partners: &Partners<'_>,
-        motion_of: &impl Fn(u32) -> Vec2,
-    ) {
-        let Partners { bodies, shapes, contacts, .. } = *partners;
-        let info = &bodies.infos[struck.body as usize];
-        let meets = |&(index, _): &(u32, _)| {
-            let contact = &contacts.records[index as usize];
-            let near = || partners.come_near(contact.shape_a, contact.shape_b);
-            // What touched a step ago may be apart by now.
-            let closes = || goes_in(contact, graph, motion_of);
-            if graph.touches(contact) { closes() } else { near() }
-        };
-        self.candidates.extend(contacts.of_body(info.first_contact).filter(meets).map(|of| of.0));
-        for shape in shapes.of_body(info.first_shape) {
-            let mask = shapes.records[shape as usize].filter.reach().1;
-            let path = shapes.tight[shape as usize].swept(partners.ways[shape as usize]);
-            for kind in [ProxyKind::Dynamic, ProxyKind::Static, ProxyKind::Kinematic] {
-                broad_phase.each_of(kind, &path, mask, |other| {
-                    if partners.may_meet(shape, other) && partners.come_near(shape, other) {
-                        self.pairs.push((shape.min(other), shape.max(other)));
-                    }
-                });
-            }
-        }
-    }
-}
-
-/// Do the ways of the bodies of a contact lead into each other, as the constraint of the step's start says?
-fn goes_in(contact: &Contact, graph: &Graph, motion_of: &impl Fn(u32) -> Vec2) -> bool {
-    graph.normal(contact).is_none_or(|normal| {
-        let motion = motion_of(contact.body_a) - motion_of(contact.body_b);
-        normal.dot(motion) > HEAD_ON * motion.length()
-    })
-}
-
 /// The search for a hit.
 struct Look<'a> {
     scene: Scene<'a>,
@@ -448,13 +365,11 @@ struct Meeting<'a> {
 impl Look<'_> {
     fn hit(&self, index: u32) -> Option<Hit> {
         let contact = &self.scene.contacts.records[index as usize];
-        let Place::Graph { colour, slot } = contact.place else { return None };
         if let Some(known) = self.known.of(index) {
             return Some(self.known_hit(contact, index, known));
         }
-        let bucket = self.scene.graph.bucket(colour.into(), contact.class);
-        let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
-        let touches = self.scene.graph.touches(contact);
+        let (bucket, block, lane) = self.scene.graph.lane_of(contact)?;
+        let touches = bucket.touches(block, lane);
         if touches && let Some(constraint) = bucket.constraints.get(block) {
             let hit = touching_hit(index, constraint, lane);
             let prediction = self.other_point(contact, constraint, lane);
@@ -671,15 +586,16 @@ impl Prediction {
     }
 }
 
-/// Lists hits by time, then as they were found: what comes first is handed on first.
-fn list_by_time(found: &[Vec<Hit>], order: &mut Vec<(u32, u32, u32)>) {
+/// Lists hits by time, then by contact: what comes first is handed on first.
+fn list_by_time(found: &[Vec<Hit>], order: &mut Vec<(u64, u32)>) {
     order.clear();
     for (chunk, hits) in found.iter().enumerate() {
         // The bits of what is not negative are in its order.
-        let time = |hit: &Hit| hit.fraction.to_bits();
-        order.extend(hits.iter().enumerate().map(|(k, hit)| (time(hit), chunk as u32, k as u32)));
+        let key = |hit: &Hit| u64::from(hit.fraction.to_bits()) << 32 | u64::from(hit.contact);
+        let place = |k: usize| (chunk * CHUNK + k) as u32;
+        order.extend(hits.iter().enumerate().map(|(k, hit)| (key(hit), place(k))));
     }
-    order.sort_unstable();
+    order.sort_unstable_by_key(|&(key, _)| key);
 }
 
 /// That of a contact that touches already.
