@@ -49,6 +49,11 @@ impl Bucket {
         (block.body_a[slot % BLOCK], block.body_b[slot % BLOCK])
     }
 
+    /// Does the contact of a lane touch?
+    pub(crate) fn touches(&self, block: usize, lane: usize) -> bool {
+        self.heads[block].touching >> lane & 1 != 0
+    }
+
     /// Makes room for a contact and gives its slot.
     fn reserve(&mut self, index: u32, constrained: bool) -> u32 {
         let slot = self.contacts.len();
@@ -402,9 +407,14 @@ impl Graph {
 
     /// What the narrow phase, or [`Self::mark_touching`], said last.
     pub(crate) fn touches(&self, contact: &Contact) -> bool {
-        let Place::Graph { colour, slot } = contact.place else { return false };
-        let head = &self.bucket(colour.into(), contact.class).heads[slot as usize / BLOCK];
-        head.touching >> (slot as usize % BLOCK) & 1 != 0
+        self.lane_of(contact).is_some_and(|(bucket, block, lane)| bucket.touches(block, lane))
+    }
+
+    /// Bucket, block and lane of a contact.
+    pub(crate) fn lane_of(&self, contact: &Contact) -> Option<(&Bucket, usize, usize)> {
+        let Place::Graph { colour, slot } = contact.place else { return None };
+        let bucket = self.bucket(colour.into(), contact.class);
+        Some((bucket, slot as usize / BLOCK, slot as usize % BLOCK))
     }
 
     /// Says that a contact touches or not, whatever the narrow phase said: its block is fresh.
@@ -446,7 +456,7 @@ impl Graph {
         Some(Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]))
     }
 
-    /// Lists the contacts that the narrow phase found to close in fast, and takes their marks away.
+    /// Lists the contacts that the narrow phase found to close in fast, in no order, and takes their marks away.
     pub(crate) fn take_closing(&mut self, candidates: &mut Vec<u32>) {
         for bucket in self.buckets.list_mut() {
             for (block, head) in bucket.heads.iter_mut().enumerate() {
@@ -458,8 +468,6 @@ impl Graph {
                 }
             }
         }
-        // Buckets have no order of their own.
-        candidates.sort_unstable();
     }
 
     /// Has the impulses of a contact summed up in this step.

@@ -22,6 +22,7 @@ mod rounded_core;
 mod saved;
 mod shape;
 mod sweep;
+mod swept_box;
 mod toi;
 
 #[cfg(test)]
@@ -42,5 +43,6 @@ pub use ray::{Ray, RayHit};
 pub use rounded_core::Core;
 pub use shape::Shape;
 pub use sweep::Sweep;
-pub(crate) use toi::impact_within;
+pub(crate) use swept_box::SweptBox;
 pub use toi::{LINEAR_SLOP, Toi, ToiState, time_of_impact, time_of_impact_to, toi_target};
+pub(crate) use toi::{hit_at, impact_within};

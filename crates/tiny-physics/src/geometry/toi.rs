@@ -58,8 +58,17 @@ pub struct Toi {
 /// The separation at which two shapes meet, metres: an overlap by the slop, as resting contacts have, where
 /// the radii allow that; sharp shapes stop one slop apart, so that there is always a normal.
 pub fn toi_target(a: &Shape, b: &Shape, slop: f32) -> f32 {
-    let target = slop - a.core().radius - b.core().radius;
+    target_of(a.core().radius + b.core().radius, slop)
+}
+
+fn target_of(radii: f32, slop: f32) -> f32 {
+    let target = slop - radii;
     if target > -slop { target } else { -slop }
+}
+
+/// The greatest separation that [`impact_within`] takes for a hit of shapes with such radii together, but for rounding.
+pub(crate) fn hit_at(radii: f32, slop: f32) -> f32 {
+    target_of(radii, slop) + TOLERANCE * slop
 }
 
 /// When two moving shapes meet, up to `max_fraction` of the step: [`time_of_impact_to`] with the target of

@@ -288,7 +288,7 @@ impl World {
     fn predict(&mut self, team: &Team, lengths: Lengths) {
         let settings = (self.level, self.contact_reach(), self.settings.length_unit);
         loop {
-            let State { bodies, shapes, contacts, joints, broad_phase, graph, .. } =
+            let State { bodies, shapes, contacts, joints, broad_phase, graph, waiting, .. } =
                 &mut self.state;
             let Scratch { predictions, search, ways, .. } = &mut self.scratch;
             let narrow_phase = narrow_context::Context::new(
@@ -308,8 +308,9 @@ impl World {
             let (custom, reach, ways) = (self.hooks.pair_filter(), settings.1, &ways.of_shapes);
             let partners =
                 pairs::Partners { shapes, bodies, contacts, joints, custom, reach, ways };
-            let found = &mut search.pairs;
-            predictions.look_again(team, (broad_phase, graph), &partners, lengths.dt, found);
+            let waiting = &waiting.pairs;
+            let around = ahead::Around { broad_phase, graph, waiting, partners, dt: lengths.dt };
+            predictions.look_again(team, around, &mut search.pairs);
             self.add_candidates(team);
         }
         let Self { state: State { contacts, graph, .. }, scratch, .. } = self;

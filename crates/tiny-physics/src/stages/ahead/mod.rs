@@ -12,10 +12,12 @@
 //! contacts of bodies that this makes go elsewhere are looked at again, in rounds; a hit that others make come sooner
 //! pushes for longer. The contacts of hard hits are solved more often in the substeps.
 
+mod again;
 mod courses;
 mod predictions;
 mod squeezed;
 
+pub(crate) use again::Around;
 pub(crate) use predictions::{Predictions, Scene};
 pub(crate) use squeezed::HEAVIER;
 

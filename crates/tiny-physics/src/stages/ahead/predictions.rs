@@ -1,20 +1,18 @@
 //! Contacts of the moments of impact; see the [stage](super).
 
+use super::again::{Again, Around, Struck};
 use super::courses::{Course, Courses, Impact};
 use super::squeezed::{self, Pressed, Squeezed};
-use crate::broad_phase::{BroadPhase, ProxyKind};
-use crate::dynamics::{
-    Bodies, ConstraintBlock, Contact, Contacts, Graph, Place, ShapeRecord, Shapes,
-};
+use crate::broad_phase::BroadPhase;
+use crate::dynamics::{Bodies, ConstraintBlock, Contact, Contacts, Graph, ShapeRecord, Shapes};
 use crate::footprint::footprint;
 use crate::geometry::manifold::{self, Manifold};
-use crate::geometry::{LINEAR_SLOP, Sweep, ToiState, impact_within};
+use crate::geometry::{LINEAR_SLOP, Sweep, SweptBox, ToiState, hit_at, impact_within};
 use crate::math::{Rot, Transform, Vec2};
-use crate::simd::BLOCK;
+use crate::simd::Row;
 use crate::stages::ahead::{Found, HARMLESS, SLIGHT, Ways};
 use crate::stages::boxes;
 use crate::stages::narrow_context::Context;
-use crate::stages::pairs::Partners;
 use crate::stages::surfaces::{self, LanePoints};
 use crate::threads::Team;
 
@@ -22,8 +20,8 @@ use crate::threads::Team;
 const ROUNDS: usize = 6;
 /// Contacts that one member of the team looks at at a time.
 const CHUNK: usize = 32;
-/// What touches already is looked at again only if its body goes into it: so much of its way is along the normal.
-const HEAD_ON: f32 = 0.7;
+/// What rounding makes of places, as a part of how large and far away things are.
+const ROUNDING: f32 = 1.0e-6;
 /// Points whose separations differ by less than this are hit together, metres; multiplied by the length unit.
 const NEAR: f32 = 0.02;
 /// So many bodies that were taken off their ways may be looked at again in a step, and one in [`SHARE`] of all: those
@@ -69,14 +67,6 @@ struct Arms {
     tangent: [f32; 2],
 }
 
-/// A body that was taken off its way.
-#[derive(Clone, Copy, Debug)]
-struct Struck {
-    body: u32,
-    /// How far, in half thicknesses of its own.
-    astray: f32,
-}
-
 /// The predictions of a step.
 #[derive(Debug, Default)]
 pub(crate) struct Predictions {
@@ -99,13 +89,12 @@ pub(crate) struct Predictions {
     /// Bodies that may still be looked at again in this step.
     budget: usize,
     found: Vec<Vec<Hit>>,
-    /// Hits of a round, the earliest first: time, chunk and place.
-    order: Vec<(u32, u32, u32)>,
-    looks: Vec<Again>,
+    /// Hits of a round, the earliest first: time and contact, and place.
+    order: Vec<(u64, u32)>,
+    again: Again,
     reached: Found,
 }
 
-footprint!(Again { candidates, pairs });
 footprint!(Predictions {
     candidates,
     contacts,
@@ -117,8 +106,9 @@ footprint!(Predictions {
     struck,
     squeezed,
     order,
+    again,
     reached
-} each { found, looks } none { rounds, budget });
+} each { found } none { rounds, budget });
 
 /// What predictions are made from.
 #[derive(Clone, Copy)]
@@ -144,6 +134,7 @@ impl Predictions {
         self.squeezed.clear();
         (self.rounds, self.budget) = (0, 0);
         self.courses.clear();
+        self.again.clear();
     }
 
     /// That of a contact.
@@ -182,8 +173,8 @@ impl Predictions {
         });
         let mut order = core::mem::take(&mut self.order);
         list_by_time(chunks, &mut order);
-        order.iter().for_each(|&(_, chunk, place)| {
-            self.take(scene, &chunks[chunk as usize][place as usize]);
+        order.iter().for_each(|&(_, place)| {
+            self.take(scene, &chunks[place as usize / CHUNK][place as usize % CHUNK]);
         });
         (self.found, self.order) = (found, order);
         self.rounds += 1;
@@ -212,34 +203,16 @@ impl Predictions {
         self.reached = found;
     }
 
-    /// Makes candidates of the contacts of bodies that hits took off their ways (of those that touch only where their
-    /// ways lead into them), and lists the pairs that need a contact now, sorted.
+    /// Makes candidates of the contacts of bodies that hits took off their ways, and lists the pairs that need a contact now,
+    /// sorted.
     pub(crate) fn look_again(
         &mut self,
         team: &Team,
-        (broad_phase, graph): (&BroadPhase, &Graph),
-        partners: &Partners<'_>,
-        dt: f32,
+        around: Around<'_>,
         pairs: &mut Vec<(u32, u32)>,
     ) {
-        let mut looks = core::mem::take(&mut self.looks);
-        let motion_of = |body: u32| self.courses.of(partners.bodies, dt, body).motion;
-        let chunks = team.map_chunks(self.struck.len(), CHUNK, &mut looks, |range, look| {
-            look.clear();
-            for &struck in &self.struck[range] {
-                look.add(struck, (broad_phase, graph), partners, &motion_of);
-            }
-        });
-        pairs.clear();
-        for look in chunks.iter() {
-            self.candidates.extend_from_slice(&look.candidates);
-            pairs.extend_from_slice(&look.pairs);
-        }
-        self.looks = looks;
-        self.candidates.sort_unstable();
-        self.candidates.dedup();
-        pairs.sort_unstable();
-        pairs.dedup();
+        let Self { again, candidates, struck, reached, courses, .. } = self;
+        again.run(team, around, (struck, &reached.moved, courses), candidates, pairs);
     }
 
     /// Keeps what a hit predicts and hands on its impulse.
@@ -369,60 +342,6 @@ impl Predictions {
     }
 }
 
-/// What is looked at again.
-#[derive(Debug, Default)]
-struct Again {
-    candidates: Vec<u32>,
-    /// Of shapes that need a contact now.
-    pairs: Vec<(u32, u32)>,
-}
-
-impl Again {
-    fn clear(&mut self) {
-        self.candidates.clear();
-        self.pairs.clear();
-    }
-
-    /// Adds what a body may meet on its new way.
-    fn add(
-        &mut self,
-        struck: Struck,
-        (broad_phase, graph): (&BroadPhase, &Graph),
-        partners: &Partners<'_>,
-        motion_of: &impl Fn(u32) -> Vec2,
-    ) {
-        let Partners { bodies, shapes, contacts, .. } = *partners;
-        let info = &bodies.infos[struck.body as usize];
-        let meets = |&(index, _): &(u32, _)| {
-            let contact = &contacts.records[index as usize];
-            let near = || partners.come_near(contact.shape_a, contact.shape_b);
-            // What touched a step ago may be apart by now.
-            let closes = || goes_in(contact, graph, motion_of);
-            if graph.touches(contact) { closes() } else { near() }
-        };
-        self.candidates.extend(contacts.of_body(info.first_contact).filter(meets).map(|of| of.0));
-        for shape in shapes.of_body(info.first_shape) {
-            let mask = shapes.records[shape as usize].filter.reach().1;
-            let path = shapes.tight[shape as usize].swept(partners.ways[shape as usize]);
-            for kind in [ProxyKind::Dynamic, ProxyKind::Static, ProxyKind::Kinematic] {
-                broad_phase.each_of(kind, &path, mask, |other| {
-                    if partners.may_meet(shape, other) && partners.come_near(shape, other) {
-                        self.pairs.push((shape.min(other), shape.max(other)));
-                    }
-                });
-            }
-        }
-    }
-}
-
-/// Do the ways of the bodies of a contact lead into each other, as the constraint of the step's start says?
-fn goes_in(contact: &Contact, graph: &Graph, motion_of: &impl Fn(u32) -> Vec2) -> bool {
-    graph.normal(contact).is_none_or(|normal| {
-        let motion = motion_of(contact.body_a) - motion_of(contact.body_b);
-        normal.dot(motion) > HEAD_ON * motion.length()
-    })
-}
-
 /// The search for a hit.
 struct Look<'a> {
     scene: Scene<'a>,
@@ -432,12 +351,13 @@ struct Look<'a> {
 /// Two shapes on their ways, in a frame that goes with the centre of mass of A.
 struct Meeting<'a> {
     shapes: [&'a ShapeRecord; 2],
-    courses: [Course; 2],
+    rows: [&'a Row; 2],
+    /// Of the bodies at the start, and how far they turn, radians.
+    turned: [Rot; 2],
+    turns: [f32; 2],
     /// From the centre of mass of A to that of B at the start, and how that changes over the step.
     between: Vec2,
     way: Vec2,
-    /// Of the shapes.
-    sweeps: [Sweep; 2],
     /// How far they reach from the centres of mass of their bodies, metres.
     extents: [f32; 2],
 }
@@ -445,13 +365,11 @@ struct Meeting<'a> {
 impl Look<'_> {
     fn hit(&self, index: u32) -> Option<Hit> {
         let contact = &self.scene.contacts.records[index as usize];
-        let Place::Graph { colour, slot } = contact.place else { return None };
         if let Some(known) = self.known.of(index) {
             return Some(self.known_hit(contact, index, known));
         }
-        let bucket = self.scene.graph.bucket(colour.into(), contact.class);
-        let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
-        let touches = self.scene.graph.touches(contact);
+        let (bucket, block, lane) = self.scene.graph.lane_of(contact)?;
+        let touches = bucket.touches(block, lane);
         if touches && let Some(constraint) = bucket.constraints.get(block) {
             let hit = touching_hit(index, constraint, lane);
             let prediction = self.other_point(contact, constraint, lane);
@@ -463,20 +381,23 @@ impl Look<'_> {
         }
         let [a, b] = meeting.shapes;
         if touches {
-            let manifold = meeting.manifold(0.0, self.reach());
+            let frames = meeting.sweeps().map(|sweep| sweep.at(0.0));
+            let manifold = meeting.manifold(&frames, self.reach());
             return (manifold.count > 0)
-                .then(|| meeting.predict(&manifold, 0.0).hit(index, self.near()));
+                .then(|| meeting.predict(&manifold, &frames[0], 0.0).hit(index, self.near()));
         }
-        if meeting.is_special() {
+        let slop = LINEAR_SLOP * self.length_unit();
+        if meeting.is_special() || meeting.stays_away(slop) {
             return None;
         }
-        let ([way_a, way_b], slop) = (&meeting.sweeps, LINEAR_SLOP * self.length_unit());
-        let toi = impact_within(&a.shape, way_a, &b.shape, way_b, 1.0, slop)?;
+        let sweeps = meeting.sweeps();
+        let toi = impact_within(&a.shape, &sweeps[0], &b.shape, &sweeps[1], 1.0, slop)?;
         if toi.state == ToiState::Touching {
             return None;
         }
-        let manifold = self.correct(contact, &meeting, toi.fraction)?;
-        let prediction = meeting.predict(&manifold, toi.fraction);
+        let frames = sweeps.map(|sweep| sweep.at(toi.fraction));
+        let manifold = self.correct(contact, &meeting, &frames)?;
+        let prediction = meeting.predict(&manifold, &frames[0], toi.fraction);
         Some(Hit { prediction: Some(prediction), ..prediction.hit(index, self.near()) })
     }
 
@@ -515,8 +436,9 @@ impl Look<'_> {
         if meeting.is_special() {
             return None;
         }
-        let manifold = self.correct(contact, &meeting, 0.0)?;
-        (manifold.count == 2).then(|| meeting.predict(&manifold, 0.0))
+        let frames = meeting.sweeps().map(|sweep| sweep.at(0.0));
+        let manifold = self.correct(contact, &meeting, &frames)?;
+        (manifold.count == 2).then(|| meeting.predict(&manifold, &frames[0], 0.0))
     }
 
     fn reach(&self) -> f32 {
@@ -538,32 +460,32 @@ impl Look<'_> {
         let both = [contact.body_a, contact.body_b];
         let courses = both.map(|body| self.known.courses.far(bodies, dt, body));
         let [pose_a, pose_b] = both.map(|body| bodies.poses[body as usize]);
-        let between = pose_b.p.relative_to(pose_a.p);
-        let way = courses[1].motion - courses[0].motion;
-        let sweep = |k: usize, q: Rot, place: Vec2, way: Vec2| {
-            let frame = Transform::new(place, q);
-            Sweep::new(frame, Vec2::ZERO, way, courses[k].turn).child(shapes_of[k].central)
-        };
         Meeting {
             shapes: shapes_of,
-            courses,
-            between,
-            way,
-            sweeps: [sweep(0, pose_a.q, Vec2::ZERO, Vec2::ZERO), sweep(1, pose_b.q, between, way)],
+            rows: [shape_a, shape_b].map(|shape| &shapes.rows[shape as usize]),
+            turns: courses.map(|course| course.turn),
+            between: pose_b.p.relative_to(pose_a.p),
+            turned: [pose_a.q, pose_b.q],
+            way: courses[1].motion - courses[0].motion,
             extents: [shapes.reach(shape_a), shapes.reach(shape_b)],
         }
     }
 
-    /// The manifold at a fraction of the step, without what only seams make; nothing where that is all.
-    fn correct(&self, contact: &Contact, meeting: &Meeting<'_>, fraction: f32) -> Option<Manifold> {
+    /// The manifold where the shapes are then, without what only seams make; nothing where that is all.
+    fn correct(
+        &self,
+        contact: &Contact,
+        meeting: &Meeting<'_>,
+        frames: &[Transform; 2],
+    ) -> Option<Manifold> {
         let reach = self.reach() + meeting.longest_way();
-        let mut manifold = meeting.manifold(fraction, reach);
+        let mut manifold = meeting.manifold(frames, reach);
         let context = &self.scene.narrow_phase;
         let (shape_a, shape_b) = (contact.shape_a, contact.shape_b);
         let guards = &self.scene.shapes.guards;
         if guards[shape_a as usize] | guards[shape_b as usize] != 0 && manifold.count > 0 {
             let [a, b] = meeting.shapes;
-            let [frame_a, frame_b] = meeting.sweeps.map(|sweep| sweep.at(fraction));
+            let [frame_a, frame_b] = frames;
             let (box_a, box_b) = (frame_a.compose(a.box_frame), frame_b.compose(b.box_frame));
             let b_in_a = box_b.relative_to(box_a);
             let mut points = LanePoints::of(&manifold, a.box_frame);
@@ -581,15 +503,35 @@ impl Meeting<'_> {
     }
 
     /// In the frame of shape A.
-    fn manifold(&self, fraction: f32, reach: f32) -> Manifold {
-        let [frame_a, frame_b] = self.sweeps.map(|sweep| sweep.at(fraction));
+    fn manifold(&self, [frame_a, frame_b]: &[Transform; 2], reach: f32) -> Manifold {
         let [a, b] = self.shapes;
-        manifold::collide(&a.shape, &b.shape, frame_b.relative_to(frame_a), reach)
+        manifold::collide(&a.shape, &b.shape, frame_b.relative_to(*frame_a), reach)
+    }
+
+    /// The ways of the shapes.
+    fn sweeps(&self) -> [Sweep; 2] {
+        let sweep = |k: usize, place: Vec2, way: Vec2| {
+            let frame = Transform::new(place, self.turned[k]);
+            Sweep::new(frame, Vec2::ZERO, way, self.turns[k]).child(self.shapes[k].central)
+        };
+        [sweep(0, Vec2::ZERO, Vec2::ZERO), sweep(1, self.between, self.way)]
+    }
+
+    /// Do the boxes around the shapes show that these never come as near as a hit?
+    fn stays_away(&self, slop: f32) -> bool {
+        let [a, b] = self.rows;
+        let size = self.between.x.abs() + self.between.y.abs() + self.longest_way();
+        let least =
+            hit_at(a[6] + b[6], slop) + ROUNDING * (self.extents[0] + self.extents[1] + size);
+        let swept = |k: usize, way| SweptBox::new(self.rows[k], self.turned[k], way);
+        let still = swept(0, (Vec2::ZERO, Vec2::ZERO, self.turns[0]));
+        let moving = swept(1, (self.between, self.way, self.turns[1]));
+        still.stays_away(&moving, least)
     }
 
     /// How far a point can come nearer in the step, metres.
     fn longest_way(&self) -> f32 {
-        let turned = |k: usize| self.courses[k].turn.abs() * self.extents[k];
+        let turned = |k: usize| self.turns[k].abs() * self.extents[k];
         self.way.length() + turned(0) + turned(1)
     }
 
@@ -603,8 +545,7 @@ impl Meeting<'_> {
     }
 
     /// The contact of the time of impact, its points as far apart as they still have to come.
-    fn predict(&self, manifold: &Manifold, fraction: f32) -> Prediction {
-        let frame = self.sweeps[0].at(fraction);
+    fn predict(&self, manifold: &Manifold, frame: &Transform, fraction: f32) -> Prediction {
         let (normal, between) =
             (frame.q.rotate(manifold.normal), self.between + self.way * fraction);
         let mut prediction = Prediction {
@@ -618,8 +559,8 @@ impl Meeting<'_> {
         };
         for (k, point) in manifold.points().iter().enumerate() {
             let arm = frame.apply(point.point);
-            let turned = (arm - between).cross(normal) * self.courses[1].turn
-                - arm.cross(normal) * self.courses[0].turn;
+            let turned =
+                (arm - between).cross(normal) * self.turns[1] - arm.cross(normal) * self.turns[0];
             let opened = fraction * (normal.dot(self.way) + turned);
             let coming = if opened < 0.0 { -opened } else { 0.0 };
             prediction.points[k] = arm;
@@ -645,15 +586,16 @@ impl Prediction {
     }
 }
 
-/// Lists hits by time, then as they were found: what comes first is handed on first.
-fn list_by_time(found: &[Vec<Hit>], order: &mut Vec<(u32, u32, u32)>) {
+/// Lists hits by time, then by contact: what comes first is handed on first.
+fn list_by_time(found: &[Vec<Hit>], order: &mut Vec<(u64, u32)>) {
     order.clear();
     for (chunk, hits) in found.iter().enumerate() {
         // The bits of what is not negative are in its order.
-        let time = |hit: &Hit| hit.fraction.to_bits();
-        order.extend(hits.iter().enumerate().map(|(k, hit)| (time(hit), chunk as u32, k as u32)));
+        let key = |hit: &Hit| u64::from(hit.fraction.to_bits()) << 32 | u64::from(hit.contact);
+        let place = |k: usize| (chunk * CHUNK + k) as u32;
+        order.extend(hits.iter().enumerate().map(|(k, hit)| (key(hit), place(k))));
     }
-    order.sort_unstable();
+    order.sort_unstable_by_key(|&(key, _)| key);
 }
 
 /// That of a contact that touches already.
