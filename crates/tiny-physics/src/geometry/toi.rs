@@ -13,7 +13,7 @@
 //! it homes in as Newton's method does. The bound of first order, g / (n . (va - vb) + wa Ra + wb Rb), is
 //! taken where it is larger: shapes that spin very fast.
 
-use super::distance::{Distance, core_distance};
+use super::distance::{Closest, Distance, distance_from};
 use super::polygon::MAX_VERTICES;
 use super::{Core, Shape, Sweep};
 use crate::math::Vec2;
@@ -66,9 +66,9 @@ fn target_of(radii: f32, slop: f32) -> f32 {
     if target > -slop { target } else { -slop }
 }
 
-/// The greatest separation that [`impact_within`] takes for a hit of shapes with such radii together, but for rounding.
+/// A separation that [`impact_after`] takes for a hit of shapes with such radii together, but for rounding.
 pub(crate) fn hit_at(radii: f32, slop: f32) -> f32 {
-    target_of(radii, slop) + TOLERANCE * slop
+    target_of(radii, slop) + 0.5 * TOLERANCE * slop
 }
 
 /// When two moving shapes meet, up to `max_fraction` of the step: [`time_of_impact_to`] with the target of
@@ -98,7 +98,22 @@ pub(crate) fn impact_within(
     if stay_apart(&a, &b, goal) {
         return None;
     }
-    let toi = search(&a, &b, goal);
+    let toi = search(&a, &b, goal, 0.0);
+    (toi.state != ToiState::Separated).then_some(toi)
+}
+
+/// The same for shapes that are known to stay apart up to a fraction `from` of the step: there the search begins.
+pub(crate) fn impact_after(
+    a: &Shape,
+    sweep_a: &Sweep,
+    b: &Shape,
+    sweep_b: &Sweep,
+    from: f32,
+    slop: f32,
+) -> Option<Toi> {
+    let goal =
+        Goal { max_fraction: 1.0, target: toi_target(a, b, slop), tolerance: TOLERANCE * slop };
+    let toi = search(&Moving::new(a, sweep_a), &Moving::new(b, sweep_b), goal, from);
     (toi.state != ToiState::Separated).then_some(toi)
 }
 
@@ -151,7 +166,7 @@ pub fn time_of_impact_to(
     target: f32,
 ) -> Toi {
     let goal = Goal { max_fraction, target, tolerance: TOLERANCE * LINEAR_SLOP };
-    search(&Moving::new(a, sweep_a), &Moving::new(b, sweep_b), goal)
+    search(&Moving::new(a, sweep_a), &Moving::new(b, sweep_b), goal, 0.0)
 }
 
 /// What is looked for: the first time, up to a fraction, at which a separation is the target's or closer to it than
@@ -174,20 +189,21 @@ impl Goal {
     }
 }
 
-fn search(a: &Moving<'_>, b: &Moving<'_>, goal: Goal) -> Toi {
+fn search(a: &Moving<'_>, b: &Moving<'_>, goal: Goal, from: f32) -> Toi {
     let Goal { max_fraction, target, .. } = goal;
     let finite = goal.is_finite(a, b);
     let touch = goal.touch(a, b);
-    let mut fraction = 0.0;
+    let mut fraction = from;
+    let mut closest = Closest::default();
     for iteration in 1..=MAX_ITERATIONS {
         let (core_a, core_b) = (a.at(fraction), b.at(fraction));
-        let gap = core_distance(&core_a, &core_b);
+        let gap = distance_from(&core_a, &core_b, &mut closest);
         let end = |state, fraction| Toi::new(state, fraction, &gap, iteration);
         if !finite {
             return end(ToiState::Limit, 0.0);
         }
         if gap.separation <= touch {
-            let state = if iteration == 1 { ToiState::Touching } else { ToiState::Hit };
+            let state = if fraction == 0.0 { ToiState::Touching } else { ToiState::Hit };
             return end(state, fraction);
         }
         let step = safe_step(
