@@ -178,7 +178,7 @@ impl Predictions {
         });
         (self.found, self.order) = (found, order);
         self.rounds += 1;
-        self.list_struck(scene.bodies);
+        self.list_struck(scene.bodies, SLIGHT * scene.narrow_phase.speculative_distance);
         !self.struck.is_empty()
     }
 
@@ -320,8 +320,8 @@ impl Predictions {
         self.squeezed.weighed.len()
     }
 
-    /// Lists the bodies that hits have taken off their ways since they were last looked at.
-    fn list_struck(&mut self, bodies: &Bodies) {
+    /// Lists the bodies that hits have taken off their ways by `least` metres and more since they were last looked at.
+    fn list_struck(&mut self, bodies: &Bodies, least: f32) {
         self.candidates.clear();
         self.struck.clear();
         if self.rounds == ROUNDS || self.budget == 0 {
@@ -329,7 +329,7 @@ impl Predictions {
         }
         for course in &mut self.courses.list {
             let astray = course.astray / bodies.infos[course.body as usize].min_extent;
-            if astray > HARMLESS {
+            if astray > HARMLESS && course.astray > least {
                 self.struck.push(Struck { body: course.body, astray });
                 course.astray = 0.0;
             }
