@@ -7,7 +7,7 @@ use crate::broad_phase::BroadPhase;
 use crate::dynamics::{Bodies, ConstraintBlock, Contact, Contacts, Graph, ShapeRecord, Shapes};
 use crate::footprint::footprint;
 use crate::geometry::manifold::{self, Manifold};
-use crate::geometry::{LINEAR_SLOP, Sweep, SweptBox, ToiState, hit_at, impact_after};
+use crate::geometry::{LINEAR_SLOP, Sweep, SweptBox, ToiState, hit_at, impact_within};
 use crate::math::{Rot, Transform, Vec2};
 use crate::simd::Row;
 use crate::stages::ahead::{Found, HARMLESS, SLIGHT, Ways};
@@ -392,7 +392,7 @@ impl Look<'_> {
             return None;
         }
         let sweeps = meeting.sweeps();
-        let toi = impact_after(&a.shape, &sweeps[0], &b.shape, &sweeps[1], apart, slop)?;
+        let toi = impact_within(&a.shape, &sweeps[0], &b.shape, &sweeps[1], (apart, 1.0), slop)?;
         if toi.state == ToiState::Touching {
             return None;
         }
