@@ -370,7 +370,7 @@ mod tests {
         ) {
             let target = toi_target(&a, &b, LINEAR_SLOP);
             let toi = time_of_impact(&a, &sweep_a, &b, &sweep_b, 1.0);
-            match impact_within(&a, &sweep_a, &b, &sweep_b, 1.0, LINEAR_SLOP) {
+            match impact_within(&a, &sweep_a, &b, &sweep_b, (0.0, 1.0), LINEAR_SLOP) {
                 Some(impact) => prop_assert_eq!(impact, toi),
                 None => prop_assert!(matches!(toi.state, ToiState::Separated | ToiState::Limit)),
             }
