@@ -68,7 +68,7 @@ fn target_of(radii: f32, slop: f32) -> f32 {
 
 /// A separation that [`impact_within`] takes for a hit of shapes with such radii together, but for rounding.
 pub(crate) fn hit_at(radii: f32, slop: f32) -> f32 {
-    target_of(radii, slop) + 0.5 * TOLERANCE * slop
+    target_of(radii, slop) + 0.9 * TOLERANCE * slop
 }
 
 /// When two moving shapes meet, up to `max_fraction` of the step: [`time_of_impact_to`] with the target of
