@@ -49,7 +49,19 @@ pub fn distance(a: &Shape, b: &Shape, b_in_a: Transform) -> Distance {
 
 /// Distance of two cores in one frame.
 pub(crate) fn core_distance(a: &Core, b: &Core) -> Distance {
-    let mut simplex = Simplex::new(a, b);
+    distance_from(a, b, &mut Closest::default())
+}
+
+/// The points of two cores, one or two of each, that were closest when they were looked at last.
+#[derive(Default)]
+pub(crate) struct Closest {
+    pairs: [(usize, usize); 2],
+    is_edge: bool,
+}
+
+/// The same, beginning with what was closest a moment ago.
+pub(crate) fn distance_from(a: &Core, b: &Core, closest: &mut Closest) -> Distance {
+    let mut simplex = Simplex::new(a, b, closest);
     let mut converged = false;
     for _ in 0..MAX_ITERATIONS {
         let nearest = simplex.reduce();
@@ -67,6 +79,8 @@ pub(crate) fn core_distance(a: &Core, b: &Core) -> Distance {
         }
         simplex.push(next);
     }
+    let [p, q, _] = simplex.vertices;
+    *closest = Closest { pairs: [(p.a, p.b), (q.a, q.b)], is_edge: simplex.count == 2 };
     simplex.finish(a, b, converged)
 }
 
@@ -101,16 +115,21 @@ struct Simplex {
 }
 
 impl Simplex {
-    fn new(a: &Core, b: &Core) -> Self {
-        let first = Vertex { a: 0, b: 0, gap: b.points[0] - a.points[0] };
-        Self {
+    fn new(a: &Core, b: &Core, closest: &Closest) -> Self {
+        let vertex = |(i, j): (usize, usize)| Vertex { a: i, b: j, gap: b.points[j] - a.points[i] };
+        let [first, second] = closest.pairs.map(vertex);
+        let mut simplex = Self {
             vertices: [first; 3],
             count: 1,
             fraction: 0.0,
             slack: ROUNDING * first.gap.length(),
             direction: Vec2::ZERO,
             length: 0.0,
+        };
+        if closest.is_edge {
+            simplex.push(second);
         }
+        simplex
     }
 
     fn support(&self, a: &Core, b: &Core, direction: Vec2) -> Vertex {

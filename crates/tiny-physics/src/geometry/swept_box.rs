@@ -1,4 +1,4 @@
-//! Rounded boxes on their ways: do they certainly pass each other by?
+//! Rounded boxes on their ways: for how long do they certainly stay apart?
 
 use crate::math::{Rot, Vec2};
 use crate::simd::Row;
@@ -32,16 +32,25 @@ impl SweptBox {
         Self { center, way, turn, arm, sides, axes, radius: row[6], bend }
     }
 
-    /// Does one of their axes show that two boxes never come within `least` metres? Along one direction the least gap bends
-    /// downwards in time, so the start and the end tell.
-    pub(crate) fn stays_away(&self, other: &Self, least: f32) -> bool {
+    /// A part of the step for which one of their axes shows that two boxes do not come within `least` metres; 1 for all of it.
+    /// Along one direction the least gap bends downwards in time, so it stays above what the start and the end tell.
+    pub(crate) fn apart_until(&self, other: &Self, least: f32) -> f32 {
         let between = other.center + other.arm - self.center - self.arm;
         let least = least + self.radius + other.radius;
-        [self.axes, other.axes].as_flattened().iter().any(|&axis| {
+        let mut until = 0.0;
+        for &axis in [self.axes, other.axes].as_flattened() {
             let axis = if axis.dot(between) < 0.0 { -axis } else { axis };
-            let start = axis.dot(between) - self.half_along(axis) - other.half_along(axis);
-            start > least && -other.front(-axis) - self.front(axis) > least
-        })
+            let start = axis.dot(between) - self.half_along(axis) - other.half_along(axis) - least;
+            if start > 0.0 {
+                let end = -other.front(-axis) - self.front(axis) - least;
+                if end > 0.0 {
+                    return 1.0;
+                }
+                let fraction = start / (start - end);
+                until = if fraction > until { fraction } else { until };
+            }
+        }
+        until
     }
 
     fn half_along(&self, axis: Vec2) -> f32 {
@@ -55,5 +64,53 @@ impl SweptBox {
             + turned.dot(self.arm)
             + self.half_along(turned)
             + self.bend
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::any_vec;
+    use super::super::{LINEAR_SLOP, Shape, Sweep, time_of_impact_to};
+    use super::*;
+    use crate::math::Transform;
+    use proptest::prelude::*;
+
+    fn plank(place: Vec2, way: Vec2, turn: f32) -> SweptBox {
+        let row = [0.0, 0.0, 1.0, 0.0, 1.0, 0.1, 0.0, 1.0];
+        SweptBox::new(&row, Rot::IDENTITY, (place, way, turn))
+    }
+
+    #[test]
+    fn what_passes_by_is_told_by_an_axis() {
+        let still = plank(Vec2::ZERO, Vec2::ZERO, 0.0);
+        let apart = |dx: f32, dy: f32, turn: f32| {
+            still.apart_until(&plank(Vec2::new(0.0, 0.4), Vec2::new(dx, dy), turn), 0.0)
+        };
+        assert_eq!(
+            [apart(30.0, 0.0, 0.0), apart(0.0, -0.19, 0.0), apart(0.0, 0.0, 0.15)],
+            [1.0; 3]
+        );
+        assert!((apart(0.0, -0.4, 0.0) - 0.5).abs() < 1.0e-6);
+        assert!(apart(0.0, 0.0, 0.25) < 1.0 && apart(f32::NAN, 9.0, 0.0) < 1.0);
+    }
+
+    proptest! {
+        #[test]
+        fn no_impact_comes_sooner(
+            half in any_vec(1.0), place in any_vec(3.0), way in any_vec(4.0), turns in any_vec(2.0),
+        ) {
+            let half = half.abs() + Vec2::new(0.05, 0.05);
+            let shape = Shape::rect(half.x, half.y).unwrap();
+            let row = [0.0, 0.0, 1.0, 0.0, half.x, half.y, 0.0, 1.0];
+            let swept = |place, way, turn| SweptBox::new(&row, Rot::IDENTITY, (place, way, turn));
+            let sweep = |place, way, turn| {
+                Sweep::new(Transform::new(place, Rot::IDENTITY), Vec2::ZERO, way, turn)
+            };
+            let (a, b) = (sweep(Vec2::ZERO, Vec2::ZERO, turns.x), sweep(place, way, turns.y));
+            let toi = time_of_impact_to(&shape, &a, &shape, &b, 1.0, LINEAR_SLOP);
+            let still = swept(Vec2::ZERO, Vec2::ZERO, turns.x);
+            let until = still.apart_until(&swept(place, way, turns.y), LINEAR_SLOP);
+            prop_assert!(until <= toi.fraction + 1.0e-3, "{until} {toi:?}");
+        }
     }
 }

@@ -182,7 +182,7 @@ impl Inner {
         length_unit: f32,
     ) -> Option<(f32, Vec2)> {
         let slop = LINEAR_SLOP * length_unit;
-        let toi = impact_within(&self.disk, &self.sweep, other, motion, first, slop)?;
+        let toi = impact_within(&self.disk, &self.sweep, other, motion, (0.0, first), slop)?;
         match toi.state {
             ToiState::Hit | ToiState::Limit => Some((toi.fraction, toi.normal)),
             // Deep inside already: out again is the only way on.
@@ -443,7 +443,7 @@ impl Search<'_> {
                 && one_way::is_solid_side(record, way, self.fast.start.q)
         };
         let slop = LINEAR_SLOP * length_unit;
-        let toi = impact_within(&record.shape, &moving, &other.shape, &motion, first, slop)?;
+        let toi = impact_within(&record.shape, &moving, &other.shape, &motion, (0.0, first), slop)?;
         let hit = matches!(toi.state, ToiState::Hit | ToiState::Limit);
         let there = |f: f32| moving.at(f).relative_to(motion.at(f));
         if hit && solid_along(toi.normal) && !self.is_ghost(record, index, there(toi.fraction)) {

@@ -208,7 +208,8 @@ impl Scene<'_> {
         let (shape, other) = (record(shape), record(other));
         let step = FastBody::of_step(self.bodies, other.body);
         let motion = step.seen_from(fast.start).child(other.central);
-        let toi = impact_within(&shape.shape, moving, &other.shape, &motion, 1.0, LINEAR_SLOP)?;
+        let toi =
+            impact_within(&shape.shape, moving, &other.shape, &motion, (0.0, 1.0), LINEAR_SLOP)?;
         (toi.state != ToiState::Touching || !self.sensors.saw(&overlap)).then_some(overlap)
     }
 }

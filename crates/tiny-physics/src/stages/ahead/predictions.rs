@@ -178,7 +178,7 @@ impl Predictions {
         });
         (self.found, self.order) = (found, order);
         self.rounds += 1;
-        self.list_struck(scene.bodies);
+        self.list_struck(scene.bodies, SLIGHT * scene.narrow_phase.speculative_distance);
         !self.struck.is_empty()
     }
 
@@ -320,8 +320,8 @@ impl Predictions {
         self.squeezed.weighed.len()
     }
 
-    /// Lists the bodies that hits have taken off their ways since they were last looked at.
-    fn list_struck(&mut self, bodies: &Bodies) {
+    /// Lists the bodies that hits have taken off their ways by `least` metres and more since they were last looked at.
+    fn list_struck(&mut self, bodies: &Bodies, least: f32) {
         self.candidates.clear();
         self.struck.clear();
         if self.rounds == ROUNDS || self.budget == 0 {
@@ -329,7 +329,7 @@ impl Predictions {
         }
         for course in &mut self.courses.list {
             let astray = course.astray / bodies.infos[course.body as usize].min_extent;
-            if astray > HARMLESS {
+            if astray > HARMLESS && course.astray > least {
                 self.struck.push(Struck { body: course.body, astray });
                 course.astray = 0.0;
             }
@@ -387,11 +387,12 @@ impl Look<'_> {
                 .then(|| meeting.predict(&manifold, &frames[0], 0.0).hit(index, self.near()));
         }
         let slop = LINEAR_SLOP * self.length_unit();
-        if meeting.is_special() || meeting.stays_away(slop) {
+        let apart = meeting.apart_until(slop);
+        if meeting.is_special() || apart >= 1.0 {
             return None;
         }
         let sweeps = meeting.sweeps();
-        let toi = impact_within(&a.shape, &sweeps[0], &b.shape, &sweeps[1], 1.0, slop)?;
+        let toi = impact_within(&a.shape, &sweeps[0], &b.shape, &sweeps[1], (apart, 1.0), slop)?;
         if toi.state == ToiState::Touching {
             return None;
         }
@@ -517,8 +518,8 @@ impl Meeting<'_> {
         [sweep(0, Vec2::ZERO, Vec2::ZERO), sweep(1, self.between, self.way)]
     }
 
-    /// Do the boxes around the shapes show that these never come as near as a hit?
-    fn stays_away(&self, slop: f32) -> bool {
+    /// A part of the step for which the disks or the boxes around the shapes show that these stay apart; 1 for all of it.
+    fn apart_until(&self, slop: f32) -> f32 {
         let [a, b] = self.rows;
         let size = self.between.x.abs() + self.between.y.abs() + self.longest_way();
         let least =
@@ -526,7 +527,24 @@ impl Meeting<'_> {
         let swept = |k: usize, way| SweptBox::new(self.rows[k], self.turned[k], way);
         let still = swept(0, (Vec2::ZERO, Vec2::ZERO, self.turns[0]));
         let moving = swept(1, (self.between, self.way, self.turns[1]));
-        still.stays_away(&moving, least)
+        let boxes = still.apart_until(&moving, least);
+        let disks = self.disks_apart_until(self.extents[0] + self.extents[1] + least);
+        if disks > boxes { disks } else { boxes }
+    }
+
+    /// The part of the step until when the centres of mass are further from each other than `least`; 1 if they always are.
+    fn disks_apart_until(&self, least: f32) -> f32 {
+        let length = self.between.length();
+        let gap = (length - least) * (length + least);
+        let coming = -self.between.dot(self.way);
+        let square = coming * coming - self.way.length_sq() * gap;
+        if gap <= 0.0 {
+            0.0
+        } else if coming <= 0.0 || square <= 0.0 || gap >= coming + square.sqrt() {
+            1.0
+        } else {
+            gap / (coming + square.sqrt())
+        }
     }
 
     /// How far a point can come nearer in the step, metres.
