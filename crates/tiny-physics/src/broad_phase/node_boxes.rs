@@ -100,3 +100,29 @@ impl Boxes {
         all
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::clamped;
+    use super::super::tests::any_box;
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn lanes_overlap_as_boxes_do(
+            children in prop::collection::vec(any_box(), WIDTH),
+            probe in any_box(),
+            lanes in 0_u32..256,
+        ) {
+            let (mut boxes, probe) = (Boxes::EMPTY, clamped(probe));
+            let children: Vec<Aabb> = children.into_iter().map(clamped).collect();
+            children.iter().enumerate().for_each(|(lane, aabb)| boxes.set(lane, *aabb));
+            let hit = |lane: usize| u32::from(children[lane].overlaps(&probe)) << lane;
+            prop_assert_eq!(boxes.overlaps(&probe), (0..WIDTH).map(hit).sum::<u32>());
+            let some = (0..WIDTH).filter(|lane| lanes >> lane & 1 != 0);
+            let union = some.fold(Aabb::EMPTY, |all, lane| all.union(&children[lane]));
+            prop_assert_eq!(boxes.union_of(lanes), union);
+        }
+    }
+}

@@ -506,3 +506,33 @@ impl Search<'_> {
             && rules.custom.is_none_or(|rule| rule.allows(bodies, shapes, shape, index))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::tests::{any_frame, any_shape, any_vec};
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+        #[test]
+        fn what_stays_clear_meets_nothing(
+            shape in any_shape(),
+            half in (0.05_f32..2.0, 0.0_f32..1.0),
+            frame in any_frame(2.0),
+            place in any_frame(3.0),
+            (start, way, turn) in (any_frame(4.0), any_vec(6.0), -4.0_f32..4.0),
+        ) {
+            let other = Shape::rect(half.0, half.1.max(0.01)).unwrap();
+            let row = [frame.p.x, frame.p.y, frame.q.c, frame.q.s, half.0, half.1.max(0.01), 0.0, 1.0];
+            let (their, body) = (Sweep::fixed(place), Sweep::new(start, Vec2::ZERO, way, turn));
+            let core = shape.core();
+            let extent = core.points().iter().fold(0.0_f32, |most, p| most.max(p.length())) + core.radius;
+            let room = clear_room(&row, &their, &body) - 2.0 * LINEAR_SLOP;
+            let toi = impact_within(&shape, &body, &other, &their.child(frame), 1.0, LINEAR_SLOP);
+            prop_assert!(room <= extent || toi.is_none(), "{room} {extent} {toi:?}");
+            let moves = Sweep::new(place, Vec2::ZERO, Vec2::X, 0.0);
+            prop_assert_eq!(clear_room(&row, &moves, &body), 0.0);
+        }
+    }
+}
