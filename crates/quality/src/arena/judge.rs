@@ -20,9 +20,9 @@ pub struct Findings {
     /// Energy gained over that turned over, where nothing from outside adds any.
     pub gain: Option<f64>,
     /// Speed of the fastest body in the last half second, m/s, where everything should come to rest; what rolls only so far
-    /// as it slides or hops.
+    /// as it slides or hops, and not what hangs: nothing damps a pendulum.
     pub restless: Option<f64>,
-    /// Seconds until everything sleeps, where it should, but for disks: nothing stops one that rolls.
+    /// Seconds until everything sleeps, where it should, but for what hangs, and for disks: nothing stops one that rolls.
     pub asleep: Option<f64>,
     /// Widest gap of a joint after the first second, metres.
     pub gap: Option<f64>,
@@ -120,10 +120,22 @@ fn stir(trial: &Trial, body: usize) -> f64 {
     (trial.speed(body) - rolled.unwrap_or(0.0)).max(0.0)
 }
 
-/// Do all bodies sleep that do not roll?
-fn sleeps(trial: &Trial) -> bool {
-    let mut others = trial.dynamic().into_iter().filter(|&body| disk(trial, body).is_none());
-    !others.any(|body| trial.is_awake(body))
+/// Bodies that joints join, one after the other, to something fixed, the first of them a joint that lets them swing.
+fn hung(scene: &Scene) -> Vec<bool> {
+    let mut hung = vec![false; scene.bodies.len()];
+    let moves = |body: usize| scene.bodies[body].kind == BodyKind::Dynamic;
+    loop {
+        let before = hung.clone();
+        for joint in &scene.joints {
+            let swings = !matches!(joint.def.kind, JointKind::Weld { .. });
+            for (on, body) in [(joint.a, joint.b), (joint.b, joint.a)] {
+                hung[body] |= moves(body) && (hung[on] || swings && !moves(on));
+            }
+        }
+        if hung == before {
+            return hung;
+        }
+    }
 }
 
 /// Does what a timeline asks for before a step.
@@ -147,6 +159,7 @@ struct Judge {
     sides: Sides,
     gain: Option<crate::hard::Gain>,
     rests: bool,
+    hung: Vec<bool>,
     steps: u32,
     not_finite: Vec<bool>,
     started_inside: f64,
@@ -184,10 +197,23 @@ impl Judge {
             sides: Sides::new(trial),
             gain: passive.then(crate::hard::Gain::default),
             rests,
+            hung: hung(scene),
             steps: scene.steps,
             not_finite: vec![false; trial.len()],
             started_inside: trial.deepest_overlap(),
         }
+    }
+
+    /// What should come to rest.
+    fn settling<'a>(&'a self, trial: &'a Trial) -> impl Iterator<Item = usize> + 'a {
+        let hangs = |body: usize| self.hung.get(body).is_some_and(|&hangs| hangs);
+        trial.dynamic().into_iter().filter(move |&body| !hangs(body))
+    }
+
+    /// Does everything sleep that should, but for what rolls?
+    fn sleeps(&self, trial: &Trial) -> bool {
+        let mut others = self.settling(trial).filter(|&body| disk(trial, body).is_none());
+        !others.any(|body| trial.is_awake(body))
     }
 
     fn look(&mut self, trial: &Trial, step: u32) {
@@ -214,11 +240,11 @@ impl Judge {
             self.found.gap = Some(self.found.gap.unwrap_or(0.0).max(widest));
             self.found.overrun = Some(self.found.overrun.unwrap_or(0.0).max(beyond));
         }
-        if self.rests && self.found.asleep.is_none() && sleeps(trial) {
+        if self.rests && self.found.asleep.is_none() && self.sleeps(trial) {
             self.found.asleep = Some(trial.time());
         }
         if self.rests && step + 30 > self.steps {
-            let fastest = greatest(trial.dynamic().into_iter().map(|body| stir(trial, body)));
+            let fastest = greatest(self.settling(trial).map(|body| stir(trial, body)));
             self.found.restless = Some(self.found.restless.unwrap_or(0.0).max(fastest));
         }
     }

@@ -82,6 +82,39 @@ mod tests {
         assert!(restless > 0.5 && asleep > 2.0, "a crate: {restless} m/s, {asleep} s");
     }
 
+    /// Where nothing falls, crates that overlap by the last digit of their places drift apart by nanometres a second.
+    #[test]
+    fn rounding_is_no_energy() {
+        for seed in [906, 987, 1059] {
+            let found = play(&draw(seed), &our_engine, &|| 0.0);
+            assert!(found.gain.expect("nothing adds any") < 1e-6, "seed {seed}: {:?}", found.gain);
+        }
+    }
+
+    #[test]
+    fn what_swings_need_not_rest() {
+        use tiny_physics::{JointDef, RigidBody, Shape, Vec2};
+        for joined in [true, false] {
+            let mut scene = draw(1);
+            (scene.bodies, scene.joints, scene.script) = (Vec::new(), Vec::new(), None);
+            scene.steps = 120;
+            scene.gravity = Vec2::new(0.0, -10.0);
+            let origin = scene.body(RigidBody::fixed());
+            let body = RigidBody::dynamic().position(Vec2::new(2.0, 0.0));
+            let body = scene.body(body.shape(Shape::rect(0.5, 0.5).expect("a crate")));
+            if joined {
+                scene.joint(
+                    origin,
+                    body,
+                    JointDef::revolute().anchors(Vec2::ZERO, Vec2::new(-2.0, 0.0)),
+                );
+            }
+            let found = play(&scene, &our_engine, &|| 0.0);
+            let restless = found.restless.expect("it should rest");
+            assert_eq!(restless < 0.01, joined, "{restless} m/s, joined: {joined}");
+        }
+    }
+
     #[test]
     fn a_ball_that_flies_through_a_wall_is_seen() {
         use tiny_physics::{RigidBody, Shape, Vec2};

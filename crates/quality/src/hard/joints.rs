@@ -158,7 +158,7 @@ pub(super) fn crates_on_a_bridge(lab: &mut Lab<'_>) -> Vec<Measure> {
 pub(crate) struct Gain {
     /// At the start, lowest and highest so far, joules.
     seen: Option<[f64; 3]>,
-    /// What lifts everything by a tenth of a metre, joules.
+    /// What lifts everything by a tenth of a metre, or moves it at a centimetre a second where nothing falls, joules.
     lift: f64,
 }
 
@@ -168,13 +168,14 @@ impl Gain {
         let energy = if energy.is_nan() { f64::INFINITY } else { energy };
         if self.seen.is_none() {
             let mass: f64 = trial.dynamic().into_iter().map(|body| trial.mass(body)).sum();
-            self.lift = 0.1 * mass * f64::from(trial.scene().gravity.length());
+            let gravity = f64::from(trial.scene().gravity.length());
+            self.lift = mass * (0.1 * gravity + 0.5 * 0.01_f64.powi(2));
         }
         let [start, low, high] = self.seen.unwrap_or([energy; 3]);
         self.seen = Some([start, low.min(energy), high.max(energy)]);
     }
 
-    /// The rise over all that was turned over, or over what lifts everything by a tenth of a metre where that is more;
+    /// The rise over all that was turned over, or over [`Gain::lift`] where that is more;
     /// infinite where there was no number.
     pub(crate) fn share(&self) -> f64 {
         let [start, low, high] = self.seen.unwrap_or_default();
