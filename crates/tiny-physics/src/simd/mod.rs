@@ -22,5 +22,5 @@ pub(crate) use fearless_simd::Simd;
 pub(crate) use lanes::{BLOCK, Lanes, Row, RowSource};
 pub use level::SimdLevel;
 pub(crate) use level::{
-    DoubleKernel, LaneKernel, dispatch, dispatch_baseline, dispatch_doubles, dispatch_narrow,
+    FourKernel, LaneKernel, dispatch, dispatch_baseline, dispatch_fours, dispatch_narrow,
 };

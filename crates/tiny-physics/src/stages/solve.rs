@@ -228,7 +228,7 @@ impl Solver {
         };
         for substep in 0..lengths.substeps {
             let first = substep == 0;
-            integrate::velocities(team, listed, stores.bodies, first);
+            integrate::velocities(team, level, listed, stores.bodies, first);
             joints(stores, joint_solver::Pass::WarmStart);
             if first {
                 contacts(stores, Pass::WarmStart);
@@ -245,7 +245,7 @@ impl Solver {
                     in_lanes(stores, Pass::Relax, &squeezed.schedule);
                 }
             }
-            integrate::positions(team, listed, stores.bodies, h, max_speed);
+            integrate::positions(team, level, listed, stores.bodies, h, max_speed);
             for round in 1..=lengths.relaxations {
                 let last = round == lengths.relaxations;
                 joints(stores, joint_solver::Pass::Relax);
