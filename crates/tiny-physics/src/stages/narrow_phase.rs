@@ -27,15 +27,18 @@ pub(crate) fn run(
     schedule: &Schedule,
     predictions: &Predictions,
 ) {
-    for stage in schedule.stages() {
-        graph.for_each_run(team, &stage, |class, blocks| match class {
-            PairClass::BoxBox => update::<BoxBox>(context, predictions, blocks),
-            PairClass::BoxCircle => update::<BoxCircle>(context, predictions, blocks),
-            PairClass::CapsuleCircle => update::<CapsuleCircle>(context, predictions, blocks),
-            PairClass::CircleCircle => update::<CircleCircle>(context, predictions, blocks),
-            PairClass::General => update::<General>(context, predictions, blocks),
-        });
-    }
+    graph.for_each_chunk(team, schedule, |runs, mut source| {
+        for run in runs {
+            let Some(blocks) = source.blocks(run) else { continue };
+            match run.class {
+                PairClass::BoxBox => update::<BoxBox>(context, predictions, blocks),
+                PairClass::BoxCircle => update::<BoxCircle>(context, predictions, blocks),
+                PairClass::CapsuleCircle => update::<CapsuleCircle>(context, predictions, blocks),
+                PairClass::CircleCircle => update::<CircleCircle>(context, predictions, blocks),
+                PairClass::General => update::<General>(context, predictions, blocks),
+            }
+        }
+    });
 }
 
 fn update<K: PairKernel>(context: Context<'_>, predictions: &Predictions, blocks: Blocks<'_>) {

@@ -11,7 +11,7 @@ use super::rests::Compliance;
 use super::{integrate, joint_solver, paces, passivity, tree_contacts};
 use crate::describe::Settings;
 use crate::dynamics::{
-    BlockAddress, Graph, JOINTED, JointBlocks, JointLoad, JointPlaces, PACES, PLAIN, Place,
+    BlockAddress, Bucket, Graph, JOINTED, JointBlocks, JointLoad, JointPlaces, PACES, PLAIN, Place,
     REFINEMENT, ROUNDS, Schedule, pace_at,
 };
 use crate::footprint::footprint;
@@ -226,13 +226,14 @@ impl Solver {
             tree_contacts.run(level, pass, &parameters, &mut stores.bodies.rows, trees);
             in_lanes(stores, pass, schedule);
         };
+        let jointed = stores.graph.of_pace(pace).iter().any(Bucket::is_jointed);
         for substep in 0..lengths.substeps {
             let first = substep == 0;
             integrate::velocities(team, level, listed, stores.bodies, first);
             joints(stores, joint_solver::Pass::WarmStart);
             if first {
                 contacts(stores, Pass::WarmStart);
-            } else if stores.joint_graph.count() > 0 {
+            } else if jointed {
                 contacts(stores, Pass::WarmStartJointed);
             }
             for _ in 0..lengths.iterations {
