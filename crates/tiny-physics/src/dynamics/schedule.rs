@@ -22,8 +22,6 @@ pub(crate) struct Run {
 /// is an overflow, whose runs are for one member alone.
 #[derive(Clone, Debug)]
 pub(super) struct Listed {
-    #[cfg(test)]
-    pub(super) place: usize,
     /// Where in the graph's list the buckets of the place are.
     pub(super) buckets: Range<usize>,
     pub(super) runs: Range<usize>,
@@ -129,13 +127,7 @@ impl Schedule {
         let runs = &self.runs[first..];
         let blocks = runs.iter().map(|run| run.blocks.len()).sum::<usize>();
         let chunk = if is_overflow(place) { usize::MAX } else { chunk(runs.len(), blocks, len) };
-        self.stages.push(Listed {
-            #[cfg(test)]
-            place,
-            buckets,
-            runs: first..self.runs.len(),
-            chunk,
-        });
+        self.stages.push(Listed { buckets, runs: first..self.runs.len(), chunk });
         self.blocks += blocks;
     }
 

@@ -168,7 +168,12 @@ impl Solver {
             let mut listed = core::mem::take(&mut self.listed);
             for pace in (0..PACES).rev() {
                 paces::list_bodies(stores.bodies, pace, &mut listed);
-                if pace != PLAIN && !listed.iter().any(|&body| stores.bodies.is_dynamic(body)) {
+                let needed = if pace == PLAIN {
+                    !listed.is_empty()
+                } else {
+                    listed.iter().any(|&body| stores.bodies.is_dynamic(body))
+                };
+                if !needed {
                     continue;
                 }
                 let lengths = rules.lengths.refined(pace);
