@@ -14,6 +14,8 @@ pub(crate) struct Run {
     pub(crate) bucket: usize,
     pub(crate) class: PairClass,
     pub(crate) blocks: Range<usize>,
+    /// Is it of an overflow, in which one comes after the other?
+    pub(crate) in_order: bool,
     /// Where in its bucket the run begins, 0 to 1.
     at: f32,
 }
@@ -77,6 +79,7 @@ impl Schedule {
                 bucket: index,
                 class,
                 blocks: start..count.min(start + len),
+                in_order: is_overflow(place),
                 at: start as f32 / count as f32,
             }));
             if all.peek().is_none_or(|&(_, (next, ..))| next != place) {
@@ -105,8 +108,8 @@ impl Schedule {
                     Some(run) => run.blocks.end += 1,
                     None => {
                         let bucket = graph.buckets.position(key(place, class));
-                        let blocks = block..block + 1;
-                        self.runs.push(Run { place, bucket, class, blocks, at: 0.0 });
+                        let (blocks, in_order) = (block..block + 1, is_overflow(place));
+                        self.runs.push(Run { place, bucket, class, blocks, in_order, at: 0.0 });
                     }
                 }
             }

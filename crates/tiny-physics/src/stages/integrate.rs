@@ -100,10 +100,8 @@ impl FourKernel for Velocities<'_> {
                 |row| {
                     let now = f32x4::from_slice(simd, &row[..4]);
                     let base = now * factor + gain * planar;
-                    let before = f32x4::simd_from(
-                        simd,
-                        starts.update(index, |start| core::mem::replace(start, base.into())),
-                    );
+                    let before = starts.update(index, |at| core::mem::replace(at, base.into()));
+                    let before = f32x4::simd_from(simd, before);
                     (base + (now - before) * carry).store_slice(&mut row[..4]);
                 },
             );

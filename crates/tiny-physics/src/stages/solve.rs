@@ -11,7 +11,7 @@ use super::rests::Compliance;
 use super::{integrate, joint_solver, paces, passivity, tree_contacts};
 use crate::describe::Settings;
 use crate::dynamics::{
-    BlockAddress, Bucket, Graph, JOINTED, JointBlocks, JointLoad, JointPlaces, PACES, PLAIN, Place,
+    BlockAddress, Bucket, Graph, JOINTED, JointBlocks, JointPlaces, PACES, PLAIN, Place,
     REFINEMENT, ROUNDS, Schedule, pace_at,
 };
 use crate::footprint::footprint;
@@ -135,8 +135,7 @@ pub(crate) struct Solver {
     bounces: BounceMemory,
     pub(crate) passivity: passivity::Memory,
     listed: Vec<u32>,
-    /// Joints that bore more than they can in the last step, ascending, and how much.
-    pub(crate) broken: Vec<(u32, JointLoad)>,
+    pub(crate) broken: joint_solver::Broken,
 }
 
 footprint!(Solver { schedule, squeezed, hit, tree_contacts, bounces, passivity, listed, broken });
@@ -150,7 +149,7 @@ impl Solver {
         rules: Rules<'_>,
         predictions: &Predictions,
     ) {
-        self.broken.clear();
+        self.broken.found.clear();
         self.passivity.withheld = 0.0;
         if stores.bodies.awake.is_empty() {
             return;
@@ -168,12 +167,8 @@ impl Solver {
             let mut listed = core::mem::take(&mut self.listed);
             for pace in (0..PACES).rev() {
                 paces::list_bodies(stores.bodies, pace, &mut listed);
-                let needed = if pace == PLAIN {
-                    !listed.is_empty()
-                } else {
-                    listed.iter().any(|&body| stores.bodies.is_dynamic(body))
-                };
-                if !needed {
+                let counts = |&body: &u32| pace == PLAIN || stores.bodies.is_dynamic(body);
+                if !listed.iter().any(counts) {
                     continue;
                 }
                 let lengths = rules.lengths.refined(pace);
@@ -186,7 +181,7 @@ impl Solver {
             self.solve_pace(team, stores, rules, PLAIN, &listed);
             stores.bodies.awake = listed;
         }
-        self.broken.sort_unstable_by_key(|&(index, _)| index);
+        self.broken.found.sort_unstable_by_key(|&(index, _)| index);
     }
 
     /// The substeps of a pace, of these bodies.
@@ -216,7 +211,7 @@ impl Solver {
         let Stores { bodies, graph, .. } = stores;
         contact_solver::run_bounces(team, level, &parameters, bodies, graph, schedule, bounces);
         let max_speed = settings.max_speed * settings.length_unit;
-        let inv_h_plain = (1.0 / h) / REFINEMENT[pace] as f32;
+        broken.list(stores.joint_graph, stores.joints, pace);
 
         let joints = |stores: &mut Stores<'_>, pass| {
             run_joints(team, stores, level, pace, &places, pass, joint_substep)
@@ -263,7 +258,7 @@ impl Solver {
             if watched {
                 passivity.run(stores.bodies);
             }
-            joint_solver::note_broken(stores.joint_graph, stores.joints, pace, inv_h_plain, broken);
+            broken.note(stores.joint_graph, 1.0 / h);
         }
         joints(stores, joint_solver::Pass::Finish);
         tree_contacts.give_back(stores);

@@ -121,53 +121,30 @@ impl<'a> SharedRows<'a> {
     /// The rows at the first so many of some indices, to be read.
     #[inline(always)]
     pub(crate) fn at<const N: usize>(self, indices: &[u32]) -> RowsAt<'a, N> {
-        let indices = inside(indices, self.len);
         #[cfg(tiny_physics_race)]
-        indices.iter().for_each(|&index| race::note(self.id, index, race::Access::Read));
-        RowsAt { start: self.start, indices, marker: PhantomData }
+        indices[..N].iter().for_each(|&index| race::note(self.id, index, race::Access::Read));
+        RowsAt { start: self.start, indices: inside(indices, self.len), marker: PhantomData }
     }
 
     /// Overwrites the first halves (velocities) of the rows at the first so many of some indices: those whose bits are set.
     #[inline(always)]
-    pub(crate) fn write_halves<const N: usize>(
-        self,
-        indices: &[u32],
-        halves: &[[f32; 4]; N],
-        bits: u32,
-    ) {
-        let indices: [u32; N] = inside(indices, self.len);
-        let all = u32::MAX >> (32 - N);
-        if bits & all == all {
-            for i in 0..N {
-                // SAFETY: see below.
-                unsafe { self.write_half(indices[i], halves[i]) };
-            }
-            return;
-        }
+    pub(crate) fn write_halves<const N: usize>(self, at: &[u32], halves: &[[f32; 4]; N], on: u32) {
+        let indices: [u32; N] = inside(at, self.len);
+        // Most strides write all: without a branch for each.
+        let all = on.trailing_ones() as usize >= N;
         for i in 0..N {
-            if bits >> i & 1 != 0 {
-                // SAFETY: in bounds, as `inside` has found; no other chunk touches the row meanwhile by the invariant
-                // in the type's description.
-                unsafe { self.write_half(indices[i], halves[i]) };
+            if all || on >> i & 1 != 0 {
+                #[cfg(tiny_physics_race)]
+                race::note(self.id, indices[i], race::Access::Write);
+                // SAFETY: in bounds, as `inside` has found; a half row is the first 16 of the 32 bytes of the row, with the
+                // same alignment; no other chunk touches the row meanwhile by the invariant in the type's description.
+                unsafe { self.start.add(indices[i] as usize).cast::<[f32; 4]>().write(halves[i]) };
             }
         }
-    }
-
-    /// # Safety
-    ///
-    /// The index is in bounds, and no other chunk touches the row meanwhile.
-    #[inline(always)]
-    unsafe fn write_half(self, index: u32, half: [f32; 4]) {
-        #[cfg(tiny_physics_race)]
-        race::note(self.id, index, race::Access::Write);
-        // SAFETY: in bounds as the caller knows; a half row is the first 16 of the 32 bytes of the row, with the same
-        // alignment.
-        unsafe { self.start.add(index as usize).cast::<[f32; 4]>().write(half) }
     }
 }
 
 /// Rows at some indices, all of which are there: looked at once, not row by row.
-#[derive(Clone, Copy)]
 pub(crate) struct RowsAt<'a, const N: usize> {
     start: *const [f32; 8],
     indices: [u32; N],
@@ -178,8 +155,7 @@ impl<'a, const N: usize> RowsAt<'a, N> {
     /// Those at the first so many of some indices.
     #[inline(always)]
     pub(crate) fn of(rows: &'a [[f32; 8]], indices: &[u32]) -> Self {
-        let (start, indices) = (rows.as_ptr(), inside(indices, rows.len()));
-        Self { start, indices, marker: PhantomData }
+        Self { start: rows.as_ptr(), indices: inside(indices, rows.len()), marker: PhantomData }
     }
 
     /// A copy of the row at the `i`th index.

@@ -36,7 +36,7 @@ pub(crate) use bounce::{Memory as BounceMemory, run as run_bounces};
 
 use crate::dynamics::{
     BlockHead, Blocks, ConstraintBlock, Graph, LaneBlock, PointLanes, Run, Schedule, Source,
-    SurfaceBlock, flags, is_overflow,
+    SurfaceBlock, flags,
 };
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
 use crate::threads::{SharedRows, Team};
@@ -123,8 +123,8 @@ pub(crate) fn run(
 ) {
     let work = Work { pass, parameters, rows };
     graph.for_each_chunk(team, schedule, |runs, mut source| {
-        for runs in runs.chunk_by(|a, b| is_overflow(a.place) == is_overflow(b.place)) {
-            if is_overflow(runs[0].place) {
+        for runs in runs.chunk_by(|a, b| a.in_order == b.in_order) {
+            if runs[0].in_order {
                 runs.iter().for_each(|run| work.one_by_one(level, run, &mut source));
             } else {
                 dispatch(level, RunPass { work, runs, source: &mut source });
@@ -159,7 +159,7 @@ impl Work<'_> {
                 surfaces: core::slice::from_mut(&mut surface),
             });
             let runs = core::slice::from_ref(run);
-            dispatch(level, RunPass { work: self, runs, source });
+            dispatch(level.for_count(1), RunPass { work: self, runs, source });
             constraints[block].copy_lane(lane, &constraint, 0);
             surfaces[block].copy_lane(lane, &surface, 0);
         }
