@@ -29,7 +29,8 @@ impl Slot {
 #[derive(Clone, Copy, Default, PartialEq, Debug)]
 #[repr(C, align(32))]
 pub(crate) struct Motion {
-    /// Velocity gained from gravity and forces in a substep: x, y, angular, and nothing. 0 on locked axes.
+    /// Velocity gained from gravity and forces in a substep: x, y, angular. 0 on locked axes. Then whether (1 or 0) what a
+    /// substep's impulses add is carried into the next.
     pub(crate) gain: [f32; 4],
     /// Factor of damping in a substep: x, y, angular, and 1. 0 on locked axes.
     pub(crate) factor: [f32; 4],
@@ -134,7 +135,7 @@ store! {
         /// or were placed by the user.
         pub(crate) previous: Vec<Pose>,
         pub(crate) motions: Vec<Motion> as derived,
-        /// Velocity before the impulses of the substep, and whether (1 or 0) those are carried into the next.
+        /// Velocity before the impulses of the substep, and nothing.
         pub(crate) starts: Vec<[f32; 4]> as derived,
         pub(crate) infos: Vec<BodyInfo>,
         /// Moving (dynamic or kinematic) bodies that are awake and enabled, ascending.

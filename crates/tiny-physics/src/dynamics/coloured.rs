@@ -204,7 +204,7 @@ impl<B: Bucketful> Coloured<B> {
 
     /// Where the bucket of a key is in the list; past its end if there is none.
     #[inline]
-    pub(super) fn position(&self, key: usize) -> usize {
+    pub(crate) fn position(&self, key: usize) -> usize {
         self.keys.binary_search(&(key as u16)).unwrap_or(usize::MAX)
     }
 

@@ -54,6 +54,11 @@ impl Bucket {
         self.heads[block].touching >> lane & 1 != 0
     }
 
+    /// Has any body of its contacts joints?
+    pub(crate) fn is_jointed(&self) -> bool {
+        self.heads.iter().any(|head| head.jointed_a | head.jointed_b != 0)
+    }
+
     /// Makes room for a contact and gives its slot.
     fn reserve(&mut self, index: u32, constrained: bool) -> u32 {
         let slot = self.contacts.len();
@@ -191,7 +196,7 @@ pub(crate) struct Blocks<'a> {
 
 impl Bucket {
     /// Some of its blocks.
-    #[inline]
+    #[inline(always)]
     pub(super) fn blocks(&mut self, range: Range<usize>) -> Blocks<'_> {
         let Self { contacts, manifolds, heads, constraints, surfaces } = self;
         let end = contacts.len().min(range.end * BLOCK);
@@ -208,7 +213,7 @@ impl Bucket {
 
 /// A bucket, shared between members of the team.
 #[derive(Clone, Copy)]
-pub(super) struct Shared<'a> {
+pub(crate) struct Shared<'a> {
     contacts: &'a [u32],
     manifolds: SharedSlice<'a, ManifoldBlock>,
     heads: SharedSlice<'a, BlockHead>,

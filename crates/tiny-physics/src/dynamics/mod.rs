@@ -43,8 +43,8 @@ pub(crate) use joint_graph::{
 pub(crate) use joints::{JointLoad, JointRecord, Joints};
 pub(crate) use pace::{JOINTED, PACES, PLAIN, REFINEMENT, ROUNDS, WATCHED};
 #[cfg(test)]
-use schedule::PlaceRuns;
-pub(crate) use schedule::{Run, Schedule};
+use schedule::Listed;
+pub(crate) use schedule::{Run, Schedule, Source};
 pub(crate) use sensors::{Overlap, Sensors};
 pub(crate) use shapes::{ShapeRecord, Shapes, guard};
 pub(crate) use transfers::Transfers;

@@ -1,7 +1,7 @@
 //! Who works on which blocks of the graph, and when.
 
 use super::coloured::{COLOURS, is_overflow, place_of};
-use super::graph::{BlockAddress, Blocks, Graph, Shared, key};
+use super::graph::{BlockAddress, Blocks, Bucket, Graph, Shared, key};
 use crate::geometry::manifold::PairClass;
 use crate::threads::Team;
 use core::ops::Range;
@@ -14,6 +14,8 @@ pub(crate) struct Run {
     pub(crate) bucket: usize,
     pub(crate) class: PairClass,
     pub(crate) blocks: Range<usize>,
+    /// Is it of an overflow, in which one comes after the other?
+    pub(crate) in_order: bool,
     /// Where in its bucket the run begins, 0 to 1.
     at: f32,
 }
@@ -21,29 +23,26 @@ pub(crate) struct Run {
 /// The runs of one place, which are worked on at the same time: no two share a moving body, unless the place
 /// is an overflow, whose runs are for one member alone.
 #[derive(Clone, Debug)]
-pub(crate) struct PlaceRuns<'a> {
-    pub(crate) place: usize,
+pub(super) struct Listed {
     /// Where in the graph's list the buckets of the place are.
-    pub(crate) buckets: Range<usize>,
-    pub(crate) runs: &'a [Run],
+    pub(super) buckets: Range<usize>,
+    pub(super) runs: Range<usize>,
     /// Runs that one member takes at a time.
-    pub(crate) chunk: usize,
+    pub(super) chunk: usize,
 }
 
-/// A stage whose runs are somewhere in a list.
-#[derive(Clone, Debug)]
-struct Listed {
-    place: usize,
-    buckets: Range<usize>,
-    runs: Range<usize>,
-    chunk: usize,
+impl Listed {
+    /// Are there more than one member takes at a time?
+    fn is_shared(&self) -> bool {
+        self.runs.len() > self.chunk
+    }
 }
 
 /// The runs of some places of the graph, stage by stage. It holds until buckets come to the graph or leave it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Schedule {
-    runs: Vec<Run>,
-    stages: Vec<Listed>,
+    pub(super) runs: Vec<Run>,
+    pub(super) stages: Vec<Listed>,
     blocks: usize,
 }
 
@@ -80,6 +79,7 @@ impl Schedule {
                 bucket: index,
                 class,
                 blocks: start..count.min(start + len),
+                in_order: is_overflow(place),
                 at: start as f32 / count as f32,
             }));
             if all.peek().is_none_or(|&(_, (next, ..))| next != place) {
@@ -108,8 +108,8 @@ impl Schedule {
                     Some(run) => run.blocks.end += 1,
                     None => {
                         let bucket = graph.buckets.position(key(place, class));
-                        let blocks = block..block + 1;
-                        self.runs.push(Run { place, bucket, class, blocks, at: 0.0 });
+                        let (blocks, in_order) = (block..block + 1, is_overflow(place));
+                        self.runs.push(Run { place, bucket, class, blocks, in_order, at: 0.0 });
                     }
                 }
             }
@@ -130,23 +130,13 @@ impl Schedule {
         let runs = &self.runs[first..];
         let blocks = runs.iter().map(|run| run.blocks.len()).sum::<usize>();
         let chunk = if is_overflow(place) { usize::MAX } else { chunk(runs.len(), blocks, len) };
-        self.stages.push(Listed { place, buckets, runs: first..self.runs.len(), chunk });
+        self.stages.push(Listed { buckets, runs: first..self.runs.len(), chunk });
         self.blocks += blocks;
     }
 
     /// All runs, stage by stage, and how many of them make a chunk of about `len` blocks.
     pub(crate) fn runs(&self, len: usize) -> (&[Run], usize) {
         (&self.runs, chunk(self.runs.len(), self.blocks, len))
-    }
-
-    /// The stages.
-    pub(crate) fn stages(&self) -> impl Iterator<Item = PlaceRuns<'_>> {
-        self.stages.iter().map(|stage| PlaceRuns {
-            place: stage.place,
-            buckets: stage.buckets.clone(),
-            runs: &self.runs[stage.runs.clone()],
-            chunk: stage.chunk,
-        })
     }
 }
 
@@ -155,33 +145,56 @@ fn chunk(runs: usize, blocks: usize, len: usize) -> usize {
     runs.div_ceil(blocks.div_ceil(len).max(1))
 }
 
+/// Where runs take their blocks from.
+pub(crate) enum Source<'a> {
+    /// The graph's list of buckets.
+    Graph(&'a mut [Bucket]),
+    /// Those of one place, shared, and where in the list the first is.
+    Shared(usize, &'a [Option<Shared<'a>>; PairClass::COUNT]),
+    /// One block that is in no bucket.
+    Alone(Blocks<'a>),
+}
+
+impl Source<'_> {
+    /// The blocks of a run that is in it.
+    #[inline(always)]
+    pub(crate) fn blocks(&mut self, run: &Run) -> Option<Blocks<'_>> {
+        let blocks = run.blocks.clone();
+        match self {
+            Self::Graph(buckets) => Some(buckets[run.bucket].blocks(blocks)),
+            Self::Shared(first, buckets) => Some(buckets[run.bucket - *first]?.blocks(blocks)),
+            Self::Alone(Blocks { contacts, manifolds, heads, constraints, surfaces }) => {
+                Some(Blocks { contacts, manifolds, heads, constraints, surfaces })
+            }
+        }
+    }
+}
+
 impl Graph {
-    /// Works on the runs of a stage, shared out to the team; those of an overflow one after the other.
+    /// Works on the runs of a schedule stage by stage, shared out to the team; on those of an overflow one after the other.
+    /// Hands out all of them at once where nothing is to be shared.
     #[inline]
-    pub(crate) fn for_each_run(
+    pub(crate) fn for_each_chunk(
         &mut self,
         team: &Team,
-        stage: &PlaceRuns<'_>,
-        work: impl Fn(PairClass, Blocks<'_>) + Sync,
+        schedule: &Schedule,
+        work: impl Fn(&[Run], Source<'_>) + Sync,
     ) {
-        let PlaceRuns { runs, chunk, .. } = *stage;
-        let buckets = self.buckets.list_mut();
-        if team.member_count() == 1 || runs.len() <= chunk {
-            for run in runs {
-                work(run.class, buckets[run.bucket].blocks(run.blocks.clone()));
-            }
-            return;
+        let list = self.buckets.list_mut();
+        if team.member_count() == 1 || !schedule.stages.iter().any(Listed::is_shared) {
+            return work(&schedule.runs, Source::Graph(list));
         }
-        let first = stage.buckets.start;
-        let buckets = &mut buckets[stage.buckets.clone()];
-        let mut buckets = buckets.iter_mut().map(Shared::new);
-        let buckets: [_; PairClass::COUNT] = core::array::from_fn(|_| buckets.next());
-        team.for_each_chunk(runs.len(), chunk, |range| {
-            for run in &runs[range] {
-                if let Some(bucket) = buckets[run.bucket - first] {
-                    work(run.class, bucket.blocks(run.blocks.clone()));
-                }
+        for stage in &schedule.stages {
+            let runs = &schedule.runs[stage.runs.clone()];
+            if !stage.is_shared() {
+                work(runs, Source::Graph(list));
+                continue;
             }
-        });
+            let mut buckets = list[stage.buckets.clone()].iter_mut().map(Shared::new);
+            let buckets: [_; PairClass::COUNT] = core::array::from_fn(|_| buckets.next());
+            team.for_each_chunk(runs.len(), stage.chunk, |range| {
+                work(&runs[range], Source::Shared(stage.buckets.start, &buckets));
+            });
+        }
     }
 }

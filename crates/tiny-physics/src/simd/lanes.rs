@@ -1,6 +1,6 @@
 //! The lane vector that kernels are written over, and its instances.
 
-use crate::threads::SharedRows;
+use crate::threads::{RowsAt, SharedRows};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f32x4};
 
@@ -13,21 +13,34 @@ pub(crate) type Row = [f32; 8];
 
 /// Something rows can be read from by index.
 pub(crate) trait RowSource: Copy {
-    /// A copy of row `index`.
-    fn read(self, index: u32) -> Row;
+    /// The rows at the first so many of some indices.
+    fn at<const N: usize>(self, indices: &[u32]) -> impl RowsOf;
+}
+
+/// Rows that are there.
+pub(crate) trait RowsOf {
+    /// A copy of the `i`th.
+    fn row(&self, i: usize) -> Row;
 }
 
 impl RowSource for &[Row] {
     #[inline(always)]
-    fn read(self, index: u32) -> Row {
-        self[index as usize]
+    fn at<const N: usize>(self, indices: &[u32]) -> impl RowsOf {
+        RowsAt::<N>::of(self, indices)
     }
 }
 
 impl RowSource for SharedRows<'_> {
     #[inline(always)]
-    fn read(self, index: u32) -> Row {
-        SharedRows::read(self, index)
+    fn at<const N: usize>(self, indices: &[u32]) -> impl RowsOf {
+        SharedRows::at::<N>(self, indices)
+    }
+}
+
+impl<const N: usize> RowsOf for RowsAt<'_, N> {
+    #[inline(always)]
+    fn row(&self, i: usize) -> Row {
+        RowsAt::row(self, i)
     }
 }
 
@@ -46,7 +59,11 @@ pub(crate) trait Lanes:
     type Token: Copy;
     /// One truth value a lane.
     type Mask: Copy;
+    /// Half as many lanes, for what is left over; the same where there are no fewer that are quicker.
+    type Half: Lanes;
 
+    /// The proof for half as many.
+    fn half(token: Self::Token) -> <Self::Half as Lanes>::Token;
     /// All lanes equal.
     fn splat(token: Self::Token, value: f32) -> Self;
     /// The first `WIDTH` values of `source`.
@@ -116,7 +133,10 @@ macro_rules! one_lane {
             const WIDTH: usize = 1;
             type Token = ();
             type Mask = bool;
+            type Half = Self;
 
+            #[inline(always)]
+            fn half((): ()) {}
             #[inline(always)]
             fn splat((): (), value: f32) -> Self {
                 value.into()
@@ -171,13 +191,11 @@ macro_rules! one_lane {
             }
             #[inline(always)]
             fn gather((): (), rows: impl RowSource, indices: &[u32]) -> [Self; 8] {
-                rows.read(indices[0]).map(Self::from)
+                rows.at::<1>(indices).row(0).map(Self::from)
             }
             #[inline(always)]
             fn scatter(values: [Self; 4], rows: SharedRows<'_>, indices: &[u32], write: u32) {
-                if write & 1 != 0 {
-                    rows.write_half(indices[0], values.map(|value| value as f32));
-                }
+                rows.write_halves(indices, &[values.map(|value| value as f32)], write);
             }
         }
     )*};
@@ -251,16 +269,18 @@ pub(super) use portable_operations;
 impl<S: Simd> Lanes for f32x4<S> {
     type Token = S;
     type Mask = <Self as SimdBase<S>>::Mask;
+    type Half = Self;
     portable_operations!(4);
 
     #[inline(always)]
+    fn half(token: S) -> S {
+        token
+    }
+
+    #[inline(always)]
     fn gather(token: S, rows: impl RowSource, indices: &[u32]) -> [Self; 8] {
-        let r = [
-            rows.read(indices[0]),
-            rows.read(indices[1]),
-            rows.read(indices[2]),
-            rows.read(indices[3]),
-        ];
+        let rows = rows.at::<4>(indices);
+        let r = [rows.row(0), rows.row(1), rows.row(2), rows.row(3)];
         let low = transpose4([
             Self::from_slice(token, &r[0][..4]),
             Self::from_slice(token, &r[1][..4]),
@@ -278,7 +298,8 @@ impl<S: Simd> Lanes for f32x4<S> {
 
     #[inline(always)]
     fn scatter(values: [Self; 4], rows: SharedRows<'_>, indices: &[u32], write: u32) {
-        write_rows(transpose4(values), rows, indices, write);
+        let [a, b, c, d] = transpose4(values);
+        rows.write_halves(indices, &[a.into(), b.into(), c.into(), d.into()], write);
     }
 }
 
@@ -293,24 +314,6 @@ fn transpose4<S: Simd>([a, b, c, d]: [f32x4<S>; 4]) -> [f32x4<S>; 4] {
         ac_high.zip_low(bd_high),
         ac_high.zip_high(bd_high),
     ]
-}
-
-/// Writes four half rows where the bits say so.
-#[inline(always)]
-pub(super) fn write_rows<S: Simd>(
-    values: [f32x4<S>; 4],
-    rows: SharedRows<'_>,
-    indices: &[u32],
-    write: u32,
-) {
-    let indices = &indices[..4];
-    for i in 0..4 {
-        if write >> i & 1 != 0 {
-            let mut half = [0.0; 4];
-            values[i].store_slice(&mut half);
-            rows.write_half(indices[i], half);
-        }
-    }
 }
 
 #[cfg(target_arch = "aarch64")]

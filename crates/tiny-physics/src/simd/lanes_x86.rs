@@ -1,6 +1,6 @@
 //! The lanes of x86: four, eight (AVX2) and sixteen (AVX-512).
 
-use super::lanes::{Lanes, Native, RowSource, portable_operations, write_rows};
+use super::lanes::{Lanes, Native, RowSource, RowsOf, portable_operations};
 use crate::threads::SharedRows;
 use fearless_simd::{
     Avx2, Avx512, Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, Sse2, f32x4,
@@ -9,68 +9,50 @@ use fearless_simd::{
 
 /// Half of row `i`, from float `AT` on.
 #[inline(always)]
-fn half_row<const AT: usize, S: Simd>(
-    token: S,
-    rows: impl RowSource,
-    indices: &[u32],
-    i: usize,
-) -> f32x4<S> {
-    f32x4::from_slice(token, &rows.read(indices[i])[AT..AT + 4])
+fn half_row<const AT: usize, S: Simd>(token: S, rows: &impl RowsOf, i: usize) -> f32x4<S> {
+    f32x4::from_slice(token, &rows.row(i)[AT..AT + 4])
 }
 
 /// Halves of rows `i` and `i + 4` side by side.
 #[inline(always)]
-fn half_rows_8<const AT: usize, S: Simd>(
-    token: S,
-    rows: impl RowSource,
-    indices: &[u32],
-    i: usize,
-) -> f32x8<S> {
-    half_row::<AT, S>(token, rows, indices, i).combine(half_row::<AT, S>(
-        token,
-        rows,
-        indices,
-        i + 4,
-    ))
+fn half_rows_8<const AT: usize, S: Simd>(token: S, rows: &impl RowsOf, i: usize) -> f32x8<S> {
+    half_row::<AT, S>(token, rows, i).combine(half_row::<AT, S>(token, rows, i + 4))
 }
 
 /// Halves of rows `i`, `i + 4`, `i + 8` and `i + 12` side by side.
 #[inline(always)]
-fn half_rows_16<const AT: usize, S: Simd>(
-    token: S,
-    rows: impl RowSource,
-    indices: &[u32],
-    i: usize,
-) -> f32x16<S> {
-    half_rows_8::<AT, S>(token, rows, indices, i).combine(half_rows_8::<AT, S>(
-        token,
-        rows,
-        indices,
-        i + 8,
-    ))
+fn half_rows_16<const AT: usize, S: Simd>(token: S, rows: &impl RowsOf, i: usize) -> f32x16<S> {
+    half_rows_8::<AT, S>(token, rows, i).combine(half_rows_8::<AT, S>(token, rows, i + 8))
 }
 
 /// Eight lanes: AVX2.
 impl Lanes for f32x8<Avx2> {
     type Token = Avx2;
     type Mask = <Self as SimdBase<Avx2>>::Mask;
+    type Half = f32x4<Avx2>;
     portable_operations!(8);
 
     #[inline(always)]
+    fn half(token: Avx2) -> Avx2 {
+        token
+    }
+
+    #[inline(always)]
     fn gather(token: Avx2, rows: impl RowSource, indices: &[u32]) -> [Self; 8] {
+        let rows = &rows.at::<8>(indices);
         let [a, b, c, d] = transpose4_in_blocks_avx2(
             token,
-            half_rows_8::<0, _>(token, rows, indices, 0),
-            half_rows_8::<0, _>(token, rows, indices, 1),
-            half_rows_8::<0, _>(token, rows, indices, 2),
-            half_rows_8::<0, _>(token, rows, indices, 3),
+            half_rows_8::<0, _>(token, rows, 0),
+            half_rows_8::<0, _>(token, rows, 1),
+            half_rows_8::<0, _>(token, rows, 2),
+            half_rows_8::<0, _>(token, rows, 3),
         );
         let [e, f, g, h] = transpose4_in_blocks_avx2(
             token,
-            half_rows_8::<4, _>(token, rows, indices, 0),
-            half_rows_8::<4, _>(token, rows, indices, 1),
-            half_rows_8::<4, _>(token, rows, indices, 2),
-            half_rows_8::<4, _>(token, rows, indices, 3),
+            half_rows_8::<4, _>(token, rows, 0),
+            half_rows_8::<4, _>(token, rows, 1),
+            half_rows_8::<4, _>(token, rows, 2),
+            half_rows_8::<4, _>(token, rows, 3),
         );
         [a, b, c, d, e, f, g, h]
     }
@@ -80,8 +62,12 @@ impl Lanes for f32x8<Avx2> {
         use fearless_simd::ExtractToken;
         let [a, b, c, d] = values;
         let t = transpose4_in_blocks_avx2(a.token(), a, b, c, d).map(SimdSplit::split);
-        write_rows([t[0].0, t[1].0, t[2].0, t[3].0], rows, indices, write);
-        write_rows([t[0].1, t[1].1, t[2].1, t[3].1], rows, &indices[4..], write >> 4);
+        let mut halves = [[0.0; 4]; 8];
+        for (i, (low, high)) in t.into_iter().enumerate() {
+            halves[i] = low.into();
+            halves[i + 4] = high.into();
+        }
+        rows.write_halves(indices, &halves, write);
     }
 }
 
@@ -118,23 +104,33 @@ fearless_simd::kernel!(
 impl Lanes for f32x16<Avx512> {
     type Token = Avx512;
     type Mask = <Self as SimdBase<Avx512>>::Mask;
+    type Half = f32x8<Avx2>;
     portable_operations!(16);
 
     #[inline(always)]
+    fn half(token: Avx512) -> Avx2 {
+        match token.level().as_avx2() {
+            Some(token) => token,
+            None => unreachable!("AVX-512 has AVX2"),
+        }
+    }
+
+    #[inline(always)]
     fn gather(token: Avx512, rows: impl RowSource, indices: &[u32]) -> [Self; 8] {
+        let rows = &rows.at::<16>(indices);
         let [a, b, c, d] = transpose4_in_blocks_avx512(
             token,
-            half_rows_16::<0, _>(token, rows, indices, 0),
-            half_rows_16::<0, _>(token, rows, indices, 1),
-            half_rows_16::<0, _>(token, rows, indices, 2),
-            half_rows_16::<0, _>(token, rows, indices, 3),
+            half_rows_16::<0, _>(token, rows, 0),
+            half_rows_16::<0, _>(token, rows, 1),
+            half_rows_16::<0, _>(token, rows, 2),
+            half_rows_16::<0, _>(token, rows, 3),
         );
         let [e, f, g, h] = transpose4_in_blocks_avx512(
             token,
-            half_rows_16::<4, _>(token, rows, indices, 0),
-            half_rows_16::<4, _>(token, rows, indices, 1),
-            half_rows_16::<4, _>(token, rows, indices, 2),
-            half_rows_16::<4, _>(token, rows, indices, 3),
+            half_rows_16::<4, _>(token, rows, 0),
+            half_rows_16::<4, _>(token, rows, 1),
+            half_rows_16::<4, _>(token, rows, 2),
+            half_rows_16::<4, _>(token, rows, 3),
         );
         [a, b, c, d, e, f, g, h]
     }
@@ -147,10 +143,14 @@ impl Lanes for f32x16<Avx512> {
             let (low, high) = v.split();
             (low.split(), high.split())
         });
-        write_rows([t[0].0.0, t[1].0.0, t[2].0.0, t[3].0.0], rows, indices, write);
-        write_rows([t[0].0.1, t[1].0.1, t[2].0.1, t[3].0.1], rows, &indices[4..], write >> 4);
-        write_rows([t[0].1.0, t[1].1.0, t[2].1.0, t[3].1.0], rows, &indices[8..], write >> 8);
-        write_rows([t[0].1.1, t[1].1.1, t[2].1.1, t[3].1.1], rows, &indices[12..], write >> 12);
+        let mut halves = [[0.0; 4]; 16];
+        for (i, (low, high)) in t.into_iter().enumerate() {
+            halves[i] = low.0.into();
+            halves[i + 4] = low.1.into();
+            halves[i + 8] = high.0.into();
+            halves[i + 12] = high.1.into();
+        }
+        rows.write_halves(indices, &halves, write);
     }
 }
 

@@ -202,16 +202,16 @@ pub(crate) fn dispatch_baseline<K: LaneKernel>(level: SimdLevel, kernel: K) -> K
     }
 }
 
-/// A piece of work on doubles, four at a time.
-pub(crate) trait DoubleKernel {
+/// A piece of work on numbers in fours.
+pub(crate) trait FourKernel {
     /// Does the work. Implementations must be `#[inline(always)]`.
     fn run<S: Simd>(self, simd: S);
 }
 
-/// Runs a kernel with the instructions of `level`, or the best below them that there are for doubles.
+/// Runs a kernel with the instructions of `level`, or the best below them that there are for fours.
 #[inline]
 #[allow(unused_variables, reason = "each platform has its own part of the levels")]
-pub(crate) fn dispatch_doubles(level: SimdLevel, kernel: impl DoubleKernel) {
+pub(crate) fn dispatch_fours(level: SimdLevel, kernel: impl FourKernel) {
     #[cfg(target_arch = "x86_64")]
     match (Level::new().as_avx2(), Level::new().as_sse2()) {
         (Some(simd), _) if cfg!(tiny_physics_quick) || level.lane_count() > 4 => {

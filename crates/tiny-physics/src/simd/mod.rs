@@ -19,8 +19,8 @@ mod level;
 
 pub(crate) use doubles::{Three, add_product, add_times, take_product, times};
 pub(crate) use fearless_simd::Simd;
-pub(crate) use lanes::{BLOCK, Lanes, Row, RowSource};
+pub(crate) use lanes::{BLOCK, Lanes, Row, RowSource, RowsOf};
 pub use level::SimdLevel;
 pub(crate) use level::{
-    DoubleKernel, LaneKernel, dispatch, dispatch_baseline, dispatch_doubles, dispatch_narrow,
+    FourKernel, LaneKernel, dispatch, dispatch_baseline, dispatch_fours, dispatch_narrow,
 };

@@ -84,6 +84,14 @@ pub(crate) struct Options {
     pub(crate) continuous: bool,
     /// See [`Settings::length_unit`](crate::Settings).
     pub(crate) length_unit: f32,
+    /// What the step adds to how nearly a slow body has settled.
+    calm: u8,
+}
+
+impl Options {
+    pub(crate) fn new(dt: f32, continuous: bool, length_unit: f32) -> Self {
+        Self { dt, continuous, length_unit, calm: rests::calm_of(dt) }
+    }
 }
 
 /// Bodies whose outline moves less than this fraction of their smallest half width in a step cannot jump.
@@ -198,10 +206,12 @@ pub(super) fn turned_reach(turn: f32, info: &BodyInfo) -> f32 {
 #[inline]
 fn time_rest(row: &Row, [way, turn]: [f32; 2], info: &mut BodyInfo, options: Options) {
     let Options { dt, length_unit, .. } = options;
-    let speed = Vec2::new(row[Slot::VX], row[Slot::VY]).length().max(way / dt);
-    let spin = row[Slot::W].abs().max(turn.abs() / dt);
-    let fastest = speed.max(spin * info.max_extent);
-    info.calm = rests::calmer(info.calm, fastest / length_unit, dt);
+    // All are finite.
+    let larger = |a: f32, b: f32| if a > b { a } else { b };
+    let speed = larger(Vec2::new(row[Slot::VX], row[Slot::VY]).length(), way / dt);
+    let spin = larger(row[Slot::W].abs(), turn.abs() / dt);
+    let fastest = larger(speed, spin * info.max_extent);
+    info.calm = rests::calmer(info.calm, fastest / length_unit, options.calm);
     // A platform that creeps must not stop.
     let limit = if info.kind == BodyKind::Dynamic { info.sleep_speed * length_unit } else { 0.0 };
     if info.can_sleep && fastest <= limit {

@@ -6,8 +6,9 @@
 use crate::describe::BodyKind;
 use crate::dynamics::{Bodies, BodyInfo, Motion, NULL, Slot};
 use crate::math::Vec2;
-use crate::simd::Row;
+use crate::simd::{FourKernel, Row, SimdLevel, dispatch_fours};
 use crate::threads::{SharedRows, SharedSlice, Team};
+use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f32x4};
 
 /// A body turns at most this much in a substep, radians: eight turns. It keeps numbers finite, no more.
 const MAX_TURN: f32 = 8.0 * core::f32::consts::TAU;
@@ -29,19 +30,19 @@ pub(crate) fn prepare(team: &Team, listed: &[u32], bodies: &mut Bodies, gravity:
                     row[Slot::DX..=Slot::DA].fill(0.0);
                 }
                 motions.write(index, motion(info, row, gravity, h));
-                let carry = if info.first_joint == NULL { 1.0 } else { 0.0 };
-                starts.write(index, [row[0], row[1], row[2], carry]);
+                starts.write(index, [row[0], row[1], row[2], 0.0]);
             });
         }
     });
 }
 
 fn motion(info: &BodyInfo, row: &Row, gravity: Vec2, h: f32) -> Motion {
+    let carry = if info.first_joint == NULL { 1.0 } else { 0.0 };
     if info.kind != BodyKind::Dynamic {
-        return Motion { gain: [0.0; 4], factor: [1.0; 4] };
+        return Motion { gain: [0.0, 0.0, 0.0, carry], factor: [1.0; 4] };
     }
     let linear = (gravity * info.gravity_scale + info.force * row[Slot::INV_MASS]) * h;
-    let mut gain = [linear.x, linear.y, info.torque * row[Slot::INV_INERTIA] * h, 0.0];
+    let mut gain = [linear.x, linear.y, info.torque * row[Slot::INV_INERTIA] * h, carry];
     let damping = 1.0 / (1.0 + h * info.linear_damping);
     let mut factor = [damping, damping, 1.0 / (1.0 + h * info.angular_damping), 1.0];
     let locks = info.locks;
@@ -59,30 +60,53 @@ fn motion(info: &BodyInfo, row: &Row, gravity: Vec2, h: f32) -> Motion {
 /// before: they are what warm starting all contacts of the body would add, because contacts keep
 /// their lever arms during a step. Joints turn theirs, so bodies with joints go without
 /// ([`prepare`] marks them) and have their contacts warm started one by one.
-pub(crate) fn velocities(team: &Team, listed: &[u32], bodies: &mut Bodies, first: bool) {
+pub(crate) fn velocities(
+    team: &Team,
+    level: SimdLevel,
+    listed: &[u32],
+    bodies: &mut Bodies,
+    first: bool,
+) {
     let Bodies { rows, motions, starts, .. } = bodies;
-    let rows = SharedRows::new(rows);
-    let starts = SharedSlice::new(starts);
+    let (rows, starts) = (SharedRows::new(rows), SharedSlice::new(starts));
     team.for_each_chunk(listed.len(), CHUNK, |range| {
-        for &index in &listed[range] {
-            let motion = &motions[index as usize];
-            rows.update(index, |row| starts.update(index, |start| gain(row, start, motion, first)));
-        }
+        let listed = &listed[range];
+        dispatch_fours(level, Velocities { listed, rows, starts, motions, first });
     });
 }
 
-/// In fours, inverse mass and mark carried along and put back: the compiler makes one instruction of four.
-#[inline]
-fn gain(row: &mut Row, start: &mut [f32; 4], motion: &Motion, first: bool) {
-    let (now, before) = ([row[0], row[1], row[2], row[3]], *start);
-    let carry = if first { 0.0 } else { before[3] };
-    let (mut base, mut next) = ([0.0; 4], [0.0; 4]);
-    for k in 0..4 {
-        base[k] = now[k] * motion.factor[k] + motion.gain[k];
-        next[k] = base[k] + (now[k] - before[k]) * carry;
+struct Velocities<'a> {
+    listed: &'a [u32],
+    rows: SharedRows<'a>,
+    starts: SharedSlice<'a, [f32; 4]>,
+    motions: &'a [Motion],
+    first: bool,
+}
+
+impl FourKernel for Velocities<'_> {
+    /// The inverse mass goes along and comes out as it was.
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { listed, rows, starts, motions, first } = self;
+        let planar = f32x4::simd_from(simd, [1.0, 1.0, 1.0, 0.0]);
+        let carried = if first { f32x4::splat(simd, 0.0) } else { planar };
+        for &index in listed {
+            let Motion { gain, factor } = &motions[index as usize];
+            let carry = f32x4::splat(simd, gain[3]) * carried;
+            let (gain, factor) = (f32x4::simd_from(simd, *gain), f32x4::simd_from(simd, *factor));
+            rows.update(
+                index,
+                #[inline(always)]
+                |row| {
+                    let now = f32x4::from_slice(simd, &row[..4]);
+                    let base = now * factor + gain * planar;
+                    let before = starts.update(index, |at| core::mem::replace(at, base.into()));
+                    let before = f32x4::simd_from(simd, before);
+                    (base + (now - before) * carry).store_slice(&mut row[..4]);
+                },
+            );
+        }
     }
-    *start = [base[0], base[1], base[2], before[3]];
-    row[..4].copy_from_slice(&[next[0], next[1], next[2], now[3]]);
 }
 
 /// Cuts what the last relaxation left too fast.
@@ -103,15 +127,20 @@ pub(crate) fn bound(team: &Team, listed: &[u32], bodies: &mut Bodies, max_speed:
 }
 
 /// Moves the bodies on by a substep; speeds above the limits are cut.
-pub(crate) fn positions(team: &Team, listed: &[u32], bodies: &mut Bodies, h: f32, max_speed: f32) {
+pub(crate) fn positions(
+    team: &Team,
+    level: SimdLevel,
+    listed: &[u32],
+    bodies: &mut Bodies,
+    h: f32,
+    max_speed: f32,
+) {
     let Bodies { rows, motions, .. } = bodies;
     let rows = SharedRows::new(rows);
     let limits = Limits { speed: max_speed, turn_rate: MAX_TURN / h };
-    team.for_each_chunk(listed.len(), CHUNK, move |range| {
-        for &index in &listed[range] {
-            let factor = &motions[index as usize].factor;
-            rows.update(index, |row| advance(row, factor, h, limits));
-        }
+    team.for_each_chunk(listed.len(), CHUNK, |range| {
+        let listed = &listed[range];
+        dispatch_fours(level, Positions { listed, rows, motions, h, limits });
     });
 }
 
@@ -122,31 +151,56 @@ struct Limits {
     turn_rate: f32,
 }
 
-#[inline]
-fn advance(row: &mut Row, factor: &[f32; 4], h: f32, limits: Limits) {
-    let mut v = [row[0], row[1], row[2], row[3]];
-    for k in 0..4 {
-        v[k] = if factor[k] == 0.0 { 0.0 } else { v[k] };
-    }
-    let speed_sq = v[0] * v[0] + v[1] * v[1];
-    if (speed_sq > limits.speed * limits.speed) | (v[2].abs() > limits.turn_rate) {
-        limit(&mut v, speed_sq, limits);
-    }
-    let way = [h * v[0], h * v[1], h * v[2], 0.0];
-    row[..4].copy_from_slice(&v);
-    for (place, way) in row[4..].iter_mut().zip(way) {
-        *place += way;
+struct Positions<'a> {
+    listed: &'a [u32],
+    rows: SharedRows<'a>,
+    motions: &'a [Motion],
+    h: f32,
+    limits: Limits,
+}
+
+impl FourKernel for Positions<'_> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { listed, rows, motions, h, limits } = self;
+        let zero = f32x4::splat(simd, 0.0);
+        let way = f32x4::simd_from(simd, [h, h, h, 0.0]);
+        // What is slower along each axis needs no closer look.
+        let Limits { speed, turn_rate } = limits;
+        let most = f32x4::simd_from(simd, [0.7 * speed, 0.7 * speed, turn_rate, f32::INFINITY]);
+        for &index in listed {
+            let factor = f32x4::simd_from(simd, motions[index as usize].factor);
+            rows.update(
+                index,
+                #[inline(always)]
+                |row| {
+                    let now = f32x4::from_slice(simd, &row[..4]);
+                    let mut v = factor.simd_eq(zero).select(zero, now);
+                    if v.abs().simd_gt(most).any_true() {
+                        v = f32x4::simd_from(simd, limits.cut(v.into()));
+                    }
+                    v.store_slice(&mut row[..4]);
+                    let moved = f32x4::from_slice(simd, &row[4..]);
+                    (moved + way * v).store_slice(&mut row[4..]);
+                },
+            );
+        }
     }
 }
 
-#[cold]
-fn limit(v: &mut [f32; 4], speed_sq: f32, limits: Limits) {
-    if speed_sq > limits.speed * limits.speed {
-        let scale = limits.speed / speed_sq.sqrt();
-        v[0] *= scale;
-        v[1] *= scale;
-    }
-    if v[2].abs() > limits.turn_rate {
-        v[2] = if v[2] > 0.0 { limits.turn_rate } else { -limits.turn_rate };
+impl Limits {
+    /// A velocity within them.
+    #[cold]
+    fn cut(self, mut v: [f32; 4]) -> [f32; 4] {
+        let speed_sq = v[0] * v[0] + v[1] * v[1];
+        if speed_sq > self.speed * self.speed {
+            let scale = self.speed / speed_sq.sqrt();
+            v[0] *= scale;
+            v[1] *= scale;
+        }
+        if v[2].abs() > self.turn_rate {
+            v[2] = if v[2] > 0.0 { self.turn_rate } else { -self.turn_rate };
+        }
+        v
     }
 }

@@ -11,7 +11,7 @@ use super::surfaces::{self, LanePoints};
 use crate::dynamics::{BlockHead, Blocks, Graph, ManifoldBlock, NULL, Schedule, flags};
 use crate::geometry::manifold::{self, LaneManifold, LanePair, Outline, PairClass};
 use crate::math::{Pose, Rot, Transform, Vec2};
-use crate::simd::{BLOCK, LaneKernel, Lanes, dispatch};
+use crate::simd::{BLOCK, LaneKernel, Lanes, Row, RowSource, RowsOf, dispatch};
 use crate::threads::Team;
 use core::marker::PhantomData;
 
@@ -27,15 +27,18 @@ pub(crate) fn run(
     schedule: &Schedule,
     predictions: &Predictions,
 ) {
-    for stage in schedule.stages() {
-        graph.for_each_run(team, &stage, |class, blocks| match class {
-            PairClass::BoxBox => update::<BoxBox>(context, predictions, blocks),
-            PairClass::BoxCircle => update::<BoxCircle>(context, predictions, blocks),
-            PairClass::CapsuleCircle => update::<CapsuleCircle>(context, predictions, blocks),
-            PairClass::CircleCircle => update::<CircleCircle>(context, predictions, blocks),
-            PairClass::General => update::<General>(context, predictions, blocks),
-        });
-    }
+    graph.for_each_chunk(team, schedule, |runs, mut source| {
+        for run in runs {
+            let Some(blocks) = source.blocks(run) else { continue };
+            match run.class {
+                PairClass::BoxBox => update::<BoxBox>(context, predictions, blocks),
+                PairClass::BoxCircle => update::<BoxCircle>(context, predictions, blocks),
+                PairClass::CapsuleCircle => update::<CapsuleCircle>(context, predictions, blocks),
+                PairClass::CircleCircle => update::<CircleCircle>(context, predictions, blocks),
+                PairClass::General => update::<General>(context, predictions, blocks),
+            }
+        }
+    });
 }
 
 fn update<K: PairKernel>(context: Context<'_>, predictions: &Predictions, blocks: Blocks<'_>) {
@@ -264,15 +267,17 @@ impl<L: Lanes> Geometry<L> {
     /// Puts predicted contacts in the place of what the lanes have now.
     #[inline(always)]
     fn foresee(&mut self, token: L::Token, predictions: &Predictions, contacts: &[u32]) {
+        let mut predicted = contacts.iter().take(L::WIDTH).map(|&contact| predictions.of(contact));
+        if predicted.all(|ahead| ahead.is_none()) {
+            return;
+        }
         let mut lanes = [[0.0; BLOCK]; 13];
         self.manifold.store(&mut lanes);
         self.between[0].store(&mut lanes[10]);
         self.between[1].store(&mut lanes[11]);
         self.most.store(&mut lanes[12]);
-        let mut any = false;
         for (i, &contact) in contacts.iter().enumerate().take(L::WIDTH) {
             let Some(ahead) = predictions.of(contact) else { continue };
-            any = true;
             let [p, q] = ahead.points;
             let (n, d, s, id) = (ahead.normal, ahead.between, ahead.separation, ahead.id);
             let values = [n.x, n.y, p.x, p.y, q.x, q.y, s[0], s[1], id[0], id[1], d.x, d.y];
@@ -282,14 +287,12 @@ impl<L: Lanes> Geometry<L> {
             // Whatever is there counts; what is not is the largest number.
             lanes[12][i] = 0.5 * f32::MAX;
         }
-        if any {
-            self.manifold = LaneManifold::load(token, &lanes);
-            self.between = [L::load(token, &lanes[10]), L::load(token, &lanes[11])];
-            self.most = L::load(token, &lanes[12]);
-            let separation = self.manifold.separation;
-            self.valid = [separation[0].le(self.most), separation[1].le(self.most)];
-            self.touching = L::bits(L::or(self.valid[0], self.valid[1]));
-        }
+        self.manifold = LaneManifold::load(token, &lanes);
+        self.between = [L::load(token, &lanes[10]), L::load(token, &lanes[11])];
+        self.most = L::load(token, &lanes[12]);
+        let separation = self.manifold.separation;
+        self.valid = [separation[0].le(self.most), separation[1].le(self.most)];
+        self.touching = L::bits(L::or(self.valid[0], self.valid[1]));
     }
 }
 
@@ -430,20 +433,33 @@ fn gather_poses<L: Lanes>(
     block: &ManifoldBlock,
     at: usize,
 ) -> ([L; 2], [L; 2], [L; 2]) {
-    let mut lanes = [[0.0; BLOCK]; 6];
-    for i in 0..L::WIDTH {
-        let a = poses[block.body_a[at + i] as usize];
-        let b = poses[block.body_b[at + i] as usize];
-        let between = b.p.relative_to(a.p);
-        lanes[0][i] = between.x;
-        lanes[1][i] = between.y;
-        lanes[2][i] = a.q.c;
-        lanes[3][i] = a.q.s;
-        lanes[4][i] = b.q.c;
-        lanes[5][i] = b.q.s;
+    let bodies = [&block.body_a[at..], &block.body_b[at..]];
+    let [x, y, ac, as_, bc, bs, ..] = L::gather(token, PosePairs { poses, bodies }, &[]);
+    ([x, y], [ac, as_], [bc, bs])
+}
+
+/// The poses of the first pairs of bodies.
+#[derive(Clone, Copy)]
+struct PosePairs<'a> {
+    poses: &'a [Pose],
+    bodies: [&'a [u32]; 2],
+}
+
+impl RowSource for PosePairs<'_> {
+    #[inline(always)]
+    fn at<const N: usize>(self, _: &[u32]) -> impl RowsOf {
+        self
     }
-    let load = |k: usize| L::load(token, &lanes[k]);
-    ([load(0), load(1)], [load(2), load(3)], [load(4), load(5)])
+}
+
+impl RowsOf for PosePairs<'_> {
+    #[inline(always)]
+    fn row(&self, i: usize) -> Row {
+        let [a, b] =
+            [&self.poses[self.bodies[0][i] as usize], &self.poses[self.bodies[1][i] as usize]];
+        let between = b.p.relative_to(a.p);
+        [between.x, between.y, a.q.c, a.q.s, b.q.c, b.q.s, 0.0, 0.0]
+    }
 }
 
 /// A vector turned, or a rotation after another.

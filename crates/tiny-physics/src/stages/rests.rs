@@ -79,8 +79,12 @@ pub(crate) fn is_calm(bodies: &Bodies, body: u32) -> bool {
     !bodies.is_dynamic(body) || bodies.infos[body as usize].calm == u8::MAX
 }
 
-/// How nearly a body has settled after a step, from before and its speed in it, length units a second.
-pub(crate) fn calmer(calm: u8, speed: f32, dt: f32) -> u8 {
-    let share = (dt * (255.0 / CALM_TIME)).ceil();
-    if speed < CALM_SPEED { calm.saturating_add(share as u8) } else { 0 }
+/// What a step of this length adds to how nearly a body has settled.
+pub(crate) fn calm_of(dt: f32) -> u8 {
+    (dt * (255.0 / CALM_TIME)).ceil() as u8
+}
+
+/// How nearly a body has settled after a step, from before, its speed in it, length units a second, and what the step adds.
+pub(crate) fn calmer(calm: u8, speed: f32, share: u8) -> u8 {
+    if speed < CALM_SPEED { calm.saturating_add(share) } else { 0 }
 }

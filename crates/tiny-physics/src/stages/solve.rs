@@ -11,7 +11,7 @@ use super::rests::Compliance;
 use super::{integrate, joint_solver, paces, passivity, tree_contacts};
 use crate::describe::Settings;
 use crate::dynamics::{
-    BlockAddress, Graph, JOINTED, JointBlocks, JointLoad, JointPlaces, PACES, PLAIN, Place,
+    BlockAddress, Bucket, Graph, JOINTED, JointBlocks, JointPlaces, PACES, PLAIN, Place,
     REFINEMENT, ROUNDS, Schedule, pace_at,
 };
 use crate::footprint::footprint;
@@ -135,8 +135,7 @@ pub(crate) struct Solver {
     bounces: BounceMemory,
     pub(crate) passivity: passivity::Memory,
     listed: Vec<u32>,
-    /// Joints that bore more than they can in the last step, ascending, and how much.
-    pub(crate) broken: Vec<(u32, JointLoad)>,
+    pub(crate) broken: joint_solver::Broken,
 }
 
 footprint!(Solver { schedule, squeezed, hit, tree_contacts, bounces, passivity, listed, broken });
@@ -150,7 +149,7 @@ impl Solver {
         rules: Rules<'_>,
         predictions: &Predictions,
     ) {
-        self.broken.clear();
+        self.broken.found.clear();
         self.passivity.withheld = 0.0;
         if stores.bodies.awake.is_empty() {
             return;
@@ -168,7 +167,8 @@ impl Solver {
             let mut listed = core::mem::take(&mut self.listed);
             for pace in (0..PACES).rev() {
                 paces::list_bodies(stores.bodies, pace, &mut listed);
-                if pace != PLAIN && !listed.iter().any(|&body| stores.bodies.is_dynamic(body)) {
+                let counts = |&body: &u32| pace == PLAIN || stores.bodies.is_dynamic(body);
+                if !listed.iter().any(counts) {
                     continue;
                 }
                 let lengths = rules.lengths.refined(pace);
@@ -181,7 +181,7 @@ impl Solver {
             self.solve_pace(team, stores, rules, PLAIN, &listed);
             stores.bodies.awake = listed;
         }
-        self.broken.sort_unstable_by_key(|&(index, _)| index);
+        self.broken.found.sort_unstable_by_key(|&(index, _)| index);
     }
 
     /// The substeps of a pace, of these bodies.
@@ -211,7 +211,7 @@ impl Solver {
         let Stores { bodies, graph, .. } = stores;
         contact_solver::run_bounces(team, level, &parameters, bodies, graph, schedule, bounces);
         let max_speed = settings.max_speed * settings.length_unit;
-        let inv_h_plain = (1.0 / h) / REFINEMENT[pace] as f32;
+        broken.list(stores.joint_graph, stores.joints, pace);
 
         let joints = |stores: &mut Stores<'_>, pass| {
             run_joints(team, stores, level, pace, &places, pass, joint_substep)
@@ -226,13 +226,14 @@ impl Solver {
             tree_contacts.run(level, pass, &parameters, &mut stores.bodies.rows, trees);
             in_lanes(stores, pass, schedule);
         };
+        let jointed = stores.graph.of_pace(pace).iter().any(Bucket::is_jointed);
         for substep in 0..lengths.substeps {
             let first = substep == 0;
-            integrate::velocities(team, listed, stores.bodies, first);
+            integrate::velocities(team, level, listed, stores.bodies, first);
             joints(stores, joint_solver::Pass::WarmStart);
             if first {
                 contacts(stores, Pass::WarmStart);
-            } else if stores.joint_graph.count() > 0 {
+            } else if jointed {
                 contacts(stores, Pass::WarmStartJointed);
             }
             for _ in 0..lengths.iterations {
@@ -245,7 +246,7 @@ impl Solver {
                     in_lanes(stores, Pass::Relax, &squeezed.schedule);
                 }
             }
-            integrate::positions(team, listed, stores.bodies, h, max_speed);
+            integrate::positions(team, level, listed, stores.bodies, h, max_speed);
             for round in 1..=lengths.relaxations {
                 let last = round == lengths.relaxations;
                 joints(stores, joint_solver::Pass::Relax);
@@ -257,7 +258,7 @@ impl Solver {
             if watched {
                 passivity.run(stores.bodies);
             }
-            joint_solver::note_broken(stores.joint_graph, stores.joints, pace, inv_h_plain, broken);
+            broken.note(stores.joint_graph, 1.0 / h);
         }
         joints(stores, joint_solver::Pass::Finish);
         tree_contacts.give_back(stores);

@@ -24,7 +24,7 @@ use super::joint_solver::trees;
 use super::passivity::may_drive;
 use crate::describe::JointDef;
 use crate::dynamics::{Bodies, Bucket, JointTree, Joints, NULL, Slot, flags};
-use crate::simd::{BLOCK, DoubleKernel, Lanes, Row, Simd, SimdLevel, dispatch_doubles};
+use crate::simd::{BLOCK, FourKernel, Lanes, Row, Simd, SimdLevel, dispatch_fours};
 
 /// Numbers that the answers of a tree may have: touched bodies times bodies. Others stay with the lanes.
 const MOST_ANSWERS: usize = 1024;
@@ -243,7 +243,7 @@ impl TreeContacts {
         let (answers, constants) = (&mut answers[..*used], Constants::new((), parameters));
         answers.iter_mut().for_each(|answers| answers.load(rows));
         let mut velocities = Velocities { answers, rows };
-        dispatch_doubles(level, RunPass(pass, &constants, touches, &mut velocities));
+        dispatch_fours(level, RunPass(pass, &constants, touches, &mut velocities));
         velocities.answers.iter().for_each(|answers| answers.store(velocities.rows));
     }
 }
@@ -251,7 +251,7 @@ impl TreeContacts {
 /// A pass over all contacts.
 struct RunPass<'a, 'b>(Pass, &'a Constants<f32>, &'a mut [Touch], &'a mut Velocities<'b>);
 
-impl DoubleKernel for RunPass<'_, '_> {
+impl FourKernel for RunPass<'_, '_> {
     #[inline(always)]
     fn run<S: Simd>(self, _: S) {
         let Self(pass, constants, touches, velocities) = self;

@@ -54,4 +54,4 @@ mod shared;
 mod tests;
 
 pub(crate) use pool::{Pool, Team};
-pub(crate) use shared::{SharedRows, SharedSlice};
+pub(crate) use shared::{RowsAt, SharedRows, SharedSlice};

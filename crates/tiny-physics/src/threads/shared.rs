@@ -117,15 +117,69 @@ impl<'a, T> SharedSlice<'a, T> {
     }
 }
 
-impl SharedRows<'_> {
-    /// Overwrites the first half (velocity) of row `index`.
+impl<'a> SharedRows<'a> {
+    /// The rows at the first so many of some indices, to be read.
     #[inline(always)]
-    pub(crate) fn write_half(self, index: u32, half: [f32; 4]) {
-        let row = self.place(index);
-        // SAFETY: a half row is the first 16 of the 32 bytes of the row, with the same alignment; no
-        // other chunk touches the row meanwhile by the invariant in the type's description.
-        unsafe { row.cast::<[f32; 4]>().write(half) }
+    pub(crate) fn at<const N: usize>(self, indices: &[u32]) -> RowsAt<'a, N> {
+        #[cfg(tiny_physics_race)]
+        indices[..N].iter().for_each(|&index| race::note(self.id, index, race::Access::Read));
+        RowsAt { start: self.start, indices: inside(indices, self.len), marker: PhantomData }
     }
+
+    /// Overwrites the first halves (velocities) of the rows at the first so many of some indices: those whose bits are set.
+    #[inline(always)]
+    pub(crate) fn write_halves<const N: usize>(self, at: &[u32], halves: &[[f32; 4]; N], on: u32) {
+        let indices: [u32; N] = inside(at, self.len);
+        // Most strides write all: without a branch for each.
+        let all = on.trailing_ones() as usize >= N;
+        for i in 0..N {
+            if all || on >> i & 1 != 0 {
+                #[cfg(tiny_physics_race)]
+                race::note(self.id, indices[i], race::Access::Write);
+                // SAFETY: in bounds, as `inside` has found; a half row is the first 16 of the 32 bytes of the row, with the
+                // same alignment; no other chunk touches the row meanwhile by the invariant in the type's description.
+                unsafe { self.start.add(indices[i] as usize).cast::<[f32; 4]>().write(halves[i]) };
+            }
+        }
+    }
+}
+
+/// Rows at some indices, all of which are there: looked at once, not row by row.
+pub(crate) struct RowsAt<'a, const N: usize> {
+    start: *const [f32; 8],
+    indices: [u32; N],
+    marker: PhantomData<&'a [f32; 8]>,
+}
+
+impl<'a, const N: usize> RowsAt<'a, N> {
+    /// Those at the first so many of some indices.
+    #[inline(always)]
+    pub(crate) fn of(rows: &'a [[f32; 8]], indices: &[u32]) -> Self {
+        Self { start: rows.as_ptr(), indices: inside(indices, rows.len()), marker: PhantomData }
+    }
+
+    /// A copy of the row at the `i`th index.
+    #[inline(always)]
+    pub(crate) fn row(&self, i: usize) -> [f32; 8] {
+        // SAFETY: in bounds, as `inside` has found, of a slice that stays borrowed for 'a; no thread writes the row
+        // meanwhile, see `SharedSlice`.
+        unsafe { self.start.add(self.indices[i] as usize).read() }
+    }
+}
+
+/// The first of some indices, all of which are below the length.
+#[inline(always)]
+fn inside<const N: usize>(indices: &[u32], len: usize) -> [u32; N] {
+    let len = u32::try_from(len).unwrap_or(u32::MAX);
+    let mut first = [0; N];
+    first.copy_from_slice(&indices[..N]);
+    let mut all = true;
+    // No branch for each of them.
+    for index in first {
+        all &= index < len;
+    }
+    assert!(all, "an index out of range");
+    first
 }
 
 /// A slice cut into blocks of equal length, the last perhaps shorter, each for one chunk of a stage.
@@ -189,7 +243,7 @@ mod tests {
     #[test]
     fn a_half_row_leaves_the_other_half() {
         let mut rows = [[0.0; 8], [1.0; 8]];
-        SharedRows::new(&mut rows).write_half(1, [2.0; 4]);
+        SharedRows::new(&mut rows).write_halves(&[0, 1], &[[3.0; 4], [2.0; 4]], 0b10);
         assert_eq!(rows, [[0.0; 8], [2.0, 2.0, 2.0, 2.0, 1.0, 1.0, 1.0, 1.0]]);
     }
 
@@ -202,7 +256,13 @@ mod tests {
     #[test]
     #[should_panic = "index"]
     fn writing_out_of_range_panics() {
-        SharedRows::new(&mut [[0.0; 8]]).write_half(1, [0.0; 4]);
+        SharedRows::new(&mut [[0.0; 8]]).write_halves(&[0, 1], &[[0.0; 4]; 2], 0b01);
+    }
+
+    #[test]
+    #[should_panic = "index"]
+    fn picking_out_of_range_panics() {
+        RowsAt::<2>::of(&[[0.0; 8]], &[0, 1]);
     }
 
     #[test]

@@ -234,7 +234,7 @@ impl World {
 
     /// Removes the joints that bore more than they can, and says so.
     pub(super) fn break_joints(&mut self) {
-        let broken = core::mem::take(&mut self.scratch.solver.broken);
+        let broken = core::mem::take(&mut self.scratch.solver.broken.found);
         for &(index, load) in &broken {
             let joint = self.joint_id(index);
             let record = &self.state.joints.records[index as usize];
@@ -248,7 +248,7 @@ impl World {
             });
             self.destroy_joint(index);
         }
-        self.scratch.solver.broken = broken;
+        self.scratch.solver.broken.found = broken;
     }
 
     /// The one of two bodies that has fewer shapes: what concerns a pair is found from either.

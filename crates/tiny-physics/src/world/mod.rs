@@ -439,7 +439,7 @@ impl World {
     /// Takes the motion over into poses and boxes.
     fn finalize(&mut self, team: &Team, lengths: Lengths) {
         let Settings { continuous, length_unit, .. } = self.settings;
-        let options = finalize::Options { dt: lengths.dt, continuous, length_unit };
+        let options = finalize::Options::new(lengths.dt, continuous, length_unit);
         let State { bodies, shapes, broad_phase, .. } = &mut self.state;
         let scratch = &mut self.scratch;
         let count =

@@ -9,7 +9,7 @@ use super::lane::ABSENT;
 use super::{LaneManifold, LanePair, ShapeClass};
 use crate::geometry::{MAX_VERTICES, Polygon, Shape};
 use crate::math::Vec2;
-use crate::simd::{BLOCK, Lanes, Row, RowSource};
+use crate::simd::{Lanes, Row, RowSource, RowsOf};
 
 /// An edge this steep against the normal (sine of the angle between them) counts as its lowest end alone.
 const MIN_SINE: f32 = 0.1;
@@ -48,9 +48,17 @@ struct Four<'a, const NORMALS: bool> {
 }
 
 impl<const NORMALS: bool> RowSource for Four<'_, NORMALS> {
+    /// Those of the first outlines, whatever the indices.
     #[inline(always)]
-    fn read(self, index: u32) -> Row {
-        let Outline { polygon, center, scale } = self.outlines[index as usize];
+    fn at<const N: usize>(self, _: &[u32]) -> impl RowsOf {
+        self
+    }
+}
+
+impl<const NORMALS: bool> RowsOf for Four<'_, NORMALS> {
+    #[inline(always)]
+    fn row(&self, i: usize) -> Row {
+        let Outline { polygon, center, scale } = self.outlines[i];
         let (corners, normals) = polygon.padded();
         let vectors = if NORMALS { normals } else { corners };
         let mut row = [0.0; 8];
@@ -193,9 +201,8 @@ fn four<L: Lanes>(
     first: usize,
     frame: Frame<L>,
 ) -> ([[L; 2]; 4], [[L; 2]; 4]) {
-    const LANES: [u32; BLOCK] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
-    let mut corners = in_twos(L::gather(token, Four::<false> { outlines, first }, &LANES));
-    let mut normals = in_twos(L::gather(token, Four::<true> { outlines, first }, &LANES));
+    let mut corners = in_twos(L::gather(token, Four::<false> { outlines, first }, &[]));
+    let mut normals = in_twos(L::gather(token, Four::<true> { outlines, first }, &[]));
     if let Some([place, [c, s]]) = frame {
         for [x, y] in &mut corners {
             (*x, *y) = ((c * *x - s * *y) + place[0], (s * *x + c * *y) + place[1]);

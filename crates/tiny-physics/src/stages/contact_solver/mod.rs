@@ -35,11 +35,12 @@ mod pair;
 pub(crate) use bounce::{Memory as BounceMemory, run as run_bounces};
 
 use crate::dynamics::{
-    BlockHead, Blocks, ConstraintBlock, Graph, LaneBlock, PointLanes, Schedule, SurfaceBlock,
-    flags, is_overflow,
+    BlockHead, Blocks, ConstraintBlock, Graph, LaneBlock, PointLanes, Run, Schedule, Source,
+    SurfaceBlock, flags,
 };
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch};
 use crate::threads::{SharedRows, Team};
+use core::ops::Range;
 use friction::{roll, solve_friction, solve_rolling};
 pub(super) use normals::normal_impulse;
 use normals::solve_normals;
@@ -120,94 +121,118 @@ pub(crate) fn run(
     graph: &mut Graph,
     schedule: &Schedule,
 ) {
-    for stage in schedule.stages() {
-        let in_order = is_overflow(stage.place);
-        graph.for_each_run(team, &stage, |class, blocks| {
-            let (work, points) = (RunPass { pass, parameters, rows, blocks }, class.max_points());
-            if in_order {
-                work.one_by_one(level, points);
+    let work = Work { pass, parameters, rows };
+    graph.for_each_chunk(team, schedule, |runs, mut source| {
+        for runs in runs.chunk_by(|a, b| a.in_order == b.in_order) {
+            if runs[0].in_order {
+                runs.iter().for_each(|run| work.one_by_one(level, run, &mut source));
             } else {
-                work.run(level, points);
+                dispatch(level, RunPass { work, runs, source: &mut source });
             }
-        });
-    }
+        }
+    });
 }
 
-struct RunPass<'a> {
+/// What is to be done.
+#[derive(Clone, Copy)]
+struct Work<'a> {
     pass: Pass,
     parameters: &'a Parameters,
     rows: SharedRows<'a>,
-    blocks: Blocks<'a>,
 }
 
-impl RunPass<'_> {
-    fn run(self, level: SimdLevel, points: usize) {
-        let jointed = |head: &BlockHead| head.jointed_a | head.jointed_b != 0;
-        if self.pass == Pass::WarmStartJointed && !self.blocks.heads.iter().any(jointed) {
-            return;
-        }
-        let level = level.for_count(self.blocks.contacts.len());
-        if points == 1 {
-            dispatch(level, Points::<1, _>(self));
-        } else {
-            dispatch(level, Points::<2, _>(self));
-        }
-    }
-
+impl Work<'_> {
     /// For contacts that have bodies in common: each by itself, in the first lane of an empty block.
-    fn one_by_one(self, level: SimdLevel, points: usize) {
-        let Blocks { contacts, constraints, surfaces, heads, .. } = self.blocks;
+    fn one_by_one(self, level: SimdLevel, run: &Run, source: &mut Source<'_>) {
+        let Some(Blocks { contacts, constraints, surfaces, heads, .. }) = source.blocks(run) else {
+            return;
+        };
         let (mut constraint, mut surface) = (ConstraintBlock::NULL, SurfaceBlock::NULL);
         for (block, lane) in (0..contacts.len()).map(|slot| (slot / BLOCK, slot % BLOCK)) {
             constraint.copy_lane(0, &constraints[block], lane);
             surface.copy_lane(0, &surfaces[block], lane);
-            let blocks = Blocks {
+            let source = &mut Source::Alone(Blocks {
                 contacts: &contacts[..1],
                 manifolds: &mut [],
                 heads: &mut [heads[block].lane(lane)],
                 constraints: core::slice::from_mut(&mut constraint),
                 surfaces: core::slice::from_mut(&mut surface),
-            };
-            RunPass { blocks, ..self }.run(level, points);
+            });
+            let runs = core::slice::from_ref(run);
+            dispatch(level.for_count(1), RunPass { work: self, runs, source });
             constraints[block].copy_lane(lane, &constraint, 0);
             surfaces[block].copy_lane(lane, &surface, 0);
         }
     }
+
+    /// Runs the pass over the lanes of a block from one on: in as few strides as there are lanes for.
+    #[inline(always)]
+    fn block<L: Lanes, const POINTS: usize>(
+        self,
+        token: L::Token,
+        (block, surface): (&mut ConstraintBlock, &mut SurfaceBlock),
+        head: BlockHead,
+        lanes: Range<usize>,
+        constants: &Constants<L>,
+    ) {
+        let mut at = lanes.start;
+        while at < lanes.end {
+            if const { L::Half::WIDTH < L::WIDTH } && lanes.end - at <= L::Half::WIDTH {
+                let (token, lanes) = (L::half(token), at..lanes.end);
+                let constants = &Constants::new(token, self.parameters);
+                let block = (block, surface);
+                return self.block::<L::Half, POINTS>(token, block, head, lanes, constants);
+            }
+            let stride = Stride { token, rows: self.rows, at, constants };
+            let flags = head.flags;
+            match self.pass {
+                Pass::WarmStart => {
+                    warm_start::<L, POINTS, true>(&stride, block, surface, flags, ALL_BODIES);
+                }
+                Pass::WarmStartJointed => {
+                    let jointed = (head.jointed_a >> at, head.jointed_b >> at);
+                    let jointed = (jointed.0.into(), jointed.1.into());
+                    warm_start::<L, POINTS, false>(&stride, block, surface, flags, jointed);
+                }
+                Pass::Solve => solve::<L, POINTS>(&stride, block, surface, flags),
+                Pass::Relax | Pass::RelaxLast => {
+                    let unsummed = if self.pass == Pass::Relax { flags::HIT } else { 0 };
+                    relax::<L, POINTS>(&stride, block, surface, flags & !unsummed);
+                }
+            }
+            at += L::WIDTH;
+        }
+    }
 }
 
-struct Points<const POINTS: usize, W>(W);
+/// A pass over the runs of colours, in their order.
+struct RunPass<'a, 'b> {
+    work: Work<'a>,
+    runs: &'a [Run],
+    source: &'a mut Source<'b>,
+}
 
-impl<const POINTS: usize> LaneKernel for Points<POINTS, RunPass<'_>> {
+impl LaneKernel for RunPass<'_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn run<L: Lanes>(self, token: L::Token) {
-        let RunPass { pass, parameters, rows, blocks } = self.0;
-        let constants = Constants::<L>::new(token, parameters);
-        for (index, block) in blocks.constraints.iter_mut().enumerate() {
-            let head = blocks.heads[index];
-            let flags = head.flags;
-            if pass == Pass::WarmStartJointed && head.jointed_a | head.jointed_b == 0 {
-                continue;
-            }
-            let surface = &mut blocks.surfaces[index];
-            let lanes = blocks.contacts.len() - index * BLOCK;
-            for at in (0..BLOCK.min(lanes)).step_by(L::WIDTH) {
-                let stride = Stride { token, rows, at, constants: &constants };
-                match pass {
-                    Pass::WarmStart => {
-                        warm_start::<L, POINTS, true>(&stride, block, surface, flags, ALL_BODIES);
-                    }
-                    Pass::WarmStartJointed => {
-                        let jointed =
-                            (u32::from(head.jointed_a) >> at, u32::from(head.jointed_b) >> at);
-                        warm_start::<L, POINTS, false>(&stride, block, surface, flags, jointed);
-                    }
-                    Pass::Solve => solve::<L, POINTS>(&stride, block, surface, flags),
-                    Pass::Relax | Pass::RelaxLast => {
-                        let unsummed = if pass == Pass::Relax { flags::HIT } else { 0 };
-                        relax::<L, POINTS>(&stride, block, surface, flags & !unsummed);
-                    }
+        let Self { work, runs, source } = self;
+        let constants = &Constants::<L>::new(token, work.parameters);
+        for run in runs {
+            let Some(blocks) = source.blocks(run) else { continue };
+            let mut left = blocks.contacts.len();
+            let solved = blocks.constraints.iter_mut().zip(blocks.surfaces);
+            for ((block, surface), &mut head) in solved.zip(blocks.heads) {
+                let lanes = 0..left.min(BLOCK);
+                left -= lanes.end;
+                let waits = work.pass == Pass::WarmStartJointed;
+                if waits && head.jointed_a | head.jointed_b == 0 {
+                    continue;
+                }
+                match run.class.max_points() {
+                    1 => work.block::<L, 1>(token, (block, surface), head, lanes, constants),
+                    _ => work.block::<L, 2>(token, (block, surface), head, lanes, constants),
                 }
             }
         }

@@ -2,7 +2,7 @@
 //!
 //! Each step [`describe`] writes what follows from new or changed descriptions, [`prepare`] what
 //! follows from the poses. Each substep runs the passes: warm start, solve, relax. [`Pass::Finish`]
-//! ends the step, before positions are taken over; then [`load`] reads the joints back. [`note_broken`] looks at every substep.
+//! ends the step, before positions are taken over; then [`load`] reads the joints back. [`Broken`] looks at every substep.
 //!
 //! What a joint holds rigid is a soft constraint of high frequency (see
 //! [`Softness`](super::contact_solver::Softness)) in the solve pass and exact in the relax pass. With
@@ -39,10 +39,10 @@ mod weld;
 #[cfg(test)]
 mod tests;
 
-use crate::describe::{BodyKind, JointDef};
+use crate::describe::{BodyKind, Break, JointDef};
 use crate::dynamics::{
-    AxisLanes, BodyInfo, FrameLanes, JointBlocks, JointBucket, JointGraph, JointLanes, JointLoad,
-    Joints, REFINEMENT, TreeLink, joint_classes, pace_at, with_bucket,
+    AxisLanes, BodyInfo, FrameLanes, JointBlocks, JointBucket, JointClass, JointColour, JointGraph,
+    JointLanes, JointLoad, Joints, REFINEMENT, TreeLink, joint_classes, pace_at, with_bucket,
 };
 use crate::math::{Pose, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_baseline, dispatch_narrow};
@@ -286,45 +286,75 @@ pub(crate) fn load(graph: &JointGraph, joints: &Joints, index: u32, inv_h: f32) 
     let record = &joints.records[index as usize];
     let inv_h = inv_h * REFINEMENT[graph.pace_of(record)] as f32;
     let Some((place, class, slot)) = record.lanes() else { return JointLoad::default() };
-    let colour = &graph.colours[place];
+    load_of(&graph.colours[place], class, slot, inv_h)
+}
+
+#[inline]
+fn load_of(colour: &JointColour, class: JointClass, slot: u32, inv_h: f32) -> JointLoad {
     let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
     let (force, torque) = with_bucket!(colour, class, bucket => bucket.blocks[block].impulse(lane));
     JointLoad { force: force * inv_h, torque: torque * inv_h }
 }
 
-/// Notes the joints of a pace whose load in this substep is beyond what they bear; of several substeps the greatest
-/// force and the greatest torque stay. What was found is ascending.
-pub(crate) fn note_broken(
-    graph: &JointGraph,
-    joints: &Joints,
-    pace: usize,
-    inv_h: f32,
-    found: &mut Vec<(u32, JointLoad)>,
-) {
-    let known = found.len();
-    for &index in &joints.breakable {
-        let record = &joints.records[index as usize];
-        let Some(limit) = record.def.break_at.filter(|_| graph.pace_of(record) == pace) else {
-            continue;
-        };
-        let load = load(graph, joints, index, inv_h);
-        if load.force.length() <= limit.force && load.torque.abs() <= limit.torque {
-            continue;
-        }
-        match found[..known].binary_search_by_key(&index, |&(index, _)| index) {
-            Err(_) => found.push((index, load)),
-            Ok(at) => {
-                let most = &mut found[at].1;
-                if load.force.length_sq() > most.force.length_sq() {
-                    most.force = load.force;
-                }
-                if load.torque.abs() > most.torque.abs() {
-                    most.torque = load.torque;
+/// A joint that can break, where its lanes are, and what it bears.
+#[derive(Clone, Copy, Debug)]
+struct Breakable {
+    index: u32,
+    colour: u32,
+    class: JointClass,
+    slot: u32,
+    most: Break,
+}
+
+/// The joints that can break, and those that do.
+#[derive(Debug, Default)]
+pub(crate) struct Broken {
+    /// Those of the pace at hand that can, ascending.
+    listed: Vec<Breakable>,
+    /// Those that bore more than they can in the last step, ascending, and how much.
+    pub(crate) found: Vec<(u32, JointLoad)>,
+}
+
+crate::footprint::footprint!(Broken { listed, found });
+
+impl Broken {
+    /// Lists the joints of a pace.
+    pub(crate) fn list(&mut self, graph: &JointGraph, joints: &Joints, pace: usize) {
+        self.listed.clear();
+        self.listed.extend(joints.breakable.iter().filter_map(|&index| {
+            let record = &joints.records[index as usize];
+            let most = record.def.break_at?;
+            let (place, class, slot) = record.lanes().filter(|at| pace_at(at.0) == pace)?;
+            let colour = graph.colours.position(place) as u32;
+            Some(Breakable { index, colour, class, slot, most })
+        }));
+    }
+
+    /// Notes the joints whose load in this substep is beyond what they bear; of several substeps the greatest force and
+    /// the greatest torque stay. `inv_h` is 1 / substep length.
+    pub(crate) fn note(&mut self, graph: &JointGraph, inv_h: f32) {
+        let Self { listed, found } = self;
+        let known = found.len();
+        for &Breakable { index, colour, class, slot, most } in &*listed {
+            let load = load_of(&graph.colours.list()[colour as usize], class, slot, inv_h);
+            if load.force.length() <= most.force && load.torque.abs() <= most.torque {
+                continue;
+            }
+            match found[..known].binary_search_by_key(&index, |&(index, _)| index) {
+                Err(_) => found.push((index, load)),
+                Ok(at) => {
+                    let most = &mut found[at].1;
+                    if load.force.length_sq() > most.force.length_sq() {
+                        most.force = load.force;
+                    }
+                    if load.torque.abs() > most.torque.abs() {
+                        most.torque = load.torque;
+                    }
                 }
             }
         }
-    }
-    if found.len() > known {
-        found.sort_unstable_by_key(|&(index, _)| index);
+        if found.len() > known {
+            found.sort_unstable_by_key(|&(index, _)| index);
+        }
     }
 }

@@ -277,11 +277,12 @@ fn joints_break_at_their_threshold() {
         })
         .collect();
     rig.run(1.0);
-    let mut found = Vec::new();
-    note_broken(&rig.graph, &rig.joints, PLAIN, rig.inv_h(), &mut found);
-    let indices: Vec<u32> = found.iter().map(|(index, _)| *index).collect();
+    let mut broken = Broken::default();
+    broken.list(&rig.graph, &rig.joints, PLAIN);
+    broken.note(&rig.graph, rig.inv_h());
+    let indices: Vec<u32> = broken.found.iter().map(|(index, _)| *index).collect();
     assert_eq!(indices, expected);
-    for (_, load) in found {
+    for (_, load) in broken.found {
         assert_near("force", load.force.length().into(), G.into(), 0.01);
         assert_near("torque", load.torque.into(), (2.0 * G).into(), 0.01);
     }

@@ -84,12 +84,12 @@ impl Rig {
             });
         }
         for _ in 0..self.substeps {
-            integrate::velocities(&team, &listed, &mut self.bodies, true);
+            integrate::velocities(&team, self.level, &listed, &mut self.bodies, true);
             self.pass(Pass::WarmStart);
             for _ in 0..self.iterations {
                 self.pass(Pass::Solve);
             }
-            integrate::positions(&team, &listed, &mut self.bodies, h, 400.0);
+            integrate::positions(&team, self.level, &listed, &mut self.bodies, h, 400.0);
             for _ in 0..self.iterations {
                 self.pass(Pass::Relax);
             }

@@ -22,9 +22,7 @@ use super::{Pass, axis};
 use crate::dynamics::{
     JOINTED, JointClass, JointColour, JointTree, Joints, Motion, TreeAxis, TreeLink, TreeNode,
 };
-use crate::simd::{
-    DoubleKernel, Simd, SimdLevel, Three, add_times, dispatch_doubles, take_product,
-};
+use crate::simd::{FourKernel, Simd, SimdLevel, Three, add_times, dispatch_fours, take_product};
 use crate::threads::{SharedRows, Team};
 
 /// Part of a position error that a substep takes away. What is missing at 0.25 is energy: a double pendulum keeps 0.91
@@ -85,14 +83,14 @@ pub(crate) fn run(
     }
     let lanes = &*lanes;
     team.for_each_chunk_mut(trees, CHUNK, |_, trees| {
-        dispatch_doubles(level, RunPass(pass, substep, bodies, lanes, trees, pace));
+        dispatch_fours(level, RunPass(pass, substep, bodies, lanes, trees, pace));
     });
 }
 
 /// A pass over some trees.
 struct RunPass<'a>(Pass, Substep, SharedRows<'a>, &'a JointColour, &'a mut [JointTree], usize);
 
-impl DoubleKernel for RunPass<'_> {
+impl FourKernel for RunPass<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self(pass, substep, bodies, lanes, trees, pace) = self;
@@ -105,12 +103,12 @@ impl DoubleKernel for RunPass<'_> {
 /// How all bodies of a tree answer impulses on some of its nodes: for each of these three columns of equal length, per impulse along x,
 /// y and about, with the changes of velocity body by body.
 pub(crate) fn answer(level: SimdLevel, tree: &mut JointTree, touched: &[u32], columns: &mut [f32]) {
-    dispatch_doubles(level, Answer(tree, touched, columns));
+    dispatch_fours(level, Answer(tree, touched, columns));
 }
 
 struct Answer<'a>(&'a mut JointTree, &'a [u32], &'a mut [f32]);
 
-impl DoubleKernel for Answer<'_> {
+impl FourKernel for Answer<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self(tree, touched, columns) = self;

@@ -2,11 +2,11 @@
 
 use super::factor::{factor, solve};
 use crate::dynamics::{JointClass, JointTree, NULL, TreeLink, TreeNode, TreeRow};
-use crate::simd::{DoubleKernel, Simd, SimdLevel, dispatch_doubles};
+use crate::simd::{FourKernel, Simd, SimdLevel, dispatch_fours};
 
 struct FactorAndSolve<'a>(&'a mut JointTree);
 
-impl DoubleKernel for FactorAndSolve<'_> {
+impl FourKernel for FactorAndSolve<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         factor(simd, self.0);
@@ -17,10 +17,10 @@ impl DoubleKernel for FactorAndSolve<'_> {
 /// Factors and solves, on every level with the same result.
 fn factor_and_solve(tree: &mut JointTree) {
     let before = tree.clone();
-    dispatch_doubles(SimdLevel::detect(), FactorAndSolve(tree));
+    dispatch_fours(SimdLevel::detect(), FactorAndSolve(tree));
     for level in SimdLevel::available() {
         let mut other = before.clone();
-        dispatch_doubles(level, FactorAndSolve(&mut other));
+        dispatch_fours(level, FactorAndSolve(&mut other));
         assert!(other == *tree, "{level}");
     }
 }
