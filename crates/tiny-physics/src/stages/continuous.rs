@@ -529,7 +529,7 @@ mod tests {
             let core = shape.core();
             let extent = core.points().iter().fold(0.0_f32, |most, p| most.max(p.length())) + core.radius;
             let room = clear_room(&row, &their, &body) - 2.0 * LINEAR_SLOP;
-            let toi = impact_within(&shape, &body, &other, &their.child(frame), 1.0, LINEAR_SLOP);
+            let toi = impact_within(&shape, &body, &other, &their.child(frame), (0.0, 1.0), LINEAR_SLOP);
             prop_assert!(room <= extent || toi.is_none(), "{room} {extent} {toi:?}");
             let moves = Sweep::new(place, Vec2::ZERO, Vec2::X, 0.0);
             prop_assert_eq!(clear_room(&row, &moves, &body), 0.0);
