@@ -168,6 +168,10 @@ pub(crate) struct JointTree {
     pub(crate) axes: Vec<TreeAxis>,
     /// That of all its bodies.
     pub(crate) pace: usize,
+    /// No other joint moves its bodies.
+    alone: bool,
+    /// What acts on its bodies between two equal passes leaves its joints as they are, so that the second has nothing to do.
+    pub(crate) undisturbed: bool,
     /// The rows have been worked out in this step.
     pub(crate) begun: bool,
     /// The rows are those of the bodies' places now.
@@ -178,8 +182,36 @@ pub(crate) struct JointTree {
     pub(crate) factored: bool,
 }
 
-clone_by_field!(JointTree { nodes, dynamic, links, axes, pace, begun, fresh, moved, factored });
-footprint!(JointTree { nodes, links, axes } none { dynamic, pace, begun, fresh, moved, factored });
+clone_by_field!(JointTree {
+    nodes,
+    dynamic,
+    links,
+    axes,
+    pace,
+    alone,
+    undisturbed,
+    begun,
+    fresh,
+    moved,
+    factored
+});
+footprint!(JointTree { nodes, links, axes } none {
+    dynamic,
+    pace,
+    alone,
+    undisturbed,
+    begun,
+    fresh,
+    moved,
+    factored
+});
+
+impl JointTree {
+    /// Notes whether contacts and what acts along its free coordinates leave its joints as they are.
+    pub(crate) fn note_undisturbed(&mut self, leaves: bool) {
+        self.undisturbed = self.alone && leaves;
+    }
+}
 
 /// All trees of a world.
 #[derive(Debug, Default)]
@@ -422,7 +454,13 @@ fn plant(
         }
     }
     let nodes = vec![NULL; component.bodies.len()];
-    let tree = JointTree::default();
+    let in_tree = spanning.len() + anchors.len();
+    let mut all = component.bodies.iter().flat_map(|&body| {
+        joints.of_body(bodies.infos[body as usize].first_joint).map(|(joint, _)| joint)
+    });
+    let alone = in_tree == component.joints.len()
+        && all.all(|joint| component.joints.binary_search(&joint).is_ok());
+    let tree = JointTree { alone, ..JointTree::default() };
     let mut planter = Planter { bodies, joints, places, nodes, tree, depth: Vec::new() };
     planter.plant(&spanning, &anchors);
     let deep =

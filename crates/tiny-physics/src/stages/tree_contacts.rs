@@ -139,12 +139,17 @@ impl TreeContacts {
         self.touches.clear();
         self.found.clear();
         self.used = 0;
-        for (index, tree) in stores.joint_graph.forest.trees.iter().enumerate() {
+        for index in 0..stores.joint_graph.forest.trees.len() {
+            let tree = &stores.joint_graph.forest.trees[index];
             let here = tree.pace == pace && !tree.links.is_empty();
-            let awake = here && stores.bodies.infos[tree.nodes[0].body as usize].awake;
-            if awake && !kinds(tree, stores.joints).any(may_drive) {
-                self.find(index as u32, tree, stores);
+            if !here || !stores.bodies.infos[tree.nodes[0].body as usize].awake {
+                continue;
             }
+            let drives = kinds(tree, stores.joints).any(may_drive);
+            let all_through_it = !drives && self.find(index as u32, tree, stores);
+            let brakes = || kinds(tree, stores.joints).any(|def| def.kind.motor().is_some());
+            let leaves = all_through_it && !brakes();
+            stores.joint_graph.forest.trees[index].note_undisturbed(leaves);
         }
         self.found.sort_unstable();
         let Stores { bodies, graph, .. } = stores;
@@ -160,8 +165,8 @@ impl TreeContacts {
         }
     }
 
-    /// Finds what touches a tree. One with too many contacts is left out.
-    fn find(&mut self, index: u32, tree: &JointTree, stores: &Stores<'_>) {
+    /// Finds what touches a tree. One with too many contacts is left out: is this one in?
+    fn find(&mut self, index: u32, tree: &JointTree, stores: &Stores<'_>) -> bool {
         let (first, tree_answers) = (self.found.len(), self.used as u32);
         if self.used == self.answers.len() {
             self.answers.push(Answers::default());
@@ -183,10 +188,12 @@ impl TreeContacts {
                 answers.touched.push(node as u32);
             }
         }
-        if answers.touched.len() * answers.bodies.len() > MOST_ANSWERS {
+        let fits = answers.touched.len() * answers.bodies.len() <= MOST_ANSWERS;
+        if !fits {
             self.found.truncate(first);
         }
         self.used += usize::from(self.found.len() > first);
+        fits
     }
 
     /// Puts the contacts back into their lanes.

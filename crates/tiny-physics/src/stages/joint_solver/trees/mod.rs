@@ -138,6 +138,14 @@ fn run_tree<S: Simd>(
     lanes: &JointColour,
     tree: &mut JointTree,
 ) {
+    let again = match pass {
+        Pass::Solve => tree.moved,
+        Pass::Relax => !tree.moved,
+        _ => false,
+    };
+    if again && tree.undisturbed {
+        return;
+    }
     let rates = Rates::new(substep, tree.pace);
     let moved = pass == Pass::Relax && tree.moved;
     if moved || !tree.fresh {
