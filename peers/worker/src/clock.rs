@@ -3,6 +3,9 @@
 use rustix::time::{ClockId, clock_gettime};
 use std::time::Instant;
 
+/// Readings of which the median is what a reading costs.
+const READINGS: usize = 1001;
+
 /// CPU and wall time spent since a start.
 pub struct Stopwatch {
     cpu_s: f64,
@@ -19,6 +22,14 @@ impl Stopwatch {
     pub fn elapsed_ms(&self) -> (f64, f64) {
         let wall_ms = self.wall.elapsed().as_secs_f64() * 1e3;
         ((process_cpu_s() - self.cpu_s) * 1e3, wall_ms)
+    }
+
+    /// What it shows where nothing is done, milliseconds: CPU and wall time of its own reading, half a microsecond and less. A
+    /// step of a small world takes no more than a few times as long.
+    pub fn own_ms() -> (f64, f64) {
+        let (cpu, wall): (Vec<f64>, Vec<f64>) =
+            (0..READINGS).map(|_| Self::start().elapsed_ms()).unzip();
+        (percentile(&cpu, 0.5), percentile(&wall, 0.5))
     }
 }
 
@@ -63,6 +74,12 @@ mod tests {
         assert_eq!(percentile(&[7.0], 0.99), 7.0);
         assert_eq!(percentile(&[], 0.5), 0.0);
         assert_eq!(mean(&values), 50.5);
+    }
+
+    #[test]
+    fn reading_costs_little() {
+        let (cpu_ms, wall_ms) = Stopwatch::own_ms();
+        assert!((0.0..0.1).contains(&cpu_ms) && (0.0..0.1).contains(&wall_ms));
     }
 
     #[test]

@@ -49,12 +49,13 @@ fn run<E: Engine>(job: &Job) -> Result<Report, String> {
     player.step();
     let steps = job.steps.unwrap_or(scene.steps).saturating_sub(1).max(1);
     let (mut cpu_ms, mut wall_ms) = (Vec::new(), Vec::new());
+    let own = Stopwatch::own_ms();
     for _ in 0..steps {
         let watch = Stopwatch::start();
         player.step();
         let (cpu, wall) = watch.elapsed_ms();
-        cpu_ms.push(cpu);
-        wall_ms.push(wall);
+        cpu_ms.push((cpu - own.0).max(0.0));
+        wall_ms.push((wall - own.1).max(0.0));
     }
     let engine = player.host();
     Ok(Report {
