@@ -170,8 +170,8 @@ pub(crate) struct JointTree {
     pub(crate) pace: usize,
     /// No other joint moves its bodies.
     alone: bool,
-    /// What acts on its bodies between two equal passes leaves its joints as they are, so that the second has nothing to do.
-    pub(crate) undisturbed: bool,
+    /// See [`JointTree::is_undisturbed`]; but for its axes.
+    undisturbed: bool,
     /// The rows have been worked out in this step.
     pub(crate) begun: bool,
     /// The rows are those of the bodies' places now.
@@ -207,9 +207,15 @@ footprint!(JointTree { nodes, links, axes } none {
 });
 
 impl JointTree {
-    /// Notes whether contacts and what acts along its free coordinates leave its joints as they are.
-    pub(crate) fn note_undisturbed(&mut self, leaves: bool) {
-        self.undisturbed = self.alone && leaves;
+    /// Notes whether all its contacts go through it, and so leave its joints as they are.
+    pub(crate) fn note_undisturbed(&mut self, all_through_it: bool) {
+        self.undisturbed = self.alone && all_through_it;
+    }
+
+    /// Does nothing act on its bodies between two equal passes but what leaves its joints as they are? The second then has nothing
+    /// to do.
+    pub(crate) fn is_undisturbed(&self) -> bool {
+        self.undisturbed && self.axes.is_empty()
     }
 }
 

@@ -15,7 +15,7 @@ use super::pairs::PairRule;
 use super::surfaces::{self, Ground, Seams};
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, NULL, ShapeRecord, Shapes, Slot, is_rigid};
-use crate::geometry::manifold::ShapeClass;
+use crate::geometry::manifold::{self, ShapeClass};
 use crate::geometry::{LINEAR_SLOP, Shape, Sweep, ToiState, distance, impact_within};
 use crate::math::{Aabb, Pose, Rot, Transform, Vec2};
 use crate::simd::Row;
@@ -42,6 +42,10 @@ const AHEAD: f32 = 4.0;
 /// More bodies than this that are joined do not wait for one that was stopped: with 16, what lay on planks of bridges
 /// sank into those that waited.
 const MOST_TOGETHER: usize = 4;
+/// What ends a step no deeper in than this part of its half thickness was held by its contact; see [`Search::is_held`].
+const HELD: f32 = 0.2;
+/// So nearly must the normal at the end, seen from what was hit, be that of the impact: else it may have gone through. A cosine.
+const SAME_SIDE: f32 = 0.5;
 /// A middle that is inside something may go on by this much in a step: it is being pushed out. Metres; multiplied by the
 /// length unit.
 const CREEP: f32 = 0.1 * LINEAR_SLOP;
@@ -66,6 +70,14 @@ pub(crate) fn run(
             *fast = Search { fast, scene }.outcome();
         }
     });
+    if std::env::var("TPSHOW").is_ok() {
+        for f in fast.iter().filter(|f| f.fraction < 1.0) {
+            eprintln!("setback body {} fraction {} lost {:?}", f.body, f.fraction, f.lost);
+        }
+    }
+    if std::env::var("TPNOSET").is_ok() {
+        fast.clear();
+    }
     hold_together(fast, bodies, rules.joints);
     settle(team, fast, bodies, shapes, broad_phase, moved);
 }
@@ -446,7 +458,13 @@ impl Search<'_> {
         let toi = impact_within(&record.shape, &moving, &other.shape, &motion, (0.0, first), slop)?;
         let hit = matches!(toi.state, ToiState::Hit | ToiState::Limit);
         let there = |f: f32| moving.at(f).relative_to(motion.at(f));
-        if hit && solid_along(toi.normal) && !self.is_ghost(record, index, there(toi.fraction)) {
+        let outwards = motion.at(toi.fraction).q.unrotate(-toi.normal);
+        let held = || self.is_held([record, other], outwards, there(1.0));
+        if hit
+            && solid_along(toi.normal)
+            && !self.is_ghost(record, index, there(toi.fraction))
+            && (course.from != 0.0 || !held())
+        {
             return Some(Meeting { fraction: toi.fraction, body: other.body, lost: Vec2::ZERO });
         }
         // What it touches it may be passing through from behind.
@@ -460,6 +478,22 @@ impl Search<'_> {
         let (fraction, normal) = inner.first_fraction(&other.shape, &motion, first, length_unit)?;
         let lost = self.driving_velocity(inner.relative_way(&motion), normal);
         Some(Meeting { fraction, body: other.body, lost })
+    }
+
+    /// Has a contact held a shape of a joined body at what it hit? To set that body back would open its joints by what the others
+    /// went on. Out of the other shape, in its frame, went the normal; there the step ends.
+    ///
+    /// In 1,200 random worlds joints gaped by more than 5 cm in 28, now in 16. Without joints it is better set back: one body more
+    /// passed in each of three of 600 worlds.
+    fn is_held(&self, [record, other]: [&ShapeRecord; 2], outwards: Vec2, end: Transform) -> bool {
+        if self.scene.bodies.infos[self.fast.body as usize].first_joint == NULL {
+            return false;
+        }
+        let most = HELD * record.shape.inner_radius();
+        let manifold = manifold::collide(&other.shape, &record.shape, end, most);
+        manifold.count > 0
+            && manifold.normal.dot(outwards) > SAME_SIDE
+            && manifold.points().iter().all(|point| point.separation > -most)
     }
 
     /// Does the body move so little, seen from something that does not turn, that its contact is all that is needed?

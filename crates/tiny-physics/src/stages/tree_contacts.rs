@@ -147,9 +147,7 @@ impl TreeContacts {
             }
             let drives = kinds(tree, stores.joints).any(may_drive);
             let all_through_it = !drives && self.find(index as u32, tree, stores);
-            let brakes = || kinds(tree, stores.joints).any(|def| def.kind.motor().is_some());
-            let leaves = all_through_it && !brakes();
-            stores.joint_graph.forest.trees[index].note_undisturbed(leaves);
+            stores.joint_graph.forest.trees[index].note_undisturbed(all_through_it);
         }
         self.found.sort_unstable();
         let Stores { bodies, graph, .. } = stores;

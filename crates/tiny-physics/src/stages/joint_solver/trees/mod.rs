@@ -143,7 +143,7 @@ fn run_tree<S: Simd>(
         Pass::Relax => !tree.moved,
         _ => false,
     };
-    if again && tree.undisturbed {
+    if again && tree.is_undisturbed() {
         return;
     }
     let rates = Rates::new(substep, tree.pace);
