@@ -62,21 +62,23 @@ record! {
         pub(crate) angular_damping: f32 = 0.0,
         /// Seconds below the sleep speed.
         pub(crate) sleep_time: f32 = 0.0,
+        /// Seconds for which its island counts as stirred, see [`paces`](crate::stages::paces).
+        pub(crate) stirred: f32 = 0.0,
         pub(crate) sleep_speed: f32 = 0.05,
         /// Smallest half width of a shape: how far it may move before it could jump over something.
         pub(crate) min_extent: f32 = 0.0,
         /// Greatest distance of a point of a shape from the centre of mass.
         pub(crate) max_extent: f32 = 0.0,
         pub(crate) first_shape: u32 = NULL,
-        /// First joint edge: joint index * 2 + side.
-        pub(crate) first_joint: u32 = NULL,
         /// Centre of mass in the body's frame.
         pub(crate) local_center: Vec2 = Vec2::ZERO,
         pub(crate) mass: f32 = 0.0,
         pub(crate) inertia: f32 = 0.0,
+        /// First joint edge: joint index * 2 + side.
+        pub(crate) first_joint: u32 = NULL,
         /// Mass given by the user, if any.
         pub(crate) fixed_mass: Given = Given::default(),
-        pub(crate) fixed_center: Option<Vec2> = None,
+        pub(crate) fixed_center: GivenPoint = GivenPoint::default(),
         pub(crate) fixed_inertia: Given = Given::default(),
         pub(crate) generation: u32 as apart = 0,
         pub(crate) shape_count: u32 = 0,
@@ -114,6 +116,38 @@ impl Given {
 }
 
 impl Data for Given {
+    fn save(&self, sink: &mut Sink) {
+        self.get().save(sink);
+    }
+    fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        Option::load(reader).map(Self::new)
+    }
+}
+
+/// A point that the user has given, or none, in eight bytes.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct GivenPoint(Vec2);
+
+impl GivenPoint {
+    /// No point that a user may give.
+    const NONE: Vec2 = Vec2::splat(f32::MAX);
+
+    pub(crate) fn new(point: Option<Vec2>) -> Self {
+        Self(point.unwrap_or(Self::NONE))
+    }
+
+    pub(crate) fn get(self) -> Option<Vec2> {
+        (self.0 != Self::NONE).then_some(self.0)
+    }
+}
+
+impl Default for GivenPoint {
+    fn default() -> Self {
+        Self(Self::NONE)
+    }
+}
+
+impl Data for GivenPoint {
     fn save(&self, sink: &mut Sink) {
         self.get().save(sink);
     }

@@ -29,7 +29,7 @@ mod waiting;
 pub(crate) use blocks::{
     BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags,
 };
-pub(crate) use bodies::{Bodies, BodyInfo, Given, Motion, NULL, Slot};
+pub(crate) use bodies::{Bodies, BodyInfo, Given, GivenPoint, Motion, NULL, Slot};
 pub(crate) use coloured::{COLOURS, IDLE, Place, colour_at, is_overflow, pace_at};
 pub(crate) use contacts::{Contact, Contacts, SavedPoint};
 pub(crate) use disjoint_sets::DisjointSets;

@@ -212,6 +212,7 @@ fn time_rest(row: &Row, [way, turn]: [f32; 2], info: &mut BodyInfo, options: Opt
     let spin = larger(row[Slot::W].abs(), turn.abs() / dt);
     let fastest = larger(speed, spin * info.max_extent);
     info.calm = rests::calmer(info.calm, fastest / length_unit, options.calm);
+    info.stirred = larger(info.stirred - dt, 0.0);
     // A platform that creeps must not stop.
     let limit = if info.kind == BodyKind::Dynamic { info.sleep_speed * length_unit } else { 0.0 };
     if info.can_sleep && fastest <= limit {

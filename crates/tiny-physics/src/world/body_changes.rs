@@ -5,7 +5,7 @@ use super::bodies::{Body, BodyMut};
 use super::descriptions::{check_center, check_given};
 use super::ids::{BodyId, JointId};
 use crate::describe::{BodyKind, Locks};
-use crate::dynamics::{Given, NULL};
+use crate::dynamics::{Given, GivenPoint, NULL};
 use crate::error::Error;
 use crate::math::{Pose, Vec2};
 
@@ -112,7 +112,7 @@ impl BodyMut<'_> {
     pub fn set_center(&mut self, center: Option<Vec2>) -> Result<(), Error> {
         check_center(center)?;
         self.accept(&[]);
-        self.info().fixed_center = center;
+        self.info().fixed_center = GivenPoint::new(center);
         self.world.update_mass(self.index);
         Ok(())
     }

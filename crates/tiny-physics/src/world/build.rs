@@ -6,7 +6,7 @@ use super::ids::{BodyId, ShapeId};
 use super::state::State;
 use crate::broad_phase::{ProxyDef, ProxyKind};
 use crate::describe::{BodyKind, RigidBody, ShapeDef};
-use crate::dynamics::{BodyInfo, Contact, Given, NULL, ShapeRecord};
+use crate::dynamics::{BodyInfo, Contact, Given, GivenPoint, NULL, ShapeRecord};
 use crate::error::Error;
 use crate::geometry::manifold::{RoundedBox, ShapeClass};
 use crate::geometry::{MassProperties, Shape};
@@ -26,7 +26,7 @@ impl World {
         let rotation = Rot::from_angle(body.angle);
         let info = BodyInfo {
             fixed_mass: Given::new(body.mass),
-            fixed_center: body.center,
+            fixed_center: GivenPoint::new(body.center),
             fixed_inertia: Given::new(body.inertia),
             awake: moving && body.awake,
             ..BodyInfo::default().take_over(&body)
@@ -238,7 +238,7 @@ impl World {
             None if total.mass > 0.0 => total.mass,
             None => 1.0,
         };
-        info.inertia = match (info.fixed_inertia.get(), info.fixed_center) {
+        info.inertia = match (info.fixed_inertia.get(), info.fixed_center.get()) {
             _ if !dynamic => 0.0,
             (Some(inertia), _) => inertia,
             (None, Some(center)) => {
@@ -247,7 +247,8 @@ impl World {
             }
             (None, None) => total.inertia * scale,
         };
-        let center = if dynamic { info.fixed_center.unwrap_or(total.center) } else { Vec2::ZERO };
+        let center =
+            if dynamic { info.fixed_center.get().unwrap_or(total.center) } else { Vec2::ZERO };
         let shifted = core::mem::replace(&mut info.local_center, center) != center;
         self.state.bodies.set_origin_pose(index, origin.p, origin.q);
         self.state.bodies.update_inverse_masses(index);

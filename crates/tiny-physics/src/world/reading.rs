@@ -74,7 +74,7 @@ impl Body<'_> {
             angular_velocity: self.angular_velocity(),
             shapes: shapes.map(|shape| shape.describe()).collect(),
             mass: info.fixed_mass.get(),
-            center: info.fixed_center,
+            center: info.fixed_center.get(),
             inertia: info.fixed_inertia.get(),
             awake: info.awake || info.kind == BodyKind::Static,
             ..RigidBody::default()
