@@ -40,7 +40,7 @@ const LOWER: f32 = 0.25;
 /// Speed between two bodies below which their contact carries what it will go on carrying, length units a
 /// second.
 const SETTLED: f32 = 0.05;
-/// Speed between two touching bodies above which their island does not become finer.
+/// Speed between two touching bodies above which their island is stirred: it does not become finer.
 const LIVELY: f32 = 0.5;
 /// Nor does it for so many seconds after, unless it would sink far: what has tumbled into place has sunk where nobody could see
 /// it, by 4 to 10 mm in piles of 100 to 300, and sleeps before that. What sinks after it was built is seen, all of it.
@@ -100,6 +100,18 @@ crate::footprint::footprint!(Memory {
     moved_contacts,
     moved_joints
 });
+
+/// Notes a hit of two bodies that begin to touch: their islands are stirred.
+pub(crate) fn stir(bodies: &mut Bodies, pair: [u32; 2], length_unit: f32) {
+    let [a, b] = pair.map(|body| bodies.velocity(body));
+    if (b - a).length() > LIVELY * length_unit {
+        for body in pair {
+            if bodies.is_dynamic(body) {
+                bodies.infos[body as usize].stirred = STIRRED_TIME;
+            }
+        }
+    }
+}
 
 /// Lists the awake bodies that are integrated at a pace: what is not dynamic is at every one.
 pub(crate) fn list_bodies(bodies: &Bodies, pace: usize, listed: &mut Vec<u32>) {

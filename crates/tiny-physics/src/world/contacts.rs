@@ -10,7 +10,7 @@ use crate::math::{DVec2, Vec2};
 use crate::simd::BLOCK;
 use crate::stages::islands::Stores;
 use crate::stages::touching::Changes;
-use crate::stages::{one_way, pairs, sleep};
+use crate::stages::{one_way, paces, pairs, sleep};
 use crate::threads::Team;
 
 /// One point of a contact.
@@ -273,7 +273,10 @@ impl World {
 
     /// A contact has begun to touch.
     fn begin_contact(&mut self, index: u32) {
-        self.state.contacts.records[index as usize].touching = true;
+        let State { contacts, bodies, .. } = &mut self.state;
+        let contact = &mut contacts.records[index as usize];
+        contact.touching = true;
+        paces::stir(bodies, [contact.body_a, contact.body_b], self.settings.length_unit);
         if self.scratch.predictions.of(index).is_none() {
             self.report_begin(index);
         }

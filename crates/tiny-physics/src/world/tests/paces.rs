@@ -151,6 +151,42 @@ fn what_has_settled_stays_at_the_plain_pace() {
     }
 }
 
+/// Heaps that have tumbled into place sleep at the plain pace, but for a few that lie still in a corner, no deeper in each other than their
+/// loads account for there. Those that are kept awake become finer when they have lain still for a while. They were finer in three
+/// quarters of the steps in which they were awake.
+#[test]
+fn what_has_tumbled_into_place_sleeps_before_it_becomes_finer() {
+    let heap = |case: u64, sleep: bool| {
+        let mut random = Random(20 + case);
+        let mut world = floored();
+        world.settings.sleep = sleep;
+        for (row, column) in (0..14).flat_map(|row| (0..7).map(move |column| (row, column))) {
+            let x = f64::from(column) * 1.4 + f64::from(random.between(-0.15, 0.15));
+            let at = DVec2::new(x, 0.8 + 1.5 * f64::from(row));
+            let half = random.between(0.25, 0.5);
+            let shape = ShapeDef::new(Shape::rect(half, 0.4).unwrap());
+            world.add_body(RigidBody::dynamic().shape(shape).position(at)).unwrap();
+        }
+        world
+    };
+    let (mut refined, mut awake) = (0, 0);
+    for case in 0..6 {
+        let mut world = heap(case, true);
+        for _ in 0..900 {
+            world.step(DT);
+            let bodies = &world.state.bodies;
+            let finer = |&&body: &&u32| usize::from(bodies.infos[body as usize].pace) != PLAIN;
+            refined += bodies.awake.iter().filter(finer).count();
+            awake += bodies.awake.len();
+        }
+        assert!(world.max_penetration() < 0.02, "case {case}: {}", world.max_penetration());
+    }
+    assert!(6 * refined < awake, "{refined} of {awake}");
+    let mut world = heap(0, false);
+    (0..1200).for_each(|_| world.step(DT));
+    assert!(world.max_penetration() < 2.0e-3, "{}", world.max_penetration());
+}
+
 /// Rests go with the loads that they stand for: what has borne up to five crates hops by millimetres, no more, when they
 /// are gone (by 6 where contacts have sunk under them).
 #[test]
