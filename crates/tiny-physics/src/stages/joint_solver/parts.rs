@@ -289,8 +289,8 @@ pub(super) struct Soft<L> {
 }
 
 impl<L: Lanes> Soft<L> {
-    /// As described in the solve pass; in the relax pass exact and without bias, and nothing at all
-    /// for springs.
+    /// As described in the solve pass; in the relax pass without bias, exact or, of springs, what is left of their
+    /// damping.
     #[inline(always)]
     pub(super) fn load<const BIAS: bool>(stride: &Stride<L>, lanes: &SoftLanes) -> Self {
         if BIAS {
@@ -301,9 +301,9 @@ impl<L: Lanes> Soft<L> {
                 held: stride.load(&lanes.rigid),
             }
         } else {
-            let (push, impulse_scale) = (stride.zero, stride.zero);
+            let mass_scale = stride.load(&lanes.ease);
             let held = stride.load(&lanes.rigid);
-            Self { push, mass_scale: held, impulse_scale, held }
+            Self { push: stride.zero, mass_scale, impulse_scale: stride.zero, held }
         }
     }
 

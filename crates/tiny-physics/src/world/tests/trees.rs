@@ -163,7 +163,7 @@ fn all_rigid_kinds_hold_a_heavy_load_together() {
     let rod = world.add_joint(slide, bob, rod).unwrap();
     let wheel = JointDef::wheel(Vec2::new(0.0, 1.0)).anchors(Vec2::new(0.0, -1.0), Vec2::ZERO);
     world.add_joint(bob, load, wheel.spring(3.0, 1.0)).unwrap();
-    (0..900).for_each(|_| world.step(DT));
+    (0..1800).for_each(|_| world.step(DT));
     assert_eq!(in_trees(&world), 4);
     let at = |body| world.body(body).unwrap().position();
     let [end, bob_at] = [at(slide), at(bob)];
