@@ -42,13 +42,16 @@ impl<L: Lanes> Held<L> {
         coordinate: Coordinate<L>,
         give: Give<L>,
     ) -> ([L; 2], L) {
-        let alone = scale(self.inverse.apply(self.demand), -stride.one);
+        let mut alone = scale(self.inverse.apply(self.demand), -stride.one);
+        let decay = |alone, carried| match BIAS {
+            true => sub(alone, scale(carried, soft.impulse_scale)),
+            false => alone,
+        };
         if !stride.extras {
-            return (sub(alone, scale(self.old, soft.impulse_scale)), stride.zero);
+            return (decay(alone, self.old), stride.zero);
         }
         let per = self.inverse.apply(self.coupling);
-        let carried = add(self.old, scale(per, axis.total(stride)));
-        let alone = sub(alone, scale(carried, soft.impulse_scale));
+        alone = decay(alone, add(self.old, scale(per, axis.total(stride))));
         let velocity = coordinate.velocity + dot(self.coupling, alone);
         let inv_mass = complement(stride, coordinate.inv_mass, self.coupling, per);
         let coordinate = Coordinate { velocity, inv_mass, ..coordinate };

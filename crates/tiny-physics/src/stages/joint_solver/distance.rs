@@ -96,8 +96,12 @@ impl JointKernel for DistanceBlock {
             velocity = velocity + inv_mass * change;
         }
         let old = stride.load(&self.rod.impulse);
-        let demand =
-            soft.hold(stride, velocity, value - stride.load(&self.length.length), stride.snap);
+        let demand = soft.hold::<BIAS>(
+            stride,
+            velocity,
+            value - stride.load(&self.length.length),
+            stride.snap,
+        );
         let rod = -(stride.invert(inv_mass) * rigid * demand) - soft.impulse_scale * old;
         stride.store(old + rod, &mut self.rod.impulse);
         pair.apply_along(&row, change + rod);

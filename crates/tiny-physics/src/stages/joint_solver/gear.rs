@@ -71,7 +71,7 @@ impl JointKernel for GearBlock {
         let mesh = self.mesh(stride, pair);
         let error = self.error(stride, pair, &mesh);
         let old = stride.load(&self.gear.impulse);
-        let demand = soft.demand(mesh.velocity(pair), error);
+        let demand = soft.demand::<BIAS>(mesh.velocity(pair), error);
         let change = -(stride.invert(mesh.inv_mass(pair)) * demand) - soft.impulse_scale * old;
         stride.store(old + change, &mut self.gear.impulse);
         mesh.apply(pair, change);

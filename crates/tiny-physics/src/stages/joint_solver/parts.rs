@@ -307,15 +307,25 @@ impl<L: Lanes> Soft<L> {
         }
     }
 
-    /// The velocity that the constraint takes away.
+    /// The velocity that the constraint takes away. Errors are no matter of the relax pass.
     #[inline(always)]
-    pub(super) fn demand(&self, velocity: L, error: L) -> L {
-        self.mass_scale * velocity + self.push * error
+    pub(super) fn demand<const BIAS: bool>(&self, velocity: L, error: L) -> L {
+        let part = self.mass_scale * velocity;
+        if BIAS { part + self.push * error } else { part }
     }
 
     /// The same where errors of what is held go no faster than `snap` and a share of themselves.
     #[inline(always)]
-    pub(super) fn hold(&self, stride: &Stride<L>, velocity: L, error: L, snap: L) -> L {
+    pub(super) fn hold<const BIAS: bool>(
+        &self,
+        stride: &Stride<L>,
+        velocity: L,
+        error: L,
+        snap: L,
+    ) -> L {
+        if !BIAS {
+            return self.mass_scale * velocity;
+        }
         let push = self.push * error;
         let snap = snap + error.abs() * (stride.inv_h * stride.splat(SNAP_SHARE));
         let push = L::select(self.held.gt(stride.zero), push.clamp(-snap, snap), push);
@@ -324,10 +334,15 @@ impl<L: Lanes> Soft<L> {
 
     /// The same for two directions.
     #[inline(always)]
-    pub(super) fn hold2(&self, stride: &Stride<L>, velocity: [L; 2], error: [L; 2]) -> [L; 2] {
+    pub(super) fn hold2<const BIAS: bool>(
+        &self,
+        stride: &Stride<L>,
+        velocity: [L; 2],
+        error: [L; 2],
+    ) -> [L; 2] {
         [
-            self.hold(stride, velocity[0], error[0], stride.snap),
-            self.hold(stride, velocity[1], error[1], stride.snap),
+            self.hold::<BIAS>(stride, velocity[0], error[0], stride.snap),
+            self.hold::<BIAS>(stride, velocity[1], error[1], stride.snap),
         ]
     }
 }

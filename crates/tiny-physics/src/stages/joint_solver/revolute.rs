@@ -69,7 +69,7 @@ impl JointKernel for RevoluteBlock {
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         let rows = Held {
             inverse: pair.point_mass(stride),
-            demand: soft.hold2(stride, pair.anchor_velocity_in::<BIAS>(stride), pair.gap),
+            demand: soft.hold2::<BIAS>(stride, pair.anchor_velocity_in::<BIAS>(stride), pair.gap),
             old,
             coupling: pair.twist(),
         };

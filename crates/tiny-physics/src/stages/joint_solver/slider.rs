@@ -155,8 +155,13 @@ impl JointKernel for SliderBlock {
         let rows = Held {
             inverse: jacobians.rigid_mass(stride, pair, held),
             demand: [
-                soft.hold(stride, pair.velocity_along(&jacobians.across), error, stride.snap),
-                held * soft.hold(stride, pair.spin(), angle, stride.snap_turn),
+                soft.hold::<BIAS>(
+                    stride,
+                    pair.velocity_along(&jacobians.across),
+                    error,
+                    stride.snap,
+                ),
+                held * soft.hold::<BIAS>(stride, pair.spin(), angle, stride.snap_turn),
             ],
             old: [across, held * angular],
             coupling: [on_axis, held * on_angle],

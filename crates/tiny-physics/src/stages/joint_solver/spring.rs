@@ -86,7 +86,11 @@ impl Rates {
 }
 
 impl SoftLanes {
-    pub(super) fn write(&mut self, lane: usize, [push, mass_scale, impulse_scale, ease]: Coefficients) {
+    pub(super) fn write(
+        &mut self,
+        lane: usize,
+        [push, mass_scale, impulse_scale, ease]: Coefficients,
+    ) {
         self.push[lane] = push;
         self.mass_scale[lane] = mass_scale;
         self.impulse_scale[lane] = impulse_scale;
