@@ -37,21 +37,17 @@ impl<L: Lanes> Held<L> {
     pub(super) fn solve<const BIAS: bool>(
         &self,
         stride: &Stride<L>,
-        soft: &Soft<L>,
+        soft: &Soft<L, BIAS>,
         axis: &mut AxisLanes,
         coordinate: Coordinate<L>,
         give: Give<L>,
     ) -> ([L; 2], L) {
-        let mut alone = scale(self.inverse.apply(self.demand), -stride.one);
-        let decay = |alone, carried| match BIAS {
-            true => sub(alone, scale(carried, soft.impulse_scale)),
-            false => alone,
-        };
+        let alone = scale(self.inverse.apply(self.demand), -stride.one);
         if !stride.extras {
-            return (decay(alone, self.old), stride.zero);
+            return (soft.less(alone, self.old), stride.zero);
         }
         let per = self.inverse.apply(self.coupling);
-        alone = decay(alone, add(self.old, scale(per, axis.total(stride))));
+        let alone = soft.less(alone, add(self.old, scale(per, axis.total(stride))));
         let velocity = coordinate.velocity + dot(self.coupling, alone);
         let inv_mass = complement(stride, coordinate.inv_mass, self.coupling, per);
         let coordinate = Coordinate { velocity, inv_mass, ..coordinate };
@@ -149,7 +145,7 @@ impl AxisLanes {
     pub(super) fn solve<L: Lanes, const BIAS: bool>(
         &mut self,
         stride: &Stride<L>,
-        soft: &Soft<L>,
+        soft: &Soft<L, BIAS>,
         give: Give<L>,
         coordinate: Coordinate<L>,
     ) -> L {
@@ -263,7 +259,7 @@ impl<L: Lanes> Give<L> {
     pub(super) fn solve<const BIAS: bool>(
         &self,
         stride: &Stride<L>,
-        soft: &Soft<L>,
+        soft: &Soft<L, BIAS>,
         old: L,
         room: L,
         [velocity, mass, inv_mass]: [L; 3],

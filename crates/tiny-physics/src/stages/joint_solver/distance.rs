@@ -82,7 +82,7 @@ impl JointKernel for DistanceBlock {
     #[inline(always)]
     fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let (value, row) = length_row(stride, pair);
-        let soft = Soft::load::<BIAS>(stride, &self.soft);
+        let soft = Soft::<L, BIAS>::load(stride, &self.soft);
         let rigid = stride.load(&self.soft.rigid);
         let inv_mass = pair.inv_mass_along(&row);
         let mut velocity = pair.velocity_along(&row);
@@ -96,12 +96,8 @@ impl JointKernel for DistanceBlock {
             velocity = velocity + inv_mass * change;
         }
         let old = stride.load(&self.rod.impulse);
-        let demand = soft.hold::<BIAS>(
-            stride,
-            velocity,
-            value - stride.load(&self.length.length),
-            stride.snap,
-        );
+        let demand =
+            soft.hold(stride, velocity, value - stride.load(&self.length.length), stride.snap);
         let rod = -(stride.invert(inv_mass) * rigid * demand) - soft.impulse_scale * old;
         stride.store(old + rod, &mut self.rod.impulse);
         pair.apply_along(&row, change + rod);

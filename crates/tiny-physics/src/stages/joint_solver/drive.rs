@@ -51,11 +51,11 @@ impl DriveBlock {
         let inv_mass = pair.inv_inertia();
         let mass = stride.invert(inv_mass);
         let mut velocity = pair.spin();
-        let soft = Soft::load::<BIAS>(stride, &self.angular);
+        let soft = Soft::<L, BIAS>::load(stride, &self.angular);
         let old = stride.load(&self.twist.impulse);
         let max = stride.load(&self.drive.twist_max);
         let error = pair.angle(stride, &self.angle);
-        let change = -(mass * soft.demand::<BIAS>(velocity, error)) - soft.impulse_scale * old;
+        let change = -(mass * soft.demand(velocity, error)) - soft.impulse_scale * old;
         let impulse = (old + change).clamp(-max, max);
         stride.store(impulse, &mut self.twist.impulse);
         let total = impulse - old;
@@ -75,11 +75,10 @@ impl DriveBlock {
         pair: &Pair<L>,
         inverse: &Symmetric<L>,
     ) -> [L; 2] {
-        let soft = Soft::load::<BIAS>(stride, &self.linear);
+        let soft = Soft::<L, BIAS>::load(stride, &self.linear);
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         let (velocity, gap) = (pair.anchor_velocity(), pair.gap);
-        let demand =
-            [soft.demand::<BIAS>(velocity[0], gap[0]), soft.demand::<BIAS>(velocity[1], gap[1])];
+        let demand = [soft.demand(velocity[0], gap[0]), soft.demand(velocity[1], gap[1])];
         let kept = sub(old, scale(old, soft.impulse_scale));
         let impulse = sub(kept, inverse.apply(demand));
         let impulse = shorten(stride, impulse, stride.load(&self.drive.spring_max));

@@ -67,11 +67,11 @@ impl JointKernel for GearBlock {
 
     #[inline(always)]
     fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
-        let soft = Soft::load::<BIAS>(stride, &self.soft);
+        let soft = Soft::<L, BIAS>::load(stride, &self.soft);
         let mesh = self.mesh(stride, pair);
         let error = self.error(stride, pair, &mesh);
         let old = stride.load(&self.gear.impulse);
-        let demand = soft.demand::<BIAS>(mesh.velocity(pair), error);
+        let demand = soft.demand(mesh.velocity(pair), error);
         let change = -(stride.invert(mesh.inv_mass(pair)) * demand) - soft.impulse_scale * old;
         stride.store(old + change, &mut self.gear.impulse);
         mesh.apply(pair, change);

@@ -280,7 +280,7 @@ pub(super) fn wrap<L: Lanes>(stride: &Stride<L>, angle: L) -> L {
 
 /// The coefficients of a soft constraint in the pass at hand.
 #[derive(Clone, Copy)]
-pub(super) struct Soft<L> {
+pub(super) struct Soft<L, const BIAS: bool> {
     pub(super) push: L,
     pub(super) mass_scale: L,
     pub(super) impulse_scale: L,
@@ -288,41 +288,31 @@ pub(super) struct Soft<L> {
     pub(super) held: L,
 }
 
-impl<L: Lanes> Soft<L> {
+impl<L: Lanes, const BIAS: bool> Soft<L, BIAS> {
     /// As described in the solve pass; in the relax pass without bias, exact or, of springs, what is left of their
     /// damping.
     #[inline(always)]
-    pub(super) fn load<const BIAS: bool>(stride: &Stride<L>, lanes: &SoftLanes) -> Self {
-        if BIAS {
-            Self {
-                push: stride.load(&lanes.push),
-                mass_scale: stride.load(&lanes.mass_scale),
-                impulse_scale: stride.load(&lanes.impulse_scale),
-                held: stride.load(&lanes.rigid),
-            }
-        } else {
-            let mass_scale = stride.load(&lanes.ease);
-            let held = stride.load(&lanes.rigid);
-            Self { push: stride.zero, mass_scale, impulse_scale: stride.zero, held }
+    pub(super) fn load(stride: &Stride<L>, lanes: &SoftLanes) -> Self {
+        let mass_scale = stride.load(if BIAS { &lanes.mass_scale } else { &lanes.ease });
+        if !BIAS {
+            let zero = stride.zero;
+            return Self { push: zero, mass_scale, impulse_scale: zero, held: zero };
         }
+        let impulse_scale = stride.load(&lanes.impulse_scale);
+        let (push, held) = (stride.load(&lanes.push), stride.load(&lanes.rigid));
+        Self { push, mass_scale, impulse_scale, held }
     }
 
     /// The velocity that the constraint takes away. Errors are no matter of the relax pass.
     #[inline(always)]
-    pub(super) fn demand<const BIAS: bool>(&self, velocity: L, error: L) -> L {
+    pub(super) fn demand(&self, velocity: L, error: L) -> L {
         let part = self.mass_scale * velocity;
         if BIAS { part + self.push * error } else { part }
     }
 
     /// The same where errors of what is held go no faster than `snap` and a share of themselves.
     #[inline(always)]
-    pub(super) fn hold<const BIAS: bool>(
-        &self,
-        stride: &Stride<L>,
-        velocity: L,
-        error: L,
-        snap: L,
-    ) -> L {
+    pub(super) fn hold(&self, stride: &Stride<L>, velocity: L, error: L, snap: L) -> L {
         if !BIAS {
             return self.mass_scale * velocity;
         }
@@ -334,16 +324,17 @@ impl<L: Lanes> Soft<L> {
 
     /// The same for two directions.
     #[inline(always)]
-    pub(super) fn hold2<const BIAS: bool>(
-        &self,
-        stride: &Stride<L>,
-        velocity: [L; 2],
-        error: [L; 2],
-    ) -> [L; 2] {
+    pub(super) fn hold2(&self, stride: &Stride<L>, velocity: [L; 2], error: [L; 2]) -> [L; 2] {
         [
-            self.hold::<BIAS>(stride, velocity[0], error[0], stride.snap),
-            self.hold::<BIAS>(stride, velocity[1], error[1], stride.snap),
+            self.hold(stride, velocity[0], error[0], stride.snap),
+            self.hold(stride, velocity[1], error[1], stride.snap),
         ]
+    }
+
+    /// Less the decay of the impulses so far.
+    #[inline(always)]
+    pub(super) fn less(&self, change: [L; 2], old: [L; 2]) -> [L; 2] {
+        if BIAS { sub(change, scale(old, self.impulse_scale)) } else { change }
     }
 }
 

@@ -65,11 +65,11 @@ impl JointKernel for RevoluteBlock {
 
     #[inline(always)]
     fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
-        let soft = Soft::load::<BIAS>(stride, &self.soft);
+        let soft = Soft::<L, BIAS>::load(stride, &self.soft);
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         let rows = Held {
             inverse: pair.point_mass(stride),
-            demand: soft.hold2::<BIAS>(stride, pair.anchor_velocity_in::<BIAS>(stride), pair.gap),
+            demand: soft.hold2(stride, pair.anchor_velocity_in::<BIAS>(stride), pair.gap),
             old,
             coupling: pair.twist(),
         };

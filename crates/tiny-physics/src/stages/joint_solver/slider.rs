@@ -145,7 +145,7 @@ impl JointKernel for SliderBlock {
             pair.apply([stride.zero; 2], motor, motor);
         }
         let held = stride.one - wheel;
-        let soft = Soft::load::<BIAS>(stride, &self.soft);
+        let soft = Soft::<L, BIAS>::load(stride, &self.soft);
         let direction = pair.direction(stride, &self.direction);
         let jacobians = Rows::new(pair, direction);
         let [across, angular] = stride.load2(&self.rigid.impulse_x, &self.rigid.impulse_y);
@@ -155,13 +155,8 @@ impl JointKernel for SliderBlock {
         let rows = Held {
             inverse: jacobians.rigid_mass(stride, pair, held),
             demand: [
-                soft.hold::<BIAS>(
-                    stride,
-                    pair.velocity_along(&jacobians.across),
-                    error,
-                    stride.snap,
-                ),
-                held * soft.hold::<BIAS>(stride, pair.spin(), angle, stride.snap_turn),
+                soft.hold(stride, pair.velocity_along(&jacobians.across), error, stride.snap),
+                held * soft.hold(stride, pair.spin(), angle, stride.snap_turn),
             ],
             old: [across, held * angular],
             coupling: [on_axis, held * on_angle],
