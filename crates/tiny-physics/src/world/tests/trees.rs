@@ -178,6 +178,22 @@ fn all_rigid_kinds_hold_a_heavy_load_together() {
 }
 
 #[test]
+fn springs_act_in_trees_without_damping_too() {
+    let [undamped, damped] = [0.0, 1e-3].map(|damping| {
+        let mut world = sleepless();
+        let (bars, joints) = add_chain(&mut world, 0.0, 12);
+        for joint in joints {
+            world.set_joint(joint, hinge().spring(3.0, damping)).unwrap();
+        }
+        world.body_mut(bars[0]).unwrap().set_angular_velocity(1.0);
+        (0..10).for_each(|_| world.step(DT));
+        assert_eq!(in_trees(&world), 11);
+        world.body(bars[0]).unwrap().angular_velocity()
+    });
+    assert!((undamped - damped).abs() < 0.01 && undamped < 0.95, "{undamped} {damped}");
+}
+
+#[test]
 fn loops_are_cut_or_left_to_the_lanes() {
     let mut world = world();
     let ring: Vec<BodyId> = (0..24)
