@@ -278,11 +278,11 @@ impl Bodies {
         dynamic && a.pace != b.pace
     }
 
-    /// Is a body in a tree of joints that is not solved together with contacts yet? Its joints have no colours then.
-    pub(crate) fn hangs_in_tree(&self, index: u32) -> bool {
+    /// Has a body joints that are not solved together with contacts yet?
+    pub(crate) fn hangs_loose(&self, index: u32) -> bool {
         let info = &self.infos[index as usize];
-        let joined = info.first_joint != NULL && info.joint_colours == 0;
-        joined && info.kind == BodyKind::Dynamic && usize::from(info.pace) != JOINTED
+        let joined = info.first_joint != NULL && info.kind == BodyKind::Dynamic;
+        joined && usize::from(info.pace) != JOINTED
     }
 
     /// The pace at which what joins two bodies is solved.

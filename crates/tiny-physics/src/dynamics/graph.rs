@@ -392,7 +392,7 @@ impl Graph {
             self.touching += 1;
             let (a, b) = (contact.body_a, contact.body_b);
             self.mixed |=
-                bodies.are_mixed(a, b) || [a, b].into_iter().any(|i| bodies.hangs_in_tree(i));
+                bodies.are_mixed(a, b) || [a, b].into_iter().any(|i| bodies.hangs_loose(i));
             let both_move = bodies.is_dynamic(a) && bodies.is_dynamic(b);
             let joined = [a, b].into_iter().any(|i| bodies.infos[i as usize].first_joint != NULL);
             self.news = self.news.saturating_add(u32::from(both_move | joined));

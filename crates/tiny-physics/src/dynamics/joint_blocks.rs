@@ -167,7 +167,9 @@ joint_lanes! {
         push: f32 = 0.0,
         mass_scale: f32 = 0.0,
         impulse_scale: f32 = 0.0,
-        /// 1 where the constraint is rigid (and takes part in the relax pass), 0 where it is a spring.
+        /// Part of the velocity that the relax pass takes away: all of it where the constraint is rigid.
+        ease: f32 = 0.0,
+        /// 1 where the constraint is rigid, 0 where it is a spring.
         rigid: f32 = 0.0,
     }
 }
@@ -224,6 +226,7 @@ joint_lanes! {
         push: f32 = 0.0,
         mass_scale: f32 = 0.0,
         impulse_scale: f32 = 0.0,
+        ease: f32 = 0.0,
         /// Where the spring rests; for angles, seen from the coordinate at the start of the step.
         rest: f32 = 0.0,
         target: f32 = 0.0,
@@ -246,6 +249,7 @@ pub(crate) struct Axis<L> {
     pub(crate) push: L,
     pub(crate) mass_scale: L,
     pub(crate) impulse_scale: L,
+    pub(crate) ease: L,
     pub(crate) rest: L,
     pub(crate) motor_speed: L,
     pub(crate) motor_max: L,

@@ -37,18 +37,17 @@ impl<L: Lanes> Held<L> {
     pub(super) fn solve<const BIAS: bool>(
         &self,
         stride: &Stride<L>,
-        soft: &Soft<L>,
+        soft: &Soft<L, BIAS>,
         axis: &mut AxisLanes,
         coordinate: Coordinate<L>,
         give: Give<L>,
     ) -> ([L; 2], L) {
         let alone = scale(self.inverse.apply(self.demand), -stride.one);
         if !stride.extras {
-            return (sub(alone, scale(self.old, soft.impulse_scale)), stride.zero);
+            return (soft.less(alone, self.old), stride.zero);
         }
         let per = self.inverse.apply(self.coupling);
-        let carried = add(self.old, scale(per, axis.total(stride)));
-        let alone = sub(alone, scale(carried, soft.impulse_scale));
+        let alone = soft.less(alone, add(self.old, scale(per, axis.total(stride))));
         let velocity = coordinate.velocity + dot(self.coupling, alone);
         let inv_mass = complement(stride, coordinate.inv_mass, self.coupling, per);
         let coordinate = Coordinate { velocity, inv_mass, ..coordinate };
@@ -81,10 +80,11 @@ impl AxisDef {
     pub(super) fn write(&self, axis: &mut AxisLanes, lane: usize, rates: &Rates) {
         let used = self.spring.is_some() || self.limits.is_some() || self.motor.is_some();
         axis.used[lane] = if used { 1.0 } else { 0.0 };
-        let [push, mass_scale, impulse_scale] = rates.spring(self.spring);
+        let [push, mass_scale, impulse_scale, ease] = rates.spring(self.spring);
         axis.push[lane] = push;
         axis.mass_scale[lane] = mass_scale;
         axis.impulse_scale[lane] = impulse_scale;
+        axis.ease[lane] = ease;
         axis.target[lane] = self.target;
         axis.rest[lane] = self.target;
         axis.motor_speed[lane] = self.motor.map_or(0.0, |motor| motor.speed);
@@ -118,6 +118,7 @@ impl AxisLanes {
             push: stride.load(&self.push),
             mass_scale: stride.load(&self.mass_scale),
             impulse_scale: stride.load(&self.impulse_scale),
+            ease: stride.load(&self.ease),
             rest: stride.load(&self.rest),
             motor_speed: stride.load(&self.motor_speed),
             motor_max: stride.load(&self.motor_max),
@@ -144,17 +145,15 @@ impl AxisLanes {
     pub(super) fn solve<L: Lanes, const BIAS: bool>(
         &mut self,
         stride: &Stride<L>,
-        soft: &Soft<L>,
+        soft: &Soft<L, BIAS>,
         give: Give<L>,
         coordinate: Coordinate<L>,
     ) -> L {
         let Coordinate { value, mut velocity, inv_mass } = coordinate;
         let mass = stride.invert(inv_mass);
         let mut axis = self.load(stride);
-        let total = axis.drive::<BIAS>(stride, value, &mut velocity, [mass, inv_mass]);
-        if BIAS {
-            stride.store(axis.spring, &mut self.spring);
-        }
+        let total = axis.drive::<BIAS>(value, &mut velocity, [mass, inv_mass]);
+        stride.store(axis.spring, &mut self.spring);
         stride.store(axis.motor, &mut self.motor);
         let ([old_lower, old_upper], [lower, upper]) = (axis.limits, axis.ends);
         let motion = [velocity, mass, inv_mass];
@@ -176,33 +175,32 @@ impl<L: Lanes> Axis<L> {
         self.spring + self.motor + self.limits[0] - self.limits[1]
     }
 
-    /// Spring, in the solve pass alone, and motor: what they change in the impulse and in the velocity.
+    /// Spring and motor: what they change in the impulse and in the velocity.
     ///
     /// The motor sees the velocity that would be without the limits: against one that holds it gives no more than it
     /// needs to be held, and the two do not wind each other up.
     #[inline(always)]
     pub(super) fn drive<const BIAS: bool>(
         &mut self,
-        stride: &Stride<L>,
         value: L,
         velocity: &mut L,
         [mass, inv_mass]: [L; 2],
     ) -> L {
-        let mut total = stride.zero;
-        if BIAS {
+        let spring = if BIAS {
             let demand = self.mass_scale * *velocity + self.push * (value - self.rest);
-            let change = -(mass * demand) - self.impulse_scale * self.spring;
-            self.spring = self.spring + change;
-            *velocity = *velocity + inv_mass * change;
-            total = total + change;
-        }
+            -(mass * demand) - self.impulse_scale * self.spring
+        } else {
+            -(mass * (self.ease * *velocity))
+        };
+        self.spring = self.spring + spring;
+        *velocity = *velocity + inv_mass * spring;
         let held = self.limits[0] - self.limits[1];
         let motor = [self.motor_speed, self.motor_max, self.motor];
         let motor = drive(motor, *velocity - inv_mass * held, mass);
         let change = motor - self.motor;
         self.motor = motor;
         *velocity = *velocity + inv_mass * change;
-        total + change
+        spring + change
     }
 }
 
@@ -261,7 +259,7 @@ impl<L: Lanes> Give<L> {
     pub(super) fn solve<const BIAS: bool>(
         &self,
         stride: &Stride<L>,
-        soft: &Soft<L>,
+        soft: &Soft<L, BIAS>,
         old: L,
         room: L,
         [velocity, mass, inv_mass]: [L; 3],

@@ -82,7 +82,7 @@ impl JointKernel for DistanceBlock {
     #[inline(always)]
     fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let (value, row) = length_row(stride, pair);
-        let soft = Soft::load::<BIAS>(stride, &self.soft);
+        let soft = Soft::<L, BIAS>::load(stride, &self.soft);
         let rigid = stride.load(&self.soft.rigid);
         let inv_mass = pair.inv_mass_along(&row);
         let mut velocity = pair.velocity_along(&row);

@@ -51,18 +51,15 @@ impl DriveBlock {
         let inv_mass = pair.inv_inertia();
         let mass = stride.invert(inv_mass);
         let mut velocity = pair.spin();
-        let mut total = stride.zero;
-        if BIAS {
-            let soft = Soft::load::<BIAS>(stride, &self.angular);
-            let old = stride.load(&self.twist.impulse);
-            let max = stride.load(&self.drive.twist_max);
-            let error = pair.angle(stride, &self.angle);
-            let change = -(mass * soft.demand(velocity, error)) - soft.impulse_scale * old;
-            let impulse = (old + change).clamp(-max, max);
-            stride.store(impulse, &mut self.twist.impulse);
-            total = impulse - old;
-            velocity = velocity + inv_mass * total;
-        }
+        let soft = Soft::<L, BIAS>::load(stride, &self.angular);
+        let old = stride.load(&self.twist.impulse);
+        let max = stride.load(&self.drive.twist_max);
+        let error = pair.angle(stride, &self.angle);
+        let change = -(mass * soft.demand(velocity, error)) - soft.impulse_scale * old;
+        let impulse = (old + change).clamp(-max, max);
+        stride.store(impulse, &mut self.twist.impulse);
+        let total = impulse - old;
+        velocity = velocity + inv_mass * total;
         let old = stride.load(&self.drive.angular_impulse);
         let max = stride.load(&self.drive.angular_max);
         let speed = stride.load(&self.drive.angular_velocity);
@@ -72,13 +69,13 @@ impl DriveBlock {
     }
 
     #[inline(always)]
-    fn solve_spring<L: Lanes>(
+    fn solve_spring<L: Lanes, const BIAS: bool>(
         &mut self,
         stride: &Stride<L>,
         pair: &Pair<L>,
         inverse: &Symmetric<L>,
     ) -> [L; 2] {
-        let soft = Soft::load::<true>(stride, &self.linear);
+        let soft = Soft::<L, BIAS>::load(stride, &self.linear);
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         let (velocity, gap) = (pair.anchor_velocity(), pair.gap);
         let demand = [soft.demand(velocity[0], gap[0]), soft.demand(velocity[1], gap[1])];
@@ -177,10 +174,8 @@ impl JointKernel for DriveBlock {
         let angular = self.solve_angle::<L, BIAS>(stride, pair);
         pair.apply([stride.zero; 2], angular, angular);
         let inverse = pair.point_mass(stride);
-        if BIAS {
-            let change = self.solve_spring(stride, pair, &inverse);
-            pair.apply_at_anchors(change, stride.zero);
-        }
+        let change = self.solve_spring::<L, BIAS>(stride, pair, &inverse);
+        pair.apply_at_anchors(change, stride.zero);
         let change = self.solve_velocity(stride, pair, &inverse);
         pair.apply_at_anchors(change, stride.zero);
     }

@@ -67,7 +67,7 @@ impl JointKernel for GearBlock {
 
     #[inline(always)]
     fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
-        let soft = Soft::load::<BIAS>(stride, &self.soft);
+        let soft = Soft::<L, BIAS>::load(stride, &self.soft);
         let mesh = self.mesh(stride, pair);
         let error = self.error(stride, pair, &mesh);
         let old = stride.load(&self.gear.impulse);

@@ -12,8 +12,8 @@
 //! dp = -M (mass_scale * J v + push * C) - impulse_scale * p
 //! ```
 //!
-//! Springs act in the solve pass alone, by the same formula with the coefficients of
-//! [`spring::coefficients`]. Where a joint has a free coordinate (the angle of a hinge, the place of a
+//! Springs act by the same formula with the coefficients of [`spring::coefficients`], which leave a part of the damping
+//! to the relax pass. Where a joint has a free coordinate (the angle of a hinge, the place of a
 //! slider), spring, motor and limits along it and the rigid part are solved as one block by Schur's
 //! complement: the coordinate's effective mass is that of the bodies as the rigid part ties them, so
 //! that a single joint is solved exactly in one iteration and a spring swings at its frequency.
@@ -42,7 +42,8 @@ mod tests;
 use crate::describe::{BodyKind, Break, JointDef};
 use crate::dynamics::{
     AxisLanes, BodyInfo, FrameLanes, JointBlocks, JointBucket, JointClass, JointColour, JointGraph,
-    JointLanes, JointLoad, Joints, REFINEMENT, TreeLink, joint_classes, pace_at, with_bucket,
+    JointLanes, JointLoad, Joints, PACES, REFINEMENT, ROUNDS, TreeLink, joint_classes, pace_at,
+    with_bucket,
 };
 use crate::math::{Pose, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_baseline, dispatch_narrow};
@@ -111,9 +112,9 @@ pub(crate) fn describe(graph: &mut JointGraph, joints: &Joints, infos: &[BodyInf
     if !all && !graph.any_stale {
         return;
     }
-    let rates = REFINEMENT.map(|refinement| {
-        let h = h / refinement as f32;
-        [Rates::new(h), Rates::anchored(h)]
+    let rates: [_; PACES] = core::array::from_fn(|pace| {
+        let h = h / REFINEMENT[pace] as f32;
+        [Rates::new(h, ROUNDS[pace]), Rates::anchored(h, ROUNDS[pace])]
     });
     for (place, colour) in graph.colours.entries_mut() {
         let rates = &rates[pace_at(place)];

@@ -280,7 +280,7 @@ pub(super) fn wrap<L: Lanes>(stride: &Stride<L>, angle: L) -> L {
 
 /// The coefficients of a soft constraint in the pass at hand.
 #[derive(Clone, Copy)]
-pub(super) struct Soft<L> {
+pub(super) struct Soft<L, const BIAS: bool> {
     pub(super) push: L,
     pub(super) mass_scale: L,
     pub(super) impulse_scale: L,
@@ -288,34 +288,34 @@ pub(super) struct Soft<L> {
     pub(super) held: L,
 }
 
-impl<L: Lanes> Soft<L> {
-    /// As described in the solve pass; in the relax pass exact and without bias, and nothing at all
-    /// for springs.
+impl<L: Lanes, const BIAS: bool> Soft<L, BIAS> {
+    /// As described in the solve pass; in the relax pass without bias, exact or, of springs, what is left of their
+    /// damping.
     #[inline(always)]
-    pub(super) fn load<const BIAS: bool>(stride: &Stride<L>, lanes: &SoftLanes) -> Self {
-        if BIAS {
-            Self {
-                push: stride.load(&lanes.push),
-                mass_scale: stride.load(&lanes.mass_scale),
-                impulse_scale: stride.load(&lanes.impulse_scale),
-                held: stride.load(&lanes.rigid),
-            }
-        } else {
-            let (push, impulse_scale) = (stride.zero, stride.zero);
-            let held = stride.load(&lanes.rigid);
-            Self { push, mass_scale: held, impulse_scale, held }
+    pub(super) fn load(stride: &Stride<L>, lanes: &SoftLanes) -> Self {
+        let mass_scale = stride.load(if BIAS { &lanes.mass_scale } else { &lanes.ease });
+        if !BIAS {
+            let zero = stride.zero;
+            return Self { push: zero, mass_scale, impulse_scale: zero, held: zero };
         }
+        let impulse_scale = stride.load(&lanes.impulse_scale);
+        let (push, held) = (stride.load(&lanes.push), stride.load(&lanes.rigid));
+        Self { push, mass_scale, impulse_scale, held }
     }
 
-    /// The velocity that the constraint takes away.
+    /// The velocity that the constraint takes away. Errors are no matter of the relax pass.
     #[inline(always)]
     pub(super) fn demand(&self, velocity: L, error: L) -> L {
-        self.mass_scale * velocity + self.push * error
+        let part = self.mass_scale * velocity;
+        if BIAS { part + self.push * error } else { part }
     }
 
     /// The same where errors of what is held go no faster than `snap` and a share of themselves.
     #[inline(always)]
     pub(super) fn hold(&self, stride: &Stride<L>, velocity: L, error: L, snap: L) -> L {
+        if !BIAS {
+            return self.mass_scale * velocity;
+        }
         let push = self.push * error;
         let snap = snap + error.abs() * (stride.inv_h * stride.splat(SNAP_SHARE));
         let push = L::select(self.held.gt(stride.zero), push.clamp(-snap, snap), push);
@@ -329,6 +329,12 @@ impl<L: Lanes> Soft<L> {
             self.hold(stride, velocity[0], error[0], stride.snap),
             self.hold(stride, velocity[1], error[1], stride.snap),
         ]
+    }
+
+    /// Less the decay of the impulses so far.
+    #[inline(always)]
+    pub(super) fn less(&self, change: [L; 2], old: [L; 2]) -> [L; 2] {
+        if BIAS { sub(change, scale(old, self.impulse_scale)) } else { change }
     }
 }
 

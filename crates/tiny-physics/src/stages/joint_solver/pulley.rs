@@ -85,7 +85,7 @@ impl JointKernel for PulleyBlock {
 
     #[inline(always)]
     fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
-        let soft = Soft::load::<BIAS>(stride, &self.soft);
+        let soft = Soft::<L, BIAS>::load(stride, &self.soft);
         let rope = self.rope(stride, pair);
         let inv_mass = rope.pull.inv_mass(pair);
         let mass = stride.invert(inv_mass);

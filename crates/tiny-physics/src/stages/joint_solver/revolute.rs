@@ -65,7 +65,7 @@ impl JointKernel for RevoluteBlock {
 
     #[inline(always)]
     fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
-        let soft = Soft::load::<BIAS>(stride, &self.soft);
+        let soft = Soft::<L, BIAS>::load(stride, &self.soft);
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         let rows = Held {
             inverse: pair.point_mass(stride),

@@ -145,7 +145,7 @@ impl JointKernel for SliderBlock {
             pair.apply([stride.zero; 2], motor, motor);
         }
         let held = stride.one - wheel;
-        let soft = Soft::load::<BIAS>(stride, &self.soft);
+        let soft = Soft::<L, BIAS>::load(stride, &self.soft);
         let direction = pair.direction(stride, &self.direction);
         let jacobians = Rows::new(pair, direction);
         let [across, angular] = stride.load2(&self.rigid.impulse_x, &self.rigid.impulse_y);

@@ -42,8 +42,8 @@ impl JointKernel for WeldBlock {
 
     #[inline(always)]
     fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
-        let linear = Soft::load::<BIAS>(stride, &self.linear);
-        let angular = Soft::load::<BIAS>(stride, &self.angular);
+        let linear = Soft::<L, BIAS>::load(stride, &self.linear);
+        let angular = Soft::<L, BIAS>::load(stride, &self.angular);
         let inverse = pair.point_mass(stride);
 
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);

@@ -2,7 +2,8 @@
 
 use super::anything::Random;
 use super::*;
-use crate::dynamics::{Bucket, PACES, PLAIN, Place};
+use crate::describe::JointDef;
+use crate::dynamics::{Bucket, JOINTED, PACES, PLAIN, Place};
 use crate::simd::BLOCK;
 use crate::stages::rests::{Compliance, Sink};
 
@@ -57,6 +58,24 @@ fn a_heavy_load_is_refined_and_sinks_less() {
     assert_eq!((settled, later), (TWOFOLD, TWOFOLD));
     assert!(deep > 0.006 && shallow < 0.0015, "{deep} and {shallow}");
     assert!((shallow_later - shallow).abs() < 1.0e-4, "{shallow_later}");
+}
+
+/// Joined bodies are solved together with what they touch from the step on in which they begin to.
+#[test]
+fn what_is_hit_gets_its_pace_at_once() {
+    for late in 0..9 {
+        let mut world = floored();
+        let pair = [0.0, 1.0].map(|x| world.add_body(crate_at(x, 9.0, 1.0)).unwrap());
+        let hinge = JointDef::revolute().anchors(Vec2::new(0.5, 0.0), Vec2::new(-0.5, 0.0));
+        world.add_joint(pair[0], pair[1], hinge).unwrap();
+        steps(&mut world, late);
+        let ball = Shape::circle(0.2).unwrap();
+        let ball = RigidBody::dynamic().shape(ball).position(Vec2::new(0.0, 9.7));
+        world.add_body(ball.velocity(Vec2::new(0.0, -50.0))).unwrap();
+        steps(&mut world, 1);
+        assert!(world.contacts().count() > 0);
+        assert_eq!(pair.map(|body| pace(&world, body)), [JOINTED; 2], "{late}");
+    }
 }
 
 #[test]

@@ -163,7 +163,7 @@ fn all_rigid_kinds_hold_a_heavy_load_together() {
     let rod = world.add_joint(slide, bob, rod).unwrap();
     let wheel = JointDef::wheel(Vec2::new(0.0, 1.0)).anchors(Vec2::new(0.0, -1.0), Vec2::ZERO);
     world.add_joint(bob, load, wheel.spring(3.0, 1.0)).unwrap();
-    (0..900).for_each(|_| world.step(DT));
+    (0..1800).for_each(|_| world.step(DT));
     assert_eq!(in_trees(&world), 4);
     let at = |body| world.body(body).unwrap().position();
     let [end, bob_at] = [at(slide), at(bob)];
@@ -175,6 +175,22 @@ fn all_rigid_kinds_hold_a_heavy_load_together() {
     assert!((force(rod).length() / 1010.0 - 1.0).abs() < 0.05, "{:?}", force(rod));
     assert!((force(weld).y / 1030.0 - 1.0).abs() < 0.05, "{:?}", force(weld));
     assert!((force(slider).y / 1020.0 - 1.0).abs() < 0.05, "{:?}", force(slider));
+}
+
+#[test]
+fn springs_act_in_trees_without_damping_too() {
+    let [undamped, damped] = [0.0, 1e-3].map(|damping| {
+        let mut world = sleepless();
+        let (bars, joints) = add_chain(&mut world, 0.0, 12);
+        for joint in joints {
+            world.set_joint(joint, hinge().spring(3.0, damping)).unwrap();
+        }
+        world.body_mut(bars[0]).unwrap().set_angular_velocity(1.0);
+        (0..10).for_each(|_| world.step(DT));
+        assert_eq!(in_trees(&world), 11);
+        world.body(bars[0]).unwrap().angular_velocity()
+    });
+    assert!((undamped - damped).abs() < 0.01 && undamped < 0.95, "{undamped} {damped}");
 }
 
 #[test]

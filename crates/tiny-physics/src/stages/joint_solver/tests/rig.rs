@@ -90,9 +90,7 @@ impl Rig {
                 self.pass(Pass::Solve);
             }
             integrate::positions(&team, self.level, &listed, &mut self.bodies, h, 400.0);
-            for _ in 0..self.iterations {
-                self.pass(Pass::Relax);
-            }
+            self.pass(Pass::Relax);
         }
         self.pass(Pass::Finish);
         for i in 0..self.bodies.rows.len() {

@@ -222,7 +222,7 @@ fn drive<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates
             let change = impulse - core::mem::replace(&mut motor[2], impulse);
             turn(nodes, [link.a, link.b], change);
         }
-        if BIAS && axis.axis.mass_scale != 0.0 || axis.axis.motor_max != 0.0 {
+        if axis.axis.push != 0.0 || axis.axis.motor_max != 0.0 {
             drive_axis::<S, BIAS>(simd, link, axis, nodes, rates);
         }
     }
@@ -239,7 +239,7 @@ fn drive_axis<S: Simd, const BIAS: bool>(
 ) {
     let mut velocity = velocity(link, nodes);
     let masses = [stride.invert(axis.tied), axis.tied];
-    let change = axis.axis.drive::<BIAS>(stride, link.value, &mut velocity, masses);
+    let change = axis.axis.drive::<BIAS>(link.value, &mut velocity, masses);
     rows::push(simd, nodes, [link.a, link.b], &axis.on, change);
     for (impulse, given) in link.impulses[..link.rigid].iter_mut().zip(axis.given) {
         *impulse += given * change;
