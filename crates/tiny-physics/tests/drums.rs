@@ -1,9 +1,9 @@
-//! What turns takes along what lies on it, and keeps it out of itself and of others.
+//! What turns takes along what lies on it, and keeps it out of itself and of others: drums, and free rods.
 
 mod common;
 
-use common::{DT, Random, circle, drop_at, position, rect, world};
-use tiny_physics::{RigidBody, ShapeDef, Vec2};
+use common::{DT, Random, capsule, circle, drop_at, position, rect, world};
+use tiny_physics::{Polygon, RigidBody, Shape, ShapeDef, Vec2, World, contact};
 
 /// Thirty balls in a drum of twenty sides, with paddles; how far into each other they go after the third second, of a diameter.
 fn balls_in_a_drum(random: &mut Random) -> f32 {
@@ -50,4 +50,49 @@ fn balls_in_a_drum_stay_out_of_each_other() {
     let shares: Vec<_> = (0..30).map(|_| balls_in_a_drum(&mut random)).collect();
     let deep = shares.iter().filter(|&&share| share > 0.2).count();
     assert!(deep == 0, "{deep} of 30: {shares:.2?}");
+}
+
+/// A ball, box, triangle or rod at up to 30 m/s on a free rod that turns, 20 times as heavy or light; how far they go into each other
+/// in a second, metres.
+fn thing_on_a_rod(random: &mut Random) -> f32 {
+    let (half, thin, size) =
+        (random.range(0.5, 3.0), random.range(0.05, 0.15), random.range(0.1, 0.4));
+    let rod = if random.below(2) == 0 { rect(half, thin) } else { capsule(half, thin) };
+    let corners = [Vec2::new(-size, -0.6 * size), Vec2::new(size, -0.6 * size), Vec2::Y * size];
+    let thing = match random.below(4) {
+        0 => circle(size),
+        1 => rect(size, size),
+        2 => Polygon::hull(&corners).expect("a triangle").into(),
+        _ => rect(2.0 * size, thin),
+    };
+    let spin = random.range(5.0, 30.0);
+    let (speed, ratio) = (random.range(3.0, 30.0), random.range(1.0, 20.0));
+    let mass = if random.below(2) == 0 { ratio } else { 1.0 / ratio };
+    let (off, angle) = (random.range(-0.9, 0.9) * half, random.range(0.0, 3.0));
+    let body = |shape: Shape, mass: f32| RigidBody::dynamic().mass(mass).shape(shape);
+
+    let mut world = World::new(Vec2::ZERO);
+    let bodies = [
+        body(rod, 1.0).angular_velocity(spin),
+        body(thing, mass).position(Vec2::new(off, -4.0)).velocity(Vec2::Y * speed).angle(angle),
+    ];
+    let [a, b] = bodies.map(|body| world.add_body(body).expect("a sound body"));
+    let mut deepest = 0.0_f32;
+    for _ in 0..90 {
+        world.step(DT);
+        let [pose_a, pose_b] = [a, b].map(|body| world.body(body).expect("it is there").pose());
+        let found = contact(&rod, &pose_a, &thing, &pose_b);
+        deepest = found.map_or(deepest, |contact| deepest.max(contact.depth));
+    }
+    deepest
+}
+
+/// Before contacts went along with turns, substep by substep, 52 of 400 sank in by more than 5 cm as they slid along: 8.1 m in sum,
+/// now 0.8.
+#[test]
+fn what_slides_along_a_rod_that_turns_stays_out_of_it() {
+    let mut random = Random::new(7);
+    let depths: Vec<_> = (0..400).map(|_| thing_on_a_rod(&mut random)).collect();
+    let deep = depths.iter().filter(|&&depth| depth > 0.05).count();
+    assert!(deep <= 4, "{deep} of 400, {:.3} m", depths.iter().sum::<f32>());
 }

@@ -4,6 +4,7 @@
 //! world.
 
 pub(crate) mod ahead;
+pub(crate) mod arcs;
 pub(crate) mod boxes;
 pub(crate) mod contact_solver;
 pub(crate) mod continuous;
@@ -25,4 +26,3 @@ pub(crate) mod surfaces;
 pub(crate) mod sway;
 pub(crate) mod touching;
 pub(crate) mod tree_contacts;
-pub(crate) mod turning;

@@ -4,6 +4,7 @@
 //! velocities, warm start, solve with bias, integrate positions, relax without bias.
 
 use super::ahead::Predictions;
+use super::arcs::{Arcs, Scope};
 use super::contact_solver::{self, BounceMemory, Parameters, Pass, Softness};
 use super::islands::Stores;
 use super::joint_solver::Substep;
@@ -131,6 +132,7 @@ pub(crate) struct Solver {
     /// Contacts of squeezed bodies, and of hard hits.
     squeezed: More,
     hit: More,
+    arcs: Arcs,
     tree_contacts: tree_contacts::TreeContacts,
     bounces: BounceMemory,
     pub(crate) passivity: passivity::Memory,
@@ -138,7 +140,17 @@ pub(crate) struct Solver {
     pub(crate) broken: joint_solver::Broken,
 }
 
-footprint!(Solver { schedule, squeezed, hit, tree_contacts, bounces, passivity, listed, broken });
+footprint!(Solver {
+    schedule,
+    squeezed,
+    hit,
+    arcs,
+    tree_contacts,
+    bounces,
+    passivity,
+    listed,
+    broken
+});
 
 impl Solver {
     /// Solves the islands pace by pace, the plain one last. Predictions say what is hit hard, and what is squeezed.
@@ -148,6 +160,7 @@ impl Solver {
         stores: &mut Stores<'_>,
         rules: Rules<'_>,
         predictions: &Predictions,
+        scope: Scope<'_>,
     ) {
         self.broken.found.clear();
         self.passivity.withheld = 0.0;
@@ -160,6 +173,9 @@ impl Solver {
         });
         self.squeezed.list(stores, squeezed);
         self.hit.list(stores, predictions.hard.iter().copied());
+        let dt = rules.lengths.dt;
+        let most = rules.settings.push_speed * rules.settings.length_unit * dt;
+        self.arcs.list(stores, scope.shapes, predictions, (dt, most));
         stores.joint_graph.grow_forest(stores.bodies, stores.joints);
         let h = rules.lengths.h;
         joint_solver::describe(stores.joint_graph, stores.joints, &stores.bodies.infos, h);
@@ -172,13 +188,13 @@ impl Solver {
                     continue;
                 }
                 let lengths = rules.lengths.refined(pace);
-                self.solve_pace(team, stores, Rules { lengths, ..rules }, pace, &listed);
+                self.solve_pace(team, stores, Rules { lengths, ..rules }, pace, &listed, scope);
             }
             self.listed = listed;
         } else {
             // All that is awake, lent for as long as that takes.
             let listed = core::mem::take(&mut stores.bodies.awake);
-            self.solve_pace(team, stores, rules, PLAIN, &listed);
+            self.solve_pace(team, stores, rules, PLAIN, &listed, scope);
             stores.bodies.awake = listed;
         }
         self.broken.found.sort_unstable_by_key(|&(index, _)| index);
@@ -192,6 +208,7 @@ impl Solver {
         rules: Rules<'_>,
         pace: usize,
         listed: &[u32],
+        scope: Scope<'_>,
     ) {
         let Self { schedule, squeezed, hit, tree_contacts, bounces, passivity, broken, .. } = self;
         let Rules { settings, gravity, level, lengths } = rules;
@@ -229,6 +246,7 @@ impl Solver {
         let jointed = stores.graph.of_pace(pace).iter().any(Bucket::is_jointed);
         for substep in 0..lengths.substeps {
             let first = substep == 0;
+            self.arcs.renew((stores.bodies, stores.graph), scope, (pace, h), first);
             integrate::velocities(team, level, listed, stores.bodies, first);
             joints(stores, joint_solver::Pass::WarmStart);
             if first {

@@ -24,7 +24,6 @@ footprint!(Scratch {
     schedule,
     solver,
     sway,
-    leans,
     overlaps,
     touching
 } each { found_changes, findings, found_overlaps, answers });

@@ -55,8 +55,8 @@ use crate::stages::finalize::{FastBody, Findings};
 use crate::stages::solve::{Lengths, Solver};
 use crate::stages::touching::Changes;
 use crate::stages::{
-    ahead, boxes, continuous, finalize, narrow_context, narrow_phase, paces, pairs, sleep, solve,
-    surfaces, sway, touching, turning,
+    ahead, arcs, boxes, continuous, finalize, narrow_context, narrow_phase, paces, pairs, sleep,
+    solve, surfaces, sway, touching,
 };
 use crate::threads::{Pool, Team};
 use state::State;
@@ -122,7 +122,6 @@ struct Scratch {
     schedule: Schedule,
     solver: Solver,
     sway: sway::Memory,
-    leans: Vec<turning::Lean>,
     overlaps: Vec<Overlap>,
     found_overlaps: Vec<Vec<Overlap>>,
     touching: Vec<hooks::At>,
@@ -417,11 +416,10 @@ impl World {
         self.state.inv_h = 1.0 / lengths.h;
         let Self { settings, gravity, level, .. } = *self;
         let rules = solve::Rules { settings: &settings, gravity, level, lengths };
-        let Scratch { solver, predictions, leans, .. } = &mut self.scratch;
+        let reach = self.contact_reach();
+        let Scratch { solver, predictions, .. } = &mut self.scratch;
         let (shapes, mut stores) = self.state.shapes_and_solved();
-        turning::lean(&mut stores, (shapes, lengths.dt), predictions, leans);
-        solver.run(team, &mut stores, rules, predictions);
-        turning::straighten(stores.contacts, stores.graph, leans);
+        solver.run(team, &mut stores, rules, predictions, arcs::Scope { shapes, reach });
         self.stats.withheld_energy = self.scratch.solver.passivity.withheld;
         self.collect_hits();
         self.break_joints();

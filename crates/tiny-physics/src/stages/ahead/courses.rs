@@ -47,10 +47,11 @@ impl Courses {
     }
 
     /// How a body moves in this step of `dt` seconds.
+    #[inline]
     pub(super) fn of(&self, bodies: &Bodies, dt: f32, body: u32) -> Course {
-        match self.places[body as usize] {
-            0 => Course::of(bodies, dt, body),
-            place => self.list[place as usize - 1],
+        match self.places.get(body as usize) {
+            None | Some(&0) => Course::of(bodies, dt, body),
+            Some(&place) => self.list[place as usize - 1],
         }
     }
 

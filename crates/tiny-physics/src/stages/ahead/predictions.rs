@@ -149,6 +149,18 @@ impl Predictions {
         self.courses.list.iter().map(|course| course.body)
     }
 
+    /// What a body turns in the step, as far as hits are known, radians.
+    #[inline]
+    pub(crate) fn turn(&self, bodies: &Bodies, dt: f32, body: u32) -> f32 {
+        self.courses.of(bodies, dt, body).turn
+    }
+
+    /// How far it goes, metres.
+    #[inline]
+    pub(crate) fn motion(&self, bodies: &Bodies, dt: f32, body: u32) -> Vec2 {
+        self.courses.of(bodies, dt, body).motion
+    }
+
     /// Are there none?
     pub(crate) fn is_empty(&self) -> bool {
         self.list.is_empty()
