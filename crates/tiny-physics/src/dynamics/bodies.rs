@@ -172,6 +172,8 @@ store! {
         /// Velocity before the impulses of the substep, and nothing.
         pub(crate) starts: Vec<[f32; 4]> as derived,
         pub(crate) infos: Vec<BodyInfo>,
+        /// How often each has turned back, see [`rocking`](crate::stages::rocking).
+        pub(crate) swings: Vec<u8>,
         /// Moving (dynamic or kinematic) bodies that are awake and enabled, ascending.
         pub(crate) awake: Vec<u32>,
         /// `awake` may not be ascending: it has been changed since it was last sorted.
@@ -197,6 +199,7 @@ impl Default for Bodies {
             motions: vec![Motion::default()],
             starts: vec![[0.0; 4]],
             infos: vec![BodyInfo::default()],
+            swings: vec![0],
             awake: Vec::new(),
             awake_unsorted: false,
             awake_places: vec![NULL],
@@ -233,6 +236,7 @@ impl Bodies {
         info.generation = self.generations.next();
         let index = claim(&mut self.free, self.infos.len());
         put(&mut self.infos, index, info);
+        put(&mut self.swings, index, 0);
         put(&mut self.poses, index, pose);
         put(&mut self.previous, index, pose);
         put(&mut self.rows, index, [0.0; 8]);

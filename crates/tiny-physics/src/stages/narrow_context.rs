@@ -19,8 +19,10 @@ pub(crate) struct Context<'a> {
     pub(crate) speculative_distance: f32,
     /// For contacts with guarded shapes.
     pub(crate) surroundings: Surroundings<'a>,
-    /// Length of the step in seconds where anything is fast, else 0.
-    pub(crate) ahead: f32,
+    /// Length of the step, seconds.
+    pub(crate) dt: f32,
+    /// Is anything fast?
+    pub(crate) fast: bool,
     /// Are contacts that close in fast to be named?
     pub(crate) naming: bool,
 }
@@ -33,7 +35,7 @@ impl<'a> Context<'a> {
         broad_phase: &'a BroadPhase,
         (level, speculative_distance, length_unit): (SimdLevel, f32, f32),
         jointed: bool,
-        (ahead, naming): (f32, bool),
+        (dt, fast, naming): (f32, bool, bool),
     ) -> Self {
         Self {
             level,
@@ -44,7 +46,8 @@ impl<'a> Context<'a> {
             infos: jointed.then_some(&bodies.infos),
             speculative_distance,
             surroundings: Surroundings { guards: &shapes.guards, broad_phase, length_unit },
-            ahead,
+            dt,
+            fast,
             naming,
         }
     }

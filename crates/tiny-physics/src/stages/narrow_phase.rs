@@ -6,6 +6,7 @@
 //! after the pass are simply run again.
 
 use super::ahead::{HARMLESS, HEAVIER, Predictions, SLIGHT};
+use super::middle::Lead;
 use super::narrow_context::Context;
 use super::surfaces::{self, LanePoints};
 use crate::dynamics::{BlockHead, Blocks, Graph, ManifoldBlock, NULL, Schedule, flags};
@@ -145,8 +146,15 @@ impl<K: PairKernel> LaneKernel for Update<'_, K> {
             let (mut touching, mut closing) = (0, 0);
             let mut at = 0;
             while at < lanes {
+                let mut load = L::splat(token, 0.0);
+                if constrained {
+                    for point in &blocks.constraints[index].points {
+                        load = load + L::load(token, &point.normal_impulse[at..]);
+                    }
+                }
+                let manifolds = &blocks.manifolds[index];
                 let mut geometry =
-                    Geometry::<L>::compute::<K>(token, &context, &blocks.manifolds[index], at);
+                    Geometry::<L>::compute::<K>(token, &context, manifolds, at, load);
                 if constrained && !predictions.is_empty() {
                     geometry.foresee(token, predictions, &contacts[at..]);
                 }
@@ -195,6 +203,8 @@ struct Geometry<L: Lanes> {
     valid: [L::Mask; 2],
     /// From the centre of mass of A to that of B.
     between: [L; 2],
+    /// Rows of A and B.
+    bodies: [[L; 8]; 2],
     /// Lanes with a point, as bits.
     touching: u32,
     /// Lanes that may meet in this step, or hit each other hard, as bits.
@@ -208,10 +218,17 @@ impl<L: Lanes> Geometry<L> {
         context: &Context<'_>,
         block: &ManifoldBlock,
         at: usize,
+        load: L,
     ) -> Self {
         let (between, turn_a, turn_b) = gather_poses::<L>(token, context.poses, block, at);
         let shape_a = L::gather(token, context.shape_rows, &block.shape_a[at..]);
         let shape_b = L::gather(token, context.shape_rows, &block.shape_b[at..]);
+        let body_a = L::gather(token, context.body_rows, &block.body_a[at..]);
+        let body_b = L::gather(token, context.body_rows, &block.body_b[at..]);
+        let bodies = [&body_a, &body_b];
+        let lead = Lead::of(token, context, bodies, [&shape_a, &shape_b], load);
+        let between = [between[0] + lead.linear[0], between[1] + lead.linear[1]];
+        let (turn_a, turn_b) = (lead.turned(token, turn_a, 0), lead.turned(token, turn_b, 1));
         // Frames of the shapes in the world's axes: rotation, and place relative to the body.
         let frame_a = rotate(turn_a, [shape_a[2], shape_a[3]]);
         let frame_b = rotate(turn_b, [shape_b[2], shape_b[3]]);
@@ -225,39 +242,30 @@ impl<L: Lanes> Geometry<L> {
             b: [shape_b[4], shape_b[5], shape_b[6]],
         };
         let limit = L::splat(token, context.speculative_distance);
-        let ahead = (context.ahead > 0.0)
-            .then(|| Ahead::of(token, context, block, at, &pair, [place_a, place_b]));
+        let ahead =
+            context.fast.then(|| Ahead::of(token, context.dt, bodies, &pair, [place_a, place_b]));
         let reach = ahead.as_ref().map_or(limit, |ahead| ahead.way.max(limit));
         let shapes = [&block.shape_a[at..], &block.shape_b[at..]];
         let mut m = K::collide::<L>(token, context, shapes, &pair, reach);
-        let gap = m.separation[0].min(m.separation[1]);
+        let mut world = in_world(&m, frame_a, place_a);
+        lead.take_back(&mut world, between, K::POINTS);
+        let gap = world.separation[0].min(world.separation[1]);
         let guarded = L::splat(token, 1.5);
         let guarded = L::bits(L::or(shape_a[7].gt(guarded), shape_b[7].gt(guarded)));
         if guarded != 0 {
             correct_lanes::<L>(token, context, block, at, guarded, &pair, &mut m);
+            world = in_world(&m, frame_a, place_a);
+            lead.take_back(&mut world, between, K::POINTS);
         }
         // The other point of what touches may come down within the step.
-        let near = L::or(m.separation[0].le(limit), m.separation[1].le(limit));
+        let near = L::or(world.separation[0].le(limit), world.separation[1].le(limit));
         let most = L::select(near, reach, limit);
-        let valid = [m.separation[0].le(most), m.separation[1].le(most)];
-        let to_world = |point: [L; 2]| {
-            let turned = rotate(frame_a, point);
-            [turned[0] + place_a[0], turned[1] + place_a[1]]
-        };
+        let valid = [world.separation[0].le(most), world.separation[1].le(most)];
         let touching =
             if K::POINTS == 2 { L::bits(L::or(valid[0], valid[1])) } else { L::bits(valid[0]) };
-        let mut geometry = Self {
-            manifold: LaneManifold {
-                normal: rotate(frame_a, m.normal),
-                points: [to_world(m.points[0]), to_world(m.points[1])],
-                ..m
-            },
-            most,
-            valid,
-            between,
-            touching,
-            closing: 0,
-        };
+        let bodies = [body_a, body_b];
+        let mut geometry =
+            Self { manifold: world, most, valid, between, bodies, touching, closing: 0 };
         if let Some(ahead) = ahead {
             geometry.closing = ahead.closing::<K>(token, &pair, &geometry, gap, limit);
         }
@@ -313,15 +321,12 @@ impl<L: Lanes> Ahead<L> {
     #[inline(always)]
     fn of(
         token: L::Token,
-        context: &Context<'_>,
-        block: &ManifoldBlock,
-        at: usize,
+        dt: f32,
+        [a, b]: [&[L; 8]; 2],
         pair: &LanePair<L>,
         places: [[L; 2]; 2],
     ) -> Self {
-        let a = L::gather(token, context.body_rows, &block.body_a[at..]);
-        let b = L::gather(token, context.body_rows, &block.body_b[at..]);
-        let dt = L::splat(token, context.ahead);
+        let dt = L::splat(token, dt);
         let length = |x: L, y: L| (x * x + y * y).sqrt();
         // What is round turns without coming nearer.
         let arm =
@@ -372,6 +377,15 @@ impl<L: Lanes> Ahead<L> {
             now.manifold.normal[0] * self.linear[0] + now.manifold.normal[1] * self.linear[1];
         L::select(now.valid[k], zero - (turned + along), zero)
     }
+}
+
+/// A manifold in the world's axes, from the centre of mass of A: out of a frame at a place.
+#[inline(always)]
+fn in_world<L: Lanes>(m: &LaneManifold<L>, frame: [L; 2], place: [L; 2]) -> LaneManifold<L> {
+    let [first, second] = [rotate(frame, m.points[0]), rotate(frame, m.points[1])];
+    let points =
+        [[first[0] + place[0], first[1] + place[1]], [second[0] + place[0], second[1] + place[1]]];
+    LaneManifold { normal: rotate(frame, m.normal), points, ..*m }
 }
 
 /// Looks again at the contacts with guarded shapes.
@@ -485,8 +499,7 @@ fn write_constraint<L: Lanes, K: PairKernel>(
 ) -> u32 {
     let manifold = &mut blocks.manifolds[index];
     let constraint = &mut blocks.constraints[index];
-    let body_a = L::gather(token, context.body_rows, &manifold.body_a[at..]);
-    let body_b = L::gather(token, context.body_rows, &manifold.body_b[at..]);
+    let [body_a, body_b] = geometry.bodies;
     geometry.manifold.normal[0].store(&mut constraint.normal_x[at..]);
     geometry.manifold.normal[1].store(&mut constraint.normal_y[at..]);
     L::load(token, &manifold.friction[at..]).store(&mut constraint.friction[at..]);

@@ -139,6 +139,7 @@ fn put_island_to_sleep(island: &[u32], stores: &mut Stores<'_>, hinges: &mut Vec
         bodies.set_velocity(body, Vec2::ZERO);
         bodies.set_angular_velocity(body, 0.0);
         bodies.previous[body as usize] = bodies.poses[body as usize];
+        bodies.swings[body as usize] = 0;
         let info = &mut bodies.infos[body as usize];
         info.awake = false;
         info.island_next = island[(i + 1) % island.len()];

@@ -61,6 +61,11 @@ pub(crate) fn is_due(step: u64) -> bool {
     step % INTERVAL == INTERVAL / 2
 }
 
+/// What is left of sway after a look.
+pub(crate) fn kept(dt: f32) -> f32 {
+    1.0 / (1.0 + RATE * INTERVAL as f32 * dt)
+}
+
 /// Makes the velocities less of what swings on something firm.
 pub(crate) fn calm(
     bodies: &mut Bodies,
@@ -87,7 +92,7 @@ pub(crate) fn calm(
         let root = pieces.root(body) as usize;
         stands[root] = stands[root].and(stands[body as usize]);
     }
-    let (keep, fastest) = (1.0 / (1.0 + RATE * INTERVAL as f32 * dt), FASTEST * length_unit);
+    let (keep, fastest) = (kept(dt), FASTEST * length_unit);
     for i in 0..bodies.awake.len() {
         let body = bodies.awake[i];
         let Stand::Firm(ground) = stands[pieces.root(body) as usize] else { continue };

@@ -55,8 +55,8 @@ use crate::stages::finalize::{FastBody, Findings};
 use crate::stages::solve::{Lengths, Solver};
 use crate::stages::touching::Changes;
 use crate::stages::{
-    ahead, arcs, boxes, continuous, finalize, narrow_context, narrow_phase, paces, pairs, sleep,
-    solve, surfaces, sway, touching,
+    ahead, arcs, boxes, continuous, finalize, narrow_context, narrow_phase, paces, pairs, rocking,
+    sleep, solve, surfaces, sway, touching,
 };
 use crate::threads::{Pool, Team};
 use state::State;
@@ -272,12 +272,12 @@ impl World {
 
     fn run_narrow_phase(&mut self, team: &Team, lengths: Lengths, naming: bool) {
         let anything_fast = !self.scratch.ways.of_shapes.is_empty();
-        let ahead = (if anything_fast { lengths.dt } else { 0.0 }, naming);
+        let step = (lengths.dt, anything_fast, naming);
         let settings = (self.level, self.contact_reach(), self.settings.length_unit);
         let State { bodies, shapes, broad_phase, joint_graph, graph, .. } = &mut self.state;
         let jointed = joint_graph.count() > 0;
         let context =
-            narrow_context::Context::new(bodies, shapes, broad_phase, settings, jointed, ahead);
+            narrow_context::Context::new(bodies, shapes, broad_phase, settings, jointed, step);
         let Scratch { schedule, predictions, .. } = &self.scratch;
         narrow_phase::run(team, context, graph, schedule, predictions);
         graph.clear_fresh();
@@ -296,7 +296,7 @@ impl World {
                 broad_phase,
                 settings,
                 false,
-                (0.0, false),
+                (lengths.dt, false, false),
             );
             let scene =
                 ahead::Scene { bodies, shapes, contacts, graph, narrow_phase, dt: lengths.dt };
@@ -431,6 +431,7 @@ impl World {
             let State { bodies, graph, .. } = &mut self.state;
             let scale = (lengths.dt, self.settings.length_unit);
             sway::calm(bodies, graph, scale, &mut self.scratch.sway);
+            rocking::resist(bodies, graph, scale);
         }
     }
 

@@ -11,6 +11,7 @@ mod handles;
 mod hooks;
 mod one_way;
 mod paces;
+mod rocking;
 mod threads;
 mod trees;
 mod units;

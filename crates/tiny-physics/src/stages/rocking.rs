@@ -1,0 +1,71 @@
+//! Rocking: what swings to and fro on something round comes to rest.
+//!
+//! What rolls without sliding loses nothing, so a plank on a ball and a capsule on its end would rock for ever, and keep all
+//! that they lie on awake. Whatever is real resists rolling a little. Here what rolls on does not. But what has turned
+//! back some times, slowly and without a rest, loses its turning against what it touches.
+
+use super::rests::is_calm;
+use super::sway;
+use crate::dynamics::{Bodies, Bucket, Graph, NULL};
+use crate::simd::BLOCK;
+
+/// So often has what rocks turned back.
+const ENOUGH: u8 = 4;
+/// What is faster than this does not rock but goes somewhere, length units a second.
+const FASTEST: f32 = 0.5;
+
+/// Slows what turns against something that rocks.
+pub(crate) fn resist(bodies: &mut Bodies, graph: &Graph, (dt, length_unit): (f32, f32)) {
+    let mut most = 0;
+    for i in 0..bodies.awake.len() {
+        let body = bodies.awake[i];
+        let swings = swings(bodies, body, length_unit);
+        bodies.swings[body as usize] = swings;
+        most = most.max(swings);
+    }
+    if most <= ENOUGH {
+        return;
+    }
+    let lost = 1.0 - sway::kept(dt);
+    for (_, bucket) in graph.touching_buckets() {
+        for slot in (0..bucket.contacts.len()).filter(|&slot| bears(bucket, slot)) {
+            let (a, b) = bucket.bodies(slot);
+            if [a, b].iter().any(|&body| bodies.swings[body as usize] > ENOUGH) {
+                slow(bodies, a, b, lost);
+            }
+        }
+    }
+}
+
+/// How often a body has turned back by now. The last bit is the direction.
+fn swings(bodies: &Bodies, body: u32, length_unit: f32) -> u8 {
+    let info = &bodies.infos[body as usize];
+    if is_calm(bodies, body) || info.first_joint != NULL {
+        return 0;
+    }
+    let (swings, spin) = (bodies.swings[body as usize], bodies.angular_velocity(body));
+    let way = if swings & 1 == 0 { spin } else { -spin } * info.max_extent;
+    match swings {
+        _ if bodies.velocity(body).length() > FASTEST * length_unit => 0,
+        _ if way <= info.sleep_speed * length_unit => swings,
+        u8::MAX => u8::MAX - 1,
+        _ => swings + 1,
+    }
+}
+
+/// Takes away a part of how two bodies turn against each other, at the cost of both.
+fn slow(bodies: &mut Bodies, a: u32, b: u32, part: f32) {
+    let [(spin_a, inverse_a), (spin_b, inverse_b)] =
+        [a, b].map(|body| (bodies.angular_velocity(body), bodies.inverse_masses(body).1));
+    if inverse_a + inverse_b > 0.0 {
+        let impulse = part * (spin_b - spin_a) / (inverse_a + inverse_b);
+        bodies.set_angular_velocity(a, spin_a + impulse * inverse_a);
+        bodies.set_angular_velocity(b, spin_b - impulse * inverse_b);
+    }
+}
+
+/// Does a contact carry anything?
+fn bears(bucket: &Bucket, slot: usize) -> bool {
+    let (block, lane) = (slot / BLOCK, slot % BLOCK);
+    bucket.constraints[block].points.iter().any(|point| point.load[lane] > 0.0)
+}
