@@ -297,7 +297,7 @@ pub(crate) fn sorting(options: Options) -> Scene {
             _ => shapes::hull(&corners, 0.0),
         };
         let filter = Filter { category: kinds[kind], ..Filter::default() };
-        let parcel = ShapeDef::new(shape).filter(filter).friction(0.3);
+        let parcel = ShapeDef::new(shape).filter(filter).friction(0.3).rolling_resistance(0.2);
         let height = 1.2 + 0.75 * (i % SHAFT) as f32;
         let place = Vec2::new(shaft(i / SHAFT), 10.05 + height);
         let body = scene.body(RigidBody::fixed().position(place).shape(parcel));
