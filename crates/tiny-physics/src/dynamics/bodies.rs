@@ -282,11 +282,12 @@ impl Bodies {
         dynamic && a.pace != b.pace
     }
 
-    /// Has a body joints that are not solved together with contacts yet?
+    /// Has a body joints that are not solved together with contacts yet, and no contact? What has contacts, and still is not, is in
+    /// an island that is too large.
     pub(crate) fn hangs_loose(&self, index: u32) -> bool {
         let info = &self.infos[index as usize];
         let joined = info.first_joint != NULL && info.kind == BodyKind::Dynamic;
-        joined && usize::from(info.pace) != JOINTED
+        joined && info.contact_colours == 0 && usize::from(info.pace) != JOINTED
     }
 
     /// The pace at which what joins two bodies is solved.

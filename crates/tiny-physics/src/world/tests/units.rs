@@ -119,10 +119,10 @@ fn units_that_are_powers_of_two_change_no_bit() {
     let parts = ALL.iter().filter(|&&part| part != Part::Shot);
     let worlds = parts.map(core::slice::from_ref).chain([&ALL[..]]);
     for parts in worlds {
-        let metres = course(parts, 1.0, 900);
+        let metres = course(parts, 1.0, 600);
         assert_eq!(metres.last().map(|frame| frame.1), Some(0), "{parts:?} stay awake");
         for unit in [1.0 / 128.0, 128.0] {
-            let other = course(parts, unit, 900);
+            let other = course(parts, unit, 600);
             let parted = metres.iter().zip(&other).position(|(a, b)| a != b);
             assert_eq!(parted, None, "{parts:?}, unit {unit}: other places by this tenth step");
         }
