@@ -51,6 +51,6 @@ for scene in "${scenes[@]}"; do
       printf "%-24s %6s %12.1f M %6.1f %% %7.2f %4.1f %4.1f %4.1f\n", scene, steps, whole / 1e6, share * 100, times(2), times(4), times(8), times(16)
     }'
   if $functions; then
-    callgrind_annotate --threshold=90 "$scratch/shared-01" | grep -E '^ *[0-9,]+ \(' | head -n 30 | sed 's/ \[.*//'
+    callgrind_annotate --threshold=90 "$scratch/shared-01" | grep -E '^ *[0-9,]+ \(' | sed -n 1,30p | sed 's/ \[.*//'
   fi
 done

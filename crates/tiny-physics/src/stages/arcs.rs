@@ -8,13 +8,14 @@
 use super::ahead::Predictions;
 use super::islands::Stores;
 use crate::dynamics::{
-    Bodies, Bucket, ConstraintBlock, Contact, Graph, ManifoldBlock, NULL, Shapes, Slot,
+    Bodies, Bucket, ConstraintBlock, Contact, Contacts, Graph, ManifoldBlock, NULL, Shapes, Slot,
 };
 use crate::footprint::footprint;
 use crate::geometry::Shape;
 use crate::geometry::manifold::{self, Manifold};
 use crate::math::{Transform, Vec2};
 use crate::simd::{BLOCK, Row};
+use crate::threads::Team;
 
 /// What finding contacts needs beyond the stores.
 #[derive(Clone, Copy)]
@@ -42,47 +43,34 @@ struct Arc {
 #[derive(Debug, Default)]
 pub(crate) struct Arcs {
     list: Vec<Arc>,
+    /// By chunks of the bodies that are awake.
+    found: Vec<Vec<Arc>>,
 }
 
-footprint!(Arcs { list });
+footprint!(Arcs { list } each { found });
+
+/// Bodies that one member of the team looks at in search of what turns fast.
+const CHUNK: usize = 256;
 
 impl Arcs {
     /// Lists the contacts that a step of `dt` seconds would take off by more than `most` metres.
     pub(crate) fn list(
         &mut self,
+        team: &Team,
         stores: &Stores<'_>,
         shapes: &Shapes,
         predictions: &Predictions,
         (dt, most): (f32, f32),
     ) {
-        self.list.clear();
         let Stores { bodies, contacts, graph, .. } = stores;
-        let way = |body: u32| predictions.motion(bodies, dt, body);
-        for &body in &bodies.awake {
-            let turn = predictions.turn(bodies, dt, body);
-            let info = &bodies.infos[body as usize];
-            let rim = turn.abs() * info.max_extent;
-            if rim <= most || rim <= HARMLESS * info.min_extent || is_joined(bodies, body) {
-                continue;
-            }
-            for (index, side) in contacts.of_body(info.first_contact) {
-                let contact = &contacts.records[index as usize];
-                let (own, other) = sides(contact, side);
-                let is_left = has_rules(contact, shapes, own) || is_joined(bodies, other);
-                if !contact.touching || is_left {
-                    continue;
-                }
-                let slide = (way(other) - way(body)).length();
-                let is_disk = matches!(shapes.records[own as usize].shape, Shape::Circle { .. });
-                let half = info.min_extent.min(bodies.infos[other as usize].min_extent);
-                let off = turn.abs() * (slide + 0.5 * rim);
-                if is_disk || off <= most || off <= HARMLESS * half {
-                    continue;
-                }
-                let waits = predictions.of(index).is_some() || contact.restitution > 0.0;
-                self.list.extend(graph.solved_at(contact).map(|at| Arc { at, waits }));
-            }
-        }
+        let (bodies, contacts, graph) = (&**bodies, &**contacts, &**graph);
+        let search = Search { bodies, contacts, graph, shapes, predictions, dt, most };
+        let found = team.map_chunks(bodies.awake.len(), CHUNK, &mut self.found, |range, found| {
+            found.clear();
+            bodies.awake[range].iter().for_each(|&body| search.list_of(body, found));
+        });
+        self.list.clear();
+        self.list.extend(found.iter().flatten());
         self.list.sort_unstable();
         self.list.dedup();
     }
@@ -101,6 +89,49 @@ impl Arcs {
         let range = graph.range_of_pace(pace);
         for arc in self.list.iter_mut().filter(|arc| range.contains(&arc.at.0)) {
             arc.renew(bodies, &mut graph.buckets.list_mut()[arc.at.0], scope, h);
+        }
+    }
+}
+
+/// What contacts of what turns fast are found by.
+struct Search<'a> {
+    bodies: &'a Bodies,
+    contacts: &'a Contacts,
+    graph: &'a Graph,
+    shapes: &'a Shapes,
+    predictions: &'a Predictions,
+    dt: f32,
+    most: f32,
+}
+
+impl Search<'_> {
+    /// Lists those of a body, if it turns fast.
+    #[inline]
+    fn list_of(&self, body: u32, found: &mut Vec<Arc>) {
+        let Self { bodies, contacts, graph, shapes, predictions, dt, most } = *self;
+        let turn = predictions.turn(bodies, dt, body);
+        let info = &bodies.infos[body as usize];
+        let rim = turn.abs() * info.max_extent;
+        if rim <= most || rim <= HARMLESS * info.min_extent || is_joined(bodies, body) {
+            return;
+        }
+        let way = |body: u32| predictions.motion(bodies, dt, body);
+        for (index, side) in contacts.of_body(info.first_contact) {
+            let contact = &contacts.records[index as usize];
+            let (own, other) = sides(contact, side);
+            let is_left = has_rules(contact, shapes, own) || is_joined(bodies, other);
+            if !contact.touching || is_left {
+                continue;
+            }
+            let slide = (way(other) - way(body)).length();
+            let is_disk = matches!(shapes.records[own as usize].shape, Shape::Circle { .. });
+            let half = info.min_extent.min(bodies.infos[other as usize].min_extent);
+            let off = turn.abs() * (slide + 0.5 * rim);
+            if is_disk || off <= most || off <= HARMLESS * half {
+                continue;
+            }
+            let waits = predictions.of(index).is_some() || contact.restitution > 0.0;
+            found.extend(graph.solved_at(contact).map(|at| Arc { at, waits }));
         }
     }
 }

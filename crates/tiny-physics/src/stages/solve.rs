@@ -175,7 +175,7 @@ impl Solver {
         self.hit.list(stores, predictions.hard.iter().copied());
         let dt = rules.lengths.dt;
         let most = rules.settings.push_speed * rules.settings.length_unit * dt;
-        self.arcs.list(stores, scope.shapes, predictions, (dt, most));
+        self.arcs.list(team, stores, scope.shapes, predictions, (dt, most));
         stores.joint_graph.grow_forest(stores.bodies, stores.joints);
         let h = rules.lengths.h;
         joint_solver::describe(stores.joint_graph, stores.joints, &stores.bodies.infos, h);

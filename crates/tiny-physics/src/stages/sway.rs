@@ -78,13 +78,15 @@ pub(crate) fn calm(
     stands.resize(bodies.infos.len(), Stand::Nothing);
     bodies.awake.iter().for_each(|&body| stands[body as usize] = Stand::Nothing);
     for (_, bucket) in graph.touching_buckets() {
-        for slot in (0..bucket.contacts.len()).filter(|&slot| holds(bucket, slot)) {
-            let (a, b) = bucket.bodies(slot);
-            let (on, under) = if bodies.is_solved(a) { (a, b) } else { (b, a) };
-            if bodies.is_solved(under) {
-                pieces.join(on, under);
-            } else {
-                stands[on as usize] = stands[on as usize].and(Stand::on(bodies, under));
+        for block in 0..bucket.constraints.len() {
+            for (lane, _) in holding(bucket, block).into_iter().enumerate().filter(|&(_, on)| on) {
+                let (a, b) = bucket.bodies(block * BLOCK + lane);
+                let (on, under) = if bodies.is_solved(a) { (a, b) } else { (b, a) };
+                if bodies.is_solved(under) {
+                    pieces.join(on, under);
+                } else {
+                    stands[on as usize] = stands[on as usize].and(Stand::on(bodies, under));
+                }
             }
         }
     }
@@ -105,15 +107,17 @@ pub(crate) fn calm(
     }
 }
 
-/// Do both points of a contact bear, and stick?
-fn holds(bucket: &Bucket, slot: usize) -> bool {
-    let (block, lane) = (slot / BLOCK, slot % BLOCK);
-    let constraint = &bucket.constraints[block];
+/// Lanes of a block in which both points of a contact bear, and stick.
+fn holding(bucket: &Bucket, block: usize) -> [bool; BLOCK] {
+    let (constraint, belt) = (&bucket.constraints[block], &bucket.surfaces[block].tangent_speed);
     let [first, second] = &constraint.points;
-    let load = first.load[lane] + second.load[lane];
-    let friction = (first.tangent_impulse[lane] + second.tangent_impulse[lane]).abs();
-    first.load[lane] > 0.0
-        && second.load[lane] > 0.0
-        && friction < STICKS * constraint.friction[lane] * load
-        && bucket.surfaces[block].tangent_speed[lane] == 0.0
+    let used = bucket.contacts.len() - block * BLOCK;
+    // Without branches: the compiler looks at several lanes at once.
+    core::array::from_fn(|lane| {
+        let loads = [first.load[lane], second.load[lane]];
+        let friction = (first.tangent_impulse[lane] + second.tangent_impulse[lane]).abs();
+        let most = STICKS * constraint.friction[lane] * (loads[0] + loads[1]);
+        let bears = (loads[0] > 0.0) & (loads[1] > 0.0);
+        bears & (friction < most) & (belt[lane] == 0.0) & (lane < used)
+    })
 }
