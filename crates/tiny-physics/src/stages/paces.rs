@@ -36,7 +36,7 @@ const THIN: f32 = 0.05;
 /// No body counts as thinner than this part of that.
 const THINNEST: f32 = 0.02;
 /// A body bears another whose middle is higher by this part of the lesser half thickness: what is beside it does not.
-const LOWER: f32 = 0.25;
+const LOWER: f32 = 0.025;
 /// Speed between two bodies below which their contact carries what it will go on carrying, length units a
 /// second.
 const SETTLED: f32 = 0.05;
@@ -307,9 +307,10 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
 fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
     let Stores { bodies, contacts, .. } = stores;
     let Memory { islands, found, order, loads, below, .. } = memory;
+    let up = -rules.gravity.normalized();
     let height = |body: u32| {
         let p = bodies.poses[body as usize].p;
-        -(p.x * f64::from(rules.gravity.x) + p.y * f64::from(rules.gravity.y))
+        p.x * f64::from(up.x) + p.y * f64::from(up.y)
     };
     order.clear();
     for &body in bodies.awake.iter().filter(|&&body| bodies.is_dynamic(body)) {

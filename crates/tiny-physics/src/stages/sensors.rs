@@ -29,6 +29,7 @@ pub(crate) struct Scene<'a> {
     pub(crate) shapes: &'a Shapes,
     pub(crate) broad_phase: &'a BroadPhase,
     pub(crate) sensors: &'a Sensors,
+    pub(crate) length_unit: f32,
 }
 
 /// Finds all overlaps after the step, ascending. `fast` are the bodies that were swept, `found` is memory.
@@ -208,8 +209,8 @@ impl Scene<'_> {
         let (shape, other) = (record(shape), record(other));
         let step = FastBody::of_step(self.bodies, other.body);
         let motion = step.seen_from(fast.start).child(other.central);
-        let toi =
-            impact_within(&shape.shape, moving, &other.shape, &motion, (0.0, 1.0), LINEAR_SLOP)?;
+        let slop = LINEAR_SLOP * self.length_unit;
+        let toi = impact_within(&shape.shape, moving, &other.shape, &motion, (0.0, 1.0), slop)?;
         (toi.state != ToiState::Touching || !self.sensors.saw(&overlap)).then_some(overlap)
     }
 }

@@ -23,7 +23,8 @@ impl World {
         let mut overlaps = take(&mut self.scratch.overlaps);
         let State { bodies, shapes, broad_phase, sensors, .. } = &self.state;
         let Scratch { fast, carriers, found_overlaps, .. } = &mut self.scratch;
-        let scene = sensors::Scene { bodies, shapes, broad_phase, sensors };
+        let length_unit = self.settings.length_unit;
+        let scene = sensors::Scene { bodies, shapes, broad_phase, sensors, length_unit };
         let fast = fast.iter().chain(&*carriers);
         sensors::find_overlaps(team, scene, fast, found_overlaps, &mut overlaps);
         let mut begun = take(&mut self.state.events.sensor_begin);

@@ -7,6 +7,9 @@ use crate::math::Vec2;
 /// Ids of these points begin here, above those of every other kernel.
 const FIRST_ID: u16 = 4096;
 
+/// What is narrower than this part of both sides is one point.
+const NARROW: f32 = 1.0e-5;
+
 /// Signed distance of a point from the surface of a core, metres; beyond a corner of a polygon it is
 /// less than the true distance.
 pub(crate) fn point_gap(core: &Core, point: Vec2) -> f32 {
@@ -56,8 +59,9 @@ pub(crate) fn collide_face(
     };
     let ends = [place(low), place(high)];
     let mut manifold = Manifold { normal, ..Manifold::EMPTY };
+    let narrow = NARROW * (length + (ends[0].0 - ends[1].0).abs());
     let Some(ends) = clip(ends, length) else { return Manifold::EMPTY };
-    let single = (ends[0].0 - ends[1].0).abs() <= 1.0e-5 * (1.0 + length);
+    let single = (ends[0].0 - ends[1].0).abs() <= narrow;
     let first = usize::from(single && ends[1].1 < ends[0].1);
     let count = if single { 1 } else { 2 };
     for (i, &(across, height)) in ends[first..].iter().take(count).enumerate() {

@@ -33,7 +33,7 @@ const PUSH: f64 = 1.0;
 const TOUCHED_PUSH: f64 = 0.25;
 /// Most solves in a pass to find the limits that hold.
 const MOST_SOLVES: usize = 4;
-/// Velocity at a limit that does not matter, metres or radians a second.
+/// Velocity at a limit that does not matter, length units or radians a second.
 const LEAST_OVERRUN: f64 = 1.0e-5;
 /// Trees that one member of the team works on at a time.
 const CHUNK: usize = 4;
@@ -292,16 +292,17 @@ fn snap_share<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) -> f64 {
     let (mut sum, mut largest) = (0.0, 0.0);
     for link in &mut tree.links {
         link.rhs = link.error.map(|error| -rates.rigid_bias(error));
-        sum += link.rhs[0].abs() + link.rhs[1].abs() + link.rhs[2].abs();
-        for (error, [x, y, ..]) in link.error.iter().zip(&link.jacobians[1].rows) {
+        let rows = link.error.iter().zip(&link.rhs).zip(&link.jacobians[1].rows);
+        for ((error, wanted), [x, y, ..]) in rows {
             // Angles have no unit of length.
             let unit = if *x == 0.0 && *y == 0.0 { 1.0 } else { most / most_turn };
+            sum += wanted.abs() / unit;
             largest = if error.abs() > largest * unit { error.abs() / unit } else { largest };
         }
     }
     let grown = 1.0 + f64::from(SNAP_SHARE / SNAP) * largest;
     let (most, most_turn) = (most * grown, most_turn * grown);
-    if sum < most {
+    if sum < most_turn {
         return 1.0;
     }
     factor::factor(simd, tree);
@@ -400,8 +401,9 @@ fn change_limits<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates
             continue;
         }
         let velocity = velocity(link, nodes);
+        let unit = if link.class == JointClass::Revolute { 1.0 } else { rates.stride.unit };
         for side in [1.0, -1.0] {
-            if overrun::<BIAS>(link, axis, velocity, side, rates) > LEAST_OVERRUN {
+            if overrun::<BIAS>(link, axis, velocity, side, rates) > LEAST_OVERRUN * unit {
                 link.limit = side;
                 changed = true;
             }
