@@ -93,7 +93,7 @@ impl Builder {
 
     fn chain(&mut self, x: f32) {
         let (unit, links) = (self.unit, 2 + self.random.below(6) as usize);
-        let kind = self.random.below(5);
+        let kind = self.random.below(9);
         let mut above: Option<BodyId> = None;
         for i in 0..links {
             let y = 4.0 + self.random.below(4) as f32;
@@ -104,6 +104,10 @@ impl Builder {
                     1 => JointDef::revolute().limits(-0.5, 0.75),
                     2 => JointDef::distance(0.75 * unit).spring(3.0, 0.25),
                     3 => JointDef::weld(),
+                    4 => JointDef::prismatic(Vec2::Y).limits(-0.5 * unit, 0.25 * unit),
+                    5 => JointDef::wheel(Vec2::Y).spring(4.0, 0.5),
+                    6 => JointDef::rope(0.75 * unit),
+                    7 => JointDef::friction(2.0 * unit.powi(3), 0.5 * unit.powi(4)),
                     _ => JointDef::revolute().motor(4.0, 2.0 * unit.powi(4)),
                 };
                 let anchors = (self.at(0.375, 0.0), self.at(-0.375, 0.0));
@@ -154,7 +158,7 @@ fn course(seed: u64, unit: f32, steps: usize) -> Vec<Frame> {
 #[test]
 fn random_worlds_in_units_that_are_powers_of_two_keep_all_bits() {
     let mut parted = Vec::new();
-    for seed in 0..60 {
+    for seed in 0..100 {
         let metres = course(seed, 1.0, 180);
         for unit in [1.0 / 128.0, 64.0] {
             let other = course(seed, unit, 180);
