@@ -65,17 +65,19 @@ impl Boxes<'_> {
     }
 
     /// Lets the fat boxes of a body's shapes hold all that a step to come takes them through, and the tight ones all
-    /// that they turn through at its start. Notes how far each shape goes.
+    /// that they turn through at its start. Notes how far each shape goes. `anew`: the tight ones have been grown before.
     pub(crate) fn reach(
         self,
-        first_shape: u32,
+        (first_shape, anew): (u32, bool),
         way: &Way,
         moved: &mut Moved,
         ways: &mut Vec<(u32, Vec2)>,
     ) {
         let Self { shapes, tight: tight_boxes, .. } = self;
         for shape in shapes.of_body(first_shape) {
-            let tight = way.turned(shapes, shape, shape_box(shapes, shape, way.start));
+            let still =
+                if anew { shape_box(shapes, shape, way.start) } else { tight_boxes.read(shape) };
+            let tight = way.turned(shapes, shape, still);
             tight_boxes.write(shape, tight);
             ways.push((shape, way.motion));
             let path = tight.swept(way.motion);

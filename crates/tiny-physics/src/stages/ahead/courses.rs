@@ -56,9 +56,21 @@ impl Courses {
     }
 
     /// The same, as far off its way as it is looked for.
+    #[inline]
     pub(super) fn far(&self, bodies: &Bodies, dt: f32, body: u32) -> Course {
-        let course = self.of(bodies, dt, body);
-        if self.is_struck(body) { course.amiss(bodies, dt) } else { course }
+        match self.places[body as usize] {
+            0 => Course::of(bodies, dt, body),
+            place => self.list[place as usize - 1].amiss(bodies, dt),
+        }
+    }
+
+    /// How far a body goes in it, metres.
+    #[inline]
+    pub(super) fn motion(&self, bodies: &Bodies, dt: f32, body: u32) -> Vec2 {
+        match self.places.get(body as usize) {
+            None | Some(&0) => bodies.velocity(body) * dt,
+            Some(&place) => self.list[place as usize - 1].motion,
+        }
     }
 
     /// Is a body known to be hit in this step?
@@ -66,13 +78,13 @@ impl Courses {
         self.places[body as usize] > 0
     }
 
-    pub(super) fn keep(&mut self, course: Course) {
+    pub(super) fn keep(&mut self, course: &Course) {
         let place = &mut self.places[course.body as usize];
         if *place == 0 {
-            self.list.push(course);
+            self.list.push(*course);
             *place = self.list.len() as u32;
         } else {
-            self.list[*place as usize - 1] = course;
+            self.list[*place as usize - 1] = *course;
         }
     }
 }
@@ -87,7 +99,7 @@ impl Course {
     }
 
     /// As far off the way as it is looked for, see [`AMISS`].
-    pub(super) fn amiss(self, bodies: &Bodies, dt: f32) -> Self {
+    fn amiss(self, bodies: &Bodies, dt: f32) -> Self {
         let first = Self::of(bodies, dt, self.body);
         let motion = first.motion + (self.motion - first.motion) * AMISS;
         let turn = first.turn + (self.turn - first.turn) * AMISS;

@@ -158,7 +158,7 @@ impl Predictions {
     /// How far it goes, metres.
     #[inline]
     pub(crate) fn motion(&self, bodies: &Bodies, dt: f32, body: u32) -> Vec2 {
-        self.courses.of(bodies, dt, body).motion
+        self.courses.motion(bodies, dt, body)
     }
 
     /// Are there none?
@@ -208,7 +208,7 @@ impl Predictions {
             for struck in &self.struck {
                 let first_shape = bodies.infos[struck.body as usize].first_shape;
                 let way = self.courses.far(bodies, dt, struck.body).way(bodies);
-                boxes.reach(first_shape, &way, &mut found.moved, &mut found.fast);
+                boxes.reach((first_shape, true), &way, &mut found.moved, &mut found.fast);
             }
         });
         ways.take_over(&found, shapes, broad_phase);
@@ -241,6 +241,7 @@ impl Predictions {
         let rest = (1.0 - fraction) * scene.dt;
         let mut old = bodies.map(|body| self.courses.of(scene.bodies, scene.dt, body));
         self.note_squeezed(scene, hit, &mut old);
+        let astray = [old[0].astray, old[1].astray];
         let mut impact = Impact::new(scene.bodies, old, rest);
         let half = bodies.map(|body| scene.bodies.infos[body as usize].min_extent);
         let thinner = if half[0] < half[1] { half[0] } else { half[1] };
@@ -263,8 +264,8 @@ impl Predictions {
         if let Some(known) = self.known_mut(hit.contact) {
             known.pushed = pushed;
         }
-        for (old, course) in old.iter().zip(impact.courses) {
-            if course.astray > old.astray {
+        for (course, astray) in impact.courses.iter().zip(astray) {
+            if course.astray > astray {
                 self.courses.keep(course);
             }
         }
