@@ -126,6 +126,7 @@ pub(super) struct Impact {
 }
 
 impl Impact {
+    #[inline]
     pub(super) fn new(bodies: &Bodies, courses: [Course; 2], rest: f32) -> Self {
         let bodies = courses.map(|course| {
             let row = &bodies.rows[course.body as usize];

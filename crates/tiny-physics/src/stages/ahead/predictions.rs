@@ -239,10 +239,11 @@ impl Predictions {
         // What bounces is reflected at the start of the step.
         let fraction = if contact.restitution > 0.0 { 0.0 } else { hit.fraction };
         let rest = (1.0 - fraction) * scene.dt;
-        let mut old = bodies.map(|body| self.courses.of(scene.bodies, scene.dt, body));
-        self.note_squeezed(scene, hit, &mut old);
-        let astray = [old[0].astray, old[1].astray];
-        let mut impact = Impact::new(scene.bodies, old, rest);
+        let [a, b] = bodies;
+        let of = |body| self.courses.of(scene.bodies, scene.dt, body);
+        let mut impact = Impact::new(scene.bodies, [of(a), of(b)], rest);
+        let astray = [impact.courses[0].astray, impact.courses[1].astray];
+        self.note_squeezed(scene, hit, &mut impact.courses);
         let half = bodies.map(|body| scene.bodies.infos[body as usize].min_extent);
         let thinner = if half[0] < half[1] { half[0] } else { half[1] };
         let mut pushed = self.put_forward(hit, fraction, scene.dt, &mut impact);
@@ -373,6 +374,8 @@ struct Meeting<'a> {
     way: Vec2,
     /// How far they reach from the centres of mass of their bodies, metres.
     extents: [f32; 2],
+    /// The same of their bodies: less for a polygon, in whose box there is room.
+    disks: [f32; 2],
 }
 
 impl Look<'_> {
@@ -472,16 +475,18 @@ impl Look<'_> {
         let [shape_a, shape_b] = [contact.shape_a, contact.shape_b];
         let shapes_of = [shape_a, shape_b].map(|shape| &shapes.records[shape as usize]);
         let both = [contact.body_a, contact.body_b];
-        let courses = both.map(|body| self.known.courses.far(bodies, dt, body));
+        let far = |body| self.known.courses.far(bodies, dt, body);
+        let courses = [far(contact.body_a), far(contact.body_b)];
         let [pose_a, pose_b] = both.map(|body| bodies.poses[body as usize]);
         Meeting {
             shapes: shapes_of,
             rows: [shape_a, shape_b].map(|shape| &shapes.rows[shape as usize]),
-            turns: courses.map(|course| course.turn),
+            turns: [courses[0].turn, courses[1].turn],
             between: pose_b.p.relative_to(pose_a.p),
             turned: [pose_a.q, pose_b.q],
             way: courses[1].motion - courses[0].motion,
             extents: [shapes.reach(shape_a), shapes.reach(shape_b)],
+            disks: both.map(|body| bodies.infos[body as usize].max_extent),
         }
     }
 
@@ -537,6 +542,9 @@ impl Meeting<'_> {
         let size = self.between.x.abs() + self.between.y.abs() + self.longest_way();
         let least =
             hit_at(a[6] + b[6], slop) + ROUNDING * (self.extents[0] + self.extents[1] + size);
+        if self.disks_apart_until(self.disks[0] + self.disks[1] + least) >= 1.0 {
+            return 1.0;
+        }
         let swept = |k: usize, way| SweptBox::new(self.rows[k], self.turned[k], way);
         let still = swept(0, (Vec2::ZERO, Vec2::ZERO, self.turns[0]));
         let moving = swept(1, (self.between, self.way, self.turns[1]));
