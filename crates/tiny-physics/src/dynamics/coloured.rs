@@ -203,19 +203,15 @@ impl<B: Bucketful + Data> Data for Coloured<B> {
     }
 }
 
-impl<B> Coloured<B> {
+impl<B: Bucketful> Coloured<B> {
     /// Notes where keys are, from one of the list on.
     fn note_places(&mut self, first: usize) {
-        let Self { keys, places, .. } = self;
-        let end = keys.last().map_or(0, |&key| usize::from(key) + 1);
-        places.resize(end.max(places.len()), 0);
-        for (at, &key) in keys.iter().enumerate().skip(first) {
-            places[usize::from(key)] = at as u16 + 1;
-        }
+        let end = self.keys.last().map_or(0, |&key| usize::from(key) + 1);
+        self.places.resize(end.max(self.places.len()), 0);
+        let placed = self.keys.iter().zip(1..).skip(first);
+        placed.for_each(|(&key, place)| self.places[usize::from(key)] = place);
     }
-}
 
-impl<B: Bucketful> Coloured<B> {
     /// The bucket of a key, if it has something in it.
     pub(crate) fn get(&self, key: usize) -> Option<&B> {
         self.buckets.get(self.position(key))

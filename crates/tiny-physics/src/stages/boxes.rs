@@ -59,8 +59,7 @@ impl Boxes<'_> {
         for shape in shapes.of_body(first_shape) {
             let tight = shape_box(shapes, shape, next.start);
             tight_boxes.write(shape, tight);
-            let path = next.turned(shapes, shape, tight).swept(next.motion);
-            self.hold(shape, &path, ahead, moved);
+            self.hold(shape, &next.turned(shapes, shape, tight).swept(next.motion), ahead, moved);
         }
     }
 
@@ -80,8 +79,7 @@ impl Boxes<'_> {
             let tight = way.turned(shapes, shape, still);
             tight_boxes.write(shape, tight);
             ways.push((shape, way.motion));
-            let path = tight.swept(way.motion);
-            self.hold(shape, &path, Vec2::ZERO, moved);
+            self.hold(shape, &tight.swept(way.motion), Vec2::ZERO, moved);
         }
     }
 }

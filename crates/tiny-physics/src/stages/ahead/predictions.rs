@@ -235,11 +235,10 @@ impl Predictions {
             self.places[hit.contact as usize] = self.list.len() as u32;
         }
         let contact = &scene.contacts.records[hit.contact as usize];
-        let bodies = [contact.body_a, contact.body_b];
+        let bodies @ [a, b] = [contact.body_a, contact.body_b];
         // What bounces is reflected at the start of the step.
         let fraction = if contact.restitution > 0.0 { 0.0 } else { hit.fraction };
         let rest = (1.0 - fraction) * scene.dt;
-        let [a, b] = bodies;
         let of = |body| self.courses.of(scene.bodies, scene.dt, body);
         let mut impact = Impact::new(scene.bodies, [of(a), of(b)], rest);
         let astray = [impact.courses[0].astray, impact.courses[1].astray];
@@ -576,11 +575,7 @@ impl Meeting<'_> {
 
     /// Do the disks around the shapes meet on their ways?
     fn comes_near(&self) -> bool {
-        let room = self.extents[0] + self.extents[1];
-        let (way_sq, on) = (self.way.length_sq(), -self.between.dot(self.way));
-        let part = if way_sq > 0.0 { (on / way_sq).clamp(0.0, 1.0) } else { 0.0 };
-        let nearest = self.between + self.way * part;
-        nearest.length_sq() <= room * room
+        self.disks_apart_until(self.extents[0] + self.extents[1]) < 1.0
     }
 
     /// The contact of the time of impact, its points as far apart as they still have to come.
