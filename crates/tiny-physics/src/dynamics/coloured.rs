@@ -113,6 +113,8 @@ pub(crate) trait Bucketful: Clone + Default {
 pub(crate) struct Coloured<B> {
     /// Ascending.
     keys: Vec<u16>,
+    /// By key: its place in that list, plus 1.
+    places: Vec<u16>,
     /// The bucket of each key.
     buckets: Vec<B>,
     /// Empty ones, ascending by the key that they had: the next bucket of that key needs as much memory.
@@ -121,7 +123,7 @@ pub(crate) struct Coloured<B> {
 
 impl<B> Default for Coloured<B> {
     fn default() -> Self {
-        Self { keys: Vec::new(), buckets: Vec::new(), spare: Vec::new() }
+        Self { keys: Vec::new(), places: Vec::new(), buckets: Vec::new(), spare: Vec::new() }
     }
 }
 
@@ -135,11 +137,13 @@ impl<B: Bucketful> Clone for Coloured<B> {
     fn clone(&self) -> Self {
         // Going back lays all buckets by for a moment.
         let spare = Vec::with_capacity(2 * self.buckets.len());
-        Self { keys: self.keys.clone(), buckets: self.buckets.clone(), spare }
+        let Self { keys, places, buckets, .. } = self;
+        Self { keys: keys.clone(), places: places.clone(), buckets: buckets.clone(), spare }
     }
 
     fn clone_from(&mut self, source: &Self) {
-        let Self { keys, buckets, spare } = self;
+        let Self { keys, places, buckets, spare } = self;
+        keys.iter().for_each(|&key| places[usize::from(key)] = 0);
         keys.drain(..).zip(buckets.drain(..)).for_each(|(key, bucket)| lay_by(spare, key, bucket));
         for (&key, other) in source.keys.iter().zip(&source.buckets) {
             let mut bucket = take_spare(spare, key);
@@ -150,6 +154,7 @@ impl<B: Bucketful> Clone for Coloured<B> {
         let left_over = spare.iter_mut().filter(|(_, bucket)| !bucket.is_empty());
         left_over.for_each(|(_, bucket)| bucket.clone_from(&B::default()));
         spare.reserve(buckets.len());
+        self.note_places(0);
     }
 }
 
@@ -169,14 +174,14 @@ impl<B: Bucketful + Data> Data for Coloured<B> {
     const HEAP: bool = true;
 
     fn save(&self, sink: &mut Sink) {
-        let Self { keys, buckets, spare: _ } = self;
+        let Self { keys, buckets, .. } = self;
         keys.save(sink);
         buckets.iter().for_each(|bucket| bucket.save(sink));
     }
 
     fn load(reader: &mut Reader<'_>) -> Result<Self, Error> {
         let keys = Vec::<u16>::load(reader)?;
-        if !keys.is_sorted_by(|a, b| a < b) {
+        if !keys.is_sorted_by(|a, b| a < b) || keys.last() == Some(&u16::MAX) {
             return Err(bad("places are out of order"));
         }
         let mut buckets = Vec::with_capacity(keys.len());
@@ -187,16 +192,26 @@ impl<B: Bucketful + Data> Data for Coloured<B> {
             }
             buckets.push(bucket);
         }
-        Ok(Self { keys, buckets, spare: Vec::new() })
+        let mut loaded = Self { keys, buckets, ..Self::default() };
+        loaded.note_places(0);
+        Ok(loaded)
     }
 
     fn memory(&self) -> MemoryUse {
-        let Self { keys, buckets, spare } = self;
-        [keys.memory(), buckets.memory(), spare.memory()].into_iter().sum()
+        let Self { keys, places, buckets, spare } = self;
+        [keys.memory(), places.memory(), buckets.memory(), spare.memory()].into_iter().sum()
     }
 }
 
 impl<B: Bucketful> Coloured<B> {
+    /// Notes where keys are, from one of the list on.
+    fn note_places(&mut self, first: usize) {
+        let end = self.keys.last().map_or(0, |&key| usize::from(key) + 1);
+        self.places.resize(end.max(self.places.len()), 0);
+        let placed = self.keys.iter().zip(1..).skip(first);
+        placed.for_each(|(&key, place)| self.places[usize::from(key)] = place);
+    }
+
     /// The bucket of a key, if it has something in it.
     pub(crate) fn get(&self, key: usize) -> Option<&B> {
         self.buckets.get(self.position(key))
@@ -205,7 +220,7 @@ impl<B: Bucketful> Coloured<B> {
     /// Where the bucket of a key is in the list; past its end if there is none.
     #[inline]
     pub(crate) fn position(&self, key: usize) -> usize {
-        self.keys.binary_search(&(key as u16)).unwrap_or(usize::MAX)
+        usize::from(self.places.get(key).copied().unwrap_or(0)).wrapping_sub(1)
     }
 
     /// The bucket of a key, a new one if there is none. Something has to be put into it.
@@ -215,6 +230,7 @@ impl<B: Bucketful> Coloured<B> {
             Err(at) => {
                 self.keys.insert(at, key as u16);
                 self.buckets.insert(at, take_spare(&mut self.spare, key as u16));
+                self.note_places(at);
                 // So that closing needs no memory.
                 self.spare.reserve(self.buckets.len());
                 at
@@ -228,6 +244,8 @@ impl<B: Bucketful> Coloured<B> {
         let at = self.position(key);
         if self.buckets.get(at).is_some_and(B::is_empty) {
             let key = self.keys.remove(at);
+            self.places[usize::from(key)] = 0;
+            self.note_places(at);
             lay_by(&mut self.spare, key, self.buckets.remove(at));
         }
     }

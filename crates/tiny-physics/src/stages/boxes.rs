@@ -59,27 +59,27 @@ impl Boxes<'_> {
         for shape in shapes.of_body(first_shape) {
             let tight = shape_box(shapes, shape, next.start);
             tight_boxes.write(shape, tight);
-            let path = next.turned(shapes, shape, tight).swept(next.motion);
-            self.hold(shape, &path, ahead, moved);
+            self.hold(shape, &next.turned(shapes, shape, tight).swept(next.motion), ahead, moved);
         }
     }
 
     /// Lets the fat boxes of a body's shapes hold all that a step to come takes them through, and the tight ones all
-    /// that they turn through at its start. Notes how far each shape goes.
+    /// that they turn through at its start. Notes how far each shape goes. `anew`: the tight ones have been grown before.
     pub(crate) fn reach(
         self,
-        first_shape: u32,
+        (first_shape, anew): (u32, bool),
         way: &Way,
         moved: &mut Moved,
         ways: &mut Vec<(u32, Vec2)>,
     ) {
         let Self { shapes, tight: tight_boxes, .. } = self;
         for shape in shapes.of_body(first_shape) {
-            let tight = way.turned(shapes, shape, shape_box(shapes, shape, way.start));
+            let still =
+                if anew { shape_box(shapes, shape, way.start) } else { tight_boxes.read(shape) };
+            let tight = way.turned(shapes, shape, still);
             tight_boxes.write(shape, tight);
             ways.push((shape, way.motion));
-            let path = tight.swept(way.motion);
-            self.hold(shape, &path, Vec2::ZERO, moved);
+            self.hold(shape, &tight.swept(way.motion), Vec2::ZERO, moved);
         }
     }
 }

@@ -16,7 +16,9 @@ use super::surfaces::{self, Ground, Seams};
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, NULL, ShapeRecord, Shapes, Slot, is_rigid};
 use crate::geometry::manifold::{self, ShapeClass};
-use crate::geometry::{LINEAR_SLOP, Shape, Sweep, ToiState, distance, impact_within};
+use crate::geometry::{
+    LINEAR_SLOP, Shape, Sweep, SweptBox, ToiState, distance, hit_at, impact_within,
+};
 use crate::math::{Aabb, Pose, Rot, Transform, Vec2};
 use crate::simd::Row;
 use crate::threads::{SharedSlice, Team};
@@ -70,14 +72,6 @@ pub(crate) fn run(
             *fast = Search { fast, scene }.outcome();
         }
     });
-    if std::env::var("TPSHOW").is_ok() {
-        for f in fast.iter().filter(|f| f.fraction < 1.0) {
-            eprintln!("setback body {} fraction {} lost {:?}", f.body, f.fraction, f.lost);
-        }
-    }
-    if std::env::var("TPNOSET").is_ok() {
-        fast.clear();
-    }
     hold_together(fast, bodies, rules.joints);
     settle(team, fast, bodies, shapes, broad_phase, moved);
 }
@@ -223,6 +217,21 @@ fn clear_room(row: &Row, their: &Sweep, body: &Sweep) -> f32 {
     x.max(y) - row[6] - rounding
 }
 
+/// Do the boxes around two shapes show that the search would find no impact on their ways?
+fn stay_apart(rows: [&Row; 2], sweeps: [&Sweep; 2], slop: f32) -> bool {
+    let [a, b] = [0, 1].map(|k| {
+        let Sweep { start, rotation, angle, .. } = *sweeps[k];
+        SweptBox::new(rows[k], rotation, (start, sweeps[k].translation(), angle))
+    });
+    let size = |k: usize| {
+        let places = sweeps[k].start.abs() + sweeps[k].end.abs();
+        [0, 1, 4, 5].iter().fold(places.x + places.y, |size, &at| size + rows[k][at].abs())
+    };
+    // What the search takes for an impact is nearer than this by 4 % of the slop.
+    let least = hit_at(rows[0][6] + rows[1][6], slop) + 0.05 * slop + 2.0e-6 * (size(0) + size(1));
+    a.apart_until(&b, least) >= 1.0
+}
+
 /// Where the search for impacts looks.
 #[derive(Clone, Copy)]
 struct Scene<'a> {
@@ -363,8 +372,8 @@ impl Search<'_> {
             return limit;
         }
         let mut first = limit;
-        self.each_other(course, kind, |record, other| {
-            if let Some(meeting) = self.meeting(record, course, other, first.fraction) {
+        self.each_other(course, kind, |shape, other| {
+            if let Some(meeting) = self.meeting(shape, course, other, first.fraction) {
                 first = meeting;
             }
         });
@@ -373,9 +382,9 @@ impl Search<'_> {
             return first;
         }
         let (fraction, mut least) = (first.fraction, u32::MAX);
-        self.each_other(course, kind, |record, other| {
+        self.each_other(course, kind, |shape, other| {
             if other < least
-                && let Some(meeting) = self.meeting(record, course, other, 1.0)
+                && let Some(meeting) = self.meeting(shape, course, other, 1.0)
                 && meeting.fraction <= fraction
             {
                 (first, least) = (meeting, other);
@@ -385,12 +394,7 @@ impl Search<'_> {
     }
 
     /// Visits the shapes of one kind of body that shapes of this one may meet on a course.
-    fn each_other(
-        &self,
-        course: &Course,
-        kind: ProxyKind,
-        mut visit: impl FnMut(&ShapeRecord, u32),
-    ) {
+    fn each_other(&self, course: &Course, kind: ProxyKind, mut visit: impl FnMut(u32, u32)) {
         let Scene { bodies, shapes, broad_phase, .. } = self.scene;
         let info = &bodies.infos[self.fast.body as usize];
         let path = self.path_box(&course.sweep, info.max_extent);
@@ -401,7 +405,7 @@ impl Search<'_> {
             }
             broad_phase.each_of(kind, &path, record.filter.reach().1, |other| {
                 if self.may_collide((shape, record), other) {
-                    visit(record, other);
+                    visit(shape, other);
                 }
             });
         }
@@ -415,15 +419,9 @@ impl Search<'_> {
     }
 
     /// The impact of a shape with another before a fraction of the course.
-    fn meeting(
-        &self,
-        record: &ShapeRecord,
-        course: &Course,
-        index: u32,
-        first: f32,
-    ) -> Option<Meeting> {
+    fn meeting(&self, shape: u32, course: &Course, index: u32, first: f32) -> Option<Meeting> {
         let Scene { bodies, shapes, rules: Rules { length_unit, .. }, .. } = self.scene;
-        let other = &shapes.records[index as usize];
+        let [record, other] = [shape, index].map(|shape| &shapes.records[shape as usize]);
         let (body, moving) = (&course.sweep, course.sweep.child(record.central));
         let their = self.body_motion(other.body);
         let rest = 1.0 - course.from;
@@ -440,7 +438,14 @@ impl Search<'_> {
         }
         // How it moves seen from the other.
         let relative = body.translation() - their.translation();
-        if course.from == 0.0 && their.angle == 0.0 && self.cannot_jump(relative) {
+        let slop = LINEAR_SLOP * length_unit;
+        if course.from == 0.0 && their.angle == 0.0 && self.cannot_jump(relative)
+            || stay_apart(
+                [shape, index].map(|shape| &shapes.rows[shape as usize]),
+                [body, &their],
+                slop,
+            )
+        {
             return None;
         }
         let motion = their.child(other.central);
@@ -454,7 +459,6 @@ impl Search<'_> {
             one_way::is_solid_side(other, -way, turn)
                 && one_way::is_solid_side(record, way, self.fast.start.q)
         };
-        let slop = LINEAR_SLOP * length_unit;
         let toi = impact_within(&record.shape, &moving, &other.shape, &motion, (0.0, first), slop)?;
         let hit = matches!(toi.state, ToiState::Hit | ToiState::Limit);
         let there = |f: f32| moving.at(f).relative_to(motion.at(f));
@@ -565,6 +569,11 @@ mod tests {
             let room = clear_room(&row, &their, &body) - 2.0 * LINEAR_SLOP;
             let toi = impact_within(&shape, &body, &other, &their.child(frame), (0.0, 1.0), LINEAR_SLOP);
             prop_assert!(room <= extent || toi.is_none(), "{room} {extent} {toi:?}");
+            let manifold::RoundedBox { frame: own, half_extents: half, radius } =
+                manifold::RoundedBox::of(&shape);
+            let own = [own.p.x, own.p.y, own.q.c, own.q.s, half.x, half.y, radius, 1.0];
+            let apart = stay_apart([&own, &row], [&body, &their], LINEAR_SLOP);
+            prop_assert!(!apart || toi.is_none(), "{toi:?}");
             let moves = Sweep::new(place, Vec2::ZERO, Vec2::X, 0.0);
             prop_assert_eq!(clear_room(&row, &moves, &body), 0.0);
         }

@@ -295,12 +295,15 @@ impl Partners<'_> {
             return self.shapes.are_near(a, b, self.reach);
         }
         let [a, b] = [a, b].map(|shape| &self.shapes.tight[shape as usize]);
-        // Seen from A, the middle of B goes along a line.
-        let (least, most) = (b.min - a.max, b.max - a.min);
-        let (first, last) = (least + way.min(Vec2::ZERO), most + way.max(Vec2::ZERO));
-        if first.x.max(first.y) > self.reach || last.x.min(last.y) < -self.reach {
+        // Gaps from A to B and from B to A, and what the way takes of them: four at once.
+        let (least, behind) = (b.min - a.max, a.min - b.max);
+        let (on, back) = (way.min(Vec2::ZERO), (-way).min(Vec2::ZERO));
+        let gaps = [least.x + on.x, least.y + on.y, behind.x + back.x, behind.y + back.y];
+        if gaps.iter().fold(false, |far, &gap| far | (gap > self.reach)) {
             return false;
         }
+        // Seen from A, the middle of B goes along a line.
+        let most = -behind;
         let room = (most - least).length() * 0.5 + self.reach;
         let aside = (least + most).cross(way) * 0.5;
         aside * aside <= room * room * way.length_sq()

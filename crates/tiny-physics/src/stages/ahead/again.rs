@@ -171,7 +171,7 @@ impl Look<'_> {
         // What touched a step ago may be apart by now: do ways lead into each other, as the normal of the step's start says?
         bucket.constraints.get(block).is_none_or(|constraint| {
             let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
-            let motion_of = |body: u32| self.courses.of(partners.bodies, dt, body).motion;
+            let motion_of = |body: u32| self.courses.motion(partners.bodies, dt, body);
             let motion = motion_of(contact.body_a) - motion_of(contact.body_b);
             normal.dot(motion) > HEAD_ON * motion.length()
         })

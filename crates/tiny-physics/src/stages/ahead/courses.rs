@@ -46,33 +46,42 @@ impl Courses {
         self.places.resize(count, 0);
     }
 
+    #[inline]
+    fn known(&self, body: u32) -> Option<&Course> {
+        self.list.get(self.places.get(body as usize)?.wrapping_sub(1) as usize)
+    }
+
     /// How a body moves in this step of `dt` seconds.
     #[inline]
     pub(super) fn of(&self, bodies: &Bodies, dt: f32, body: u32) -> Course {
-        match self.places.get(body as usize) {
-            None | Some(&0) => Course::of(bodies, dt, body),
-            Some(&place) => self.list[place as usize - 1],
-        }
+        self.known(body).copied().unwrap_or_else(|| Course::of(bodies, dt, body))
     }
 
     /// The same, as far off its way as it is looked for.
+    #[inline]
     pub(super) fn far(&self, bodies: &Bodies, dt: f32, body: u32) -> Course {
-        let course = self.of(bodies, dt, body);
-        if self.is_struck(body) { course.amiss(bodies, dt) } else { course }
+        let known = self.known(body).map(|course| course.amiss(bodies, dt));
+        known.unwrap_or_else(|| Course::of(bodies, dt, body))
+    }
+
+    /// How far a body goes in it, metres.
+    #[inline]
+    pub(super) fn motion(&self, bodies: &Bodies, dt: f32, body: u32) -> Vec2 {
+        self.known(body).map_or_else(|| bodies.velocity(body) * dt, |course| course.motion)
     }
 
     /// Is a body known to be hit in this step?
     pub(super) fn is_struck(&self, body: u32) -> bool {
-        self.places[body as usize] > 0
+        self.known(body).is_some()
     }
 
-    pub(super) fn keep(&mut self, course: Course) {
+    pub(super) fn keep(&mut self, course: &Course) {
         let place = &mut self.places[course.body as usize];
         if *place == 0 {
-            self.list.push(course);
+            self.list.push(*course);
             *place = self.list.len() as u32;
         } else {
-            self.list[*place as usize - 1] = course;
+            self.list[*place as usize - 1] = *course;
         }
     }
 }
@@ -87,11 +96,11 @@ impl Course {
     }
 
     /// As far off the way as it is looked for, see [`AMISS`].
-    pub(super) fn amiss(self, bodies: &Bodies, dt: f32) -> Self {
+    fn amiss(&self, bodies: &Bodies, dt: f32) -> Self {
         let first = Self::of(bodies, dt, self.body);
         let motion = first.motion + (self.motion - first.motion) * AMISS;
         let turn = first.turn + (self.turn - first.turn) * AMISS;
-        Self { motion, turn, ..self }
+        Self { motion, turn, ..*self }
     }
 
     pub(super) fn way(&self, bodies: &Bodies) -> Way {
@@ -114,6 +123,7 @@ pub(super) struct Impact {
 }
 
 impl Impact {
+    #[inline]
     pub(super) fn new(bodies: &Bodies, courses: [Course; 2], rest: f32) -> Self {
         let bodies = courses.map(|course| {
             let row = &bodies.rows[course.body as usize];

@@ -79,7 +79,7 @@ pub(crate) fn reach(
                 let length = way.motion.length() + way.turn.abs() * info.max_extent;
                 // Also false for what is not finite.
                 if length > limit.max(HARMLESS * info.min_extent) && length < f32::MAX {
-                    boxes.reach(info.first_shape, &way, &mut found.moved, &mut found.fast);
+                    boxes.reach((info.first_shape, false), &way, &mut found.moved, &mut found.fast);
                 }
             }
         })

@@ -158,7 +158,7 @@ impl Predictions {
     /// How far it goes, metres.
     #[inline]
     pub(crate) fn motion(&self, bodies: &Bodies, dt: f32, body: u32) -> Vec2 {
-        self.courses.of(bodies, dt, body).motion
+        self.courses.motion(bodies, dt, body)
     }
 
     /// Are there none?
@@ -208,7 +208,7 @@ impl Predictions {
             for struck in &self.struck {
                 let first_shape = bodies.infos[struck.body as usize].first_shape;
                 let way = self.courses.far(bodies, dt, struck.body).way(bodies);
-                boxes.reach(first_shape, &way, &mut found.moved, &mut found.fast);
+                boxes.reach((first_shape, true), &way, &mut found.moved, &mut found.fast);
             }
         });
         ways.take_over(&found, shapes, broad_phase);
@@ -235,13 +235,14 @@ impl Predictions {
             self.places[hit.contact as usize] = self.list.len() as u32;
         }
         let contact = &scene.contacts.records[hit.contact as usize];
-        let bodies = [contact.body_a, contact.body_b];
+        let bodies @ [a, b] = [contact.body_a, contact.body_b];
         // What bounces is reflected at the start of the step.
         let fraction = if contact.restitution > 0.0 { 0.0 } else { hit.fraction };
         let rest = (1.0 - fraction) * scene.dt;
-        let mut old = bodies.map(|body| self.courses.of(scene.bodies, scene.dt, body));
-        self.note_squeezed(scene, hit, &mut old);
-        let mut impact = Impact::new(scene.bodies, old, rest);
+        let of = |body| self.courses.of(scene.bodies, scene.dt, body);
+        let mut impact = Impact::new(scene.bodies, [of(a), of(b)], rest);
+        let astray = [impact.courses[0].astray, impact.courses[1].astray];
+        self.note_squeezed(scene, hit, &mut impact.courses);
         let half = bodies.map(|body| scene.bodies.infos[body as usize].min_extent);
         let thinner = if half[0] < half[1] { half[0] } else { half[1] };
         let mut pushed = self.put_forward(hit, fraction, scene.dt, &mut impact);
@@ -263,8 +264,8 @@ impl Predictions {
         if let Some(known) = self.known_mut(hit.contact) {
             known.pushed = pushed;
         }
-        for (old, course) in old.iter().zip(impact.courses) {
-            if course.astray > old.astray {
+        for (course, astray) in impact.courses.iter().zip(astray) {
+            if course.astray > astray {
                 self.courses.keep(course);
             }
         }
@@ -372,6 +373,8 @@ struct Meeting<'a> {
     way: Vec2,
     /// How far they reach from the centres of mass of their bodies, metres.
     extents: [f32; 2],
+    /// The same of their bodies: less for a polygon, in whose box there is room.
+    disks: [f32; 2],
 }
 
 impl Look<'_> {
@@ -471,16 +474,18 @@ impl Look<'_> {
         let [shape_a, shape_b] = [contact.shape_a, contact.shape_b];
         let shapes_of = [shape_a, shape_b].map(|shape| &shapes.records[shape as usize]);
         let both = [contact.body_a, contact.body_b];
-        let courses = both.map(|body| self.known.courses.far(bodies, dt, body));
+        let far = |body| self.known.courses.far(bodies, dt, body);
+        let courses = [far(contact.body_a), far(contact.body_b)];
         let [pose_a, pose_b] = both.map(|body| bodies.poses[body as usize]);
         Meeting {
             shapes: shapes_of,
             rows: [shape_a, shape_b].map(|shape| &shapes.rows[shape as usize]),
-            turns: courses.map(|course| course.turn),
+            turns: [courses[0].turn, courses[1].turn],
             between: pose_b.p.relative_to(pose_a.p),
             turned: [pose_a.q, pose_b.q],
             way: courses[1].motion - courses[0].motion,
             extents: [shapes.reach(shape_a), shapes.reach(shape_b)],
+            disks: both.map(|body| bodies.infos[body as usize].max_extent),
         }
     }
 
@@ -536,6 +541,9 @@ impl Meeting<'_> {
         let size = self.between.x.abs() + self.between.y.abs() + self.longest_way();
         let least =
             hit_at(a[6] + b[6], slop) + ROUNDING * (self.extents[0] + self.extents[1] + size);
+        if self.disks_apart_until(self.disks[0] + self.disks[1] + least) >= 1.0 {
+            return 1.0;
+        }
         let swept = |k: usize, way| SweptBox::new(self.rows[k], self.turned[k], way);
         let still = swept(0, (Vec2::ZERO, Vec2::ZERO, self.turns[0]));
         let moving = swept(1, (self.between, self.way, self.turns[1]));
@@ -567,11 +575,7 @@ impl Meeting<'_> {
 
     /// Do the disks around the shapes meet on their ways?
     fn comes_near(&self) -> bool {
-        let room = self.extents[0] + self.extents[1];
-        let (way_sq, on) = (self.way.length_sq(), -self.between.dot(self.way));
-        let part = if way_sq > 0.0 { (on / way_sq).clamp(0.0, 1.0) } else { 0.0 };
-        let nearest = self.between + self.way * part;
-        nearest.length_sq() <= room * room
+        self.disks_apart_until(self.extents[0] + self.extents[1]) < 1.0
     }
 
     /// The contact of the time of impact, its points as far apart as they still have to come.
