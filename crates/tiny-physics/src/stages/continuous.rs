@@ -70,14 +70,6 @@ pub(crate) fn run(
             *fast = Search { fast, scene }.outcome();
         }
     });
-    if std::env::var("TPSHOW").is_ok() {
-        for f in fast.iter().filter(|f| f.fraction < 1.0) {
-            eprintln!("setback body {} fraction {} lost {:?}", f.body, f.fraction, f.lost);
-        }
-    }
-    if std::env::var("TPNOSET").is_ok() {
-        fast.clear();
-    }
     hold_together(fast, bodies, rules.joints);
     settle(team, fast, bodies, shapes, broad_phase, moved);
 }
