@@ -89,6 +89,35 @@ fn what_is_squeezed_by_far_more_is_not_passed_through() {
     assert!(deep == 0, "{deep} of 80: {worst:.2?}");
 }
 
+/// A chip lies on one to three crates as heavy as what falls on it. Where rows were followed through light bodies alone, 20 of 60
+/// were gone through.
+#[test]
+fn what_is_squeezed_between_equals_is_not_passed_through() {
+    let mut random = Random::new(21);
+    let mut worst = Vec::new();
+    for i in 0..60 {
+        let mut world = world_with_floor();
+        let (half, size) = (random.range(0.05, 0.1), random.range(0.25, 0.4));
+        let count = 1 + i % 3;
+        let crate_at = |y: f32| RigidBody::dynamic().position(Vec2::new(0.0, y));
+        for k in 0..count {
+            let crate_ = crate_at((1 + 2 * k) as f32 * size).shape(rect(size, size));
+            world.add_body(crate_.mass(random.range(0.5, 2.0))).expect("a crate");
+        }
+        let top = 2.0 * size * count as f32;
+        let chip = if i % 2 == 0 { rect(2.0 * half, half) } else { circle(half) };
+        let chip = RigidBody::dynamic().position(Vec2::new(0.0, top + half)).shape(chip);
+        world.add_body(chip.mass(random.range(0.005, 0.05))).expect("a chip");
+        let place = Vec2::new(random.range(-0.1, 0.1), top + 1.2);
+        let load = RigidBody::dynamic().position(place).angle(random.range(-0.5, 0.5));
+        let load = load.velocity(Vec2::new(0.0, -random.range(2.0, 12.0))).shape(rect(size, size));
+        world.add_body(load.mass(random.range(0.5, 2.0))).expect("a load");
+        worst.push(deepest(&mut world, 60) / half);
+    }
+    let deep = worst.iter().filter(|&&depth| depth > 1.0).count();
+    assert!(deep == 0, "{deep} of 60: {worst:.2?}");
+}
+
 /// A heavy body falls on a row of three to fourteen cans, one on the other. Where rows were followed for four bodies, 32 of
 /// 40 were gone through.
 #[test]

@@ -11,6 +11,9 @@ use tiny_physics::{BodyKind, Shape, ShapeDef, Transform, Vec2};
 /// Where a body is: position, metres, and angle.
 type Place = (f64, f64, f64);
 
+/// A point of a polygon's spine has so much of the thinner half of its box around it.
+const DEEP: f32 = 0.3;
+
 /// Looks at all pairs after each step.
 pub(super) struct Sides {
     last: Vec<Option<Place>>,
@@ -141,10 +144,12 @@ fn spine(def: &ShapeDef) -> Vec<Vec2> {
                 h if h.y > 1.5 * h.x => Vec2::new(0.0, h.y - h.x),
                 _ => Vec2::ZERO,
             };
-            // Corners of a triangle are not boxes' corners: only what is inside counts.
+            // Corners of a triangle are not boxes' corners: only what is deep inside counts.
+            let deep = DEEP * half.x.min(half.y);
+            let around = [Vec2::X, -Vec2::X, Vec2::Y, -Vec2::Y];
             [center, center + out, center - out]
                 .into_iter()
-                .filter(|&p| other.contains(p))
+                .filter(|&p| around.iter().all(|&way| other.contains(p + way * deep)))
                 .collect()
         }
     };
