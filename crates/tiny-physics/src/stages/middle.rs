@@ -25,7 +25,7 @@ impl<L: Lanes> Lead<L> {
         [shape_a, shape_b]: [&[L; 8]; 2],
         load: L,
     ) -> Self {
-        let zero = L::splat(token, 0.0);
+        let (zero, one) = (L::splat(token, 0.0), L::splat(token, 1.0));
         // At most, from the centre of mass to a point that does not go on as the body turns.
         let extent = |shape: &[L; 8]| shape[0].abs() + shape[1].abs() + shape[4] + shape[5];
         let half = L::splat(token, 0.5 * context.dt);
@@ -34,12 +34,14 @@ impl<L: Lanes> Lead<L> {
         let turned = turns[0].abs() * extent(shape_a) + turns[1].abs() * extent(shape_b);
         let limit = L::splat(token, context.speculative_distance);
         let far = (x.abs() + y.abs() + turned) / limit;
-        let (one, two) = (L::splat(token, 1.0), L::splat(token, 2.0));
-        let share = (two - two * far).clamp(zero, one);
+        let share = ((one - far) * L::splat(token, 2.0)).clamp(zero, one);
         // What lies on something that turns and that nothing moves goes its arc: see [`arcs`](super::arcs).
         let led = |row: &[L; 8]| (row[Slot::INV_MASS] + row[Slot::INV_INERTIA]).eq(zero);
         let spin =
             L::select(led(a), turns[0].abs(), zero) + L::select(led(b), turns[1].abs(), zero);
+        // Over a seam goes what bore on one shape and will on the next: both are looked at alike.
+        let guarded = shape_a[7].max(shape_b[7]).gt(L::splat(token, 1.5));
+        let load = L::select(guarded, one, load);
         let share = L::select(L::or(spin.gt(zero), load.le(zero)), zero, share);
         Self { linear: [x * share, y * share], turns: [turns[0] * share, turns[1] * share] }
     }

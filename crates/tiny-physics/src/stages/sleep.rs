@@ -47,8 +47,7 @@ pub(crate) fn find_resting(
     sets.find_all(bodies, graph, joints);
     restless.resize(bodies.infos.len(), false);
     bodies.awake.iter().for_each(|&body| restless[body as usize] = false);
-    let touching = islands::touching(graph).chain(joints.pairs());
-    for (a, b) in touching {
+    for (a, b) in islands::touching(graph).chain(joints.pairs()) {
         match (bodies.is_dynamic(a), bodies.is_dynamic(b)) {
             (true, false) => restless[a as usize] |= !rests(bodies, b, time_to_sleep),
             (false, true) => restless[b as usize] |= !rests(bodies, a, time_to_sleep),
