@@ -8,10 +8,11 @@ use tiny_physics::{BodyId, JointDef, Polygon, RigidBody, Settings, Shape, ShapeD
 /// Poses of all bodies in units, velocities in units a second.
 type Frame = Vec<[f64; 7]>;
 
-/// A random world whose lengths are times `unit`.
+/// A random world whose lengths are times `unit`, and whose densities are `density`.
 struct Builder {
     random: Random,
     unit: f32,
+    density: f32,
     world: World,
     bodies: Vec<BodyId>,
 }
@@ -44,7 +45,8 @@ impl Builder {
         };
         let restitution = [0.0, 0.0, 0.25, 0.75][self.random.below(4) as usize];
         let rolling = [0.0, 0.0, 0.125][self.random.below(3) as usize];
-        ShapeDef::new(shape).restitution(restitution).rolling_resistance(rolling)
+        let shape = ShapeDef::new(shape).density(self.density);
+        shape.restitution(restitution).rolling_resistance(rolling)
     }
 
     fn thing(&mut self, x: f32, y: f32) -> BodyId {
@@ -93,6 +95,7 @@ impl Builder {
 
     fn chain(&mut self, x: f32) {
         let (unit, links) = (self.unit, 2 + self.random.below(6) as usize);
+        let (force, torque) = (self.density * unit.powi(3), self.density * unit.powi(4));
         let kind = self.random.below(9);
         let mut above: Option<BodyId> = None;
         for i in 0..links {
@@ -107,8 +110,8 @@ impl Builder {
                     4 => JointDef::prismatic(Vec2::Y).limits(-0.5 * unit, 0.25 * unit),
                     5 => JointDef::wheel(Vec2::Y).spring(4.0, 0.5),
                     6 => JointDef::rope(0.75 * unit),
-                    7 => JointDef::friction(2.0 * unit.powi(3), 0.5 * unit.powi(4)),
-                    _ => JointDef::revolute().motor(4.0, 2.0 * unit.powi(4)),
+                    7 => JointDef::friction(2.0 * force, 0.5 * torque),
+                    _ => JointDef::revolute().motor(4.0, 2.0 * torque),
                 };
                 let anchors = (self.at(0.375, 0.0), self.at(-0.375, 0.0));
                 self.world.add_joint(above, link, def.anchors(anchors.0, anchors.1)).unwrap();
@@ -134,10 +137,11 @@ impl Builder {
 }
 
 /// The frames of a random world.
-fn course(seed: u64, unit: f32, steps: usize) -> Vec<Frame> {
+fn course(seed: u64, [unit, density]: [f32; 2], steps: usize) -> Vec<Frame> {
     let settings = Settings { length_unit: unit, ..Settings::default() };
     let world = World::with_settings(Vec2::new(0.0, -10.0 * unit), settings);
-    let mut builder = Builder { random: Random::new(seed), unit, world, bodies: Vec::new() };
+    let mut builder =
+        Builder { random: Random::new(seed), unit, density, world, bodies: Vec::new() };
     builder.ground();
     if builder.random.below(2) == 0 {
         builder.machine();
@@ -155,21 +159,33 @@ fn course(seed: u64, unit: f32, steps: usize) -> Vec<Frame> {
     (0..steps).map(run).collect()
 }
 
-#[test]
-fn random_worlds_in_units_that_are_powers_of_two_keep_all_bits() {
+/// How the courses of random worlds differ in other units of length, or of mass.
+fn parted(seeds: core::ops::Range<u64>, units: [[f32; 2]; 2]) -> Vec<String> {
     let mut parted = Vec::new();
-    for seed in 0..100 {
-        let metres = course(seed, 1.0, 180);
-        for unit in [1.0 / 128.0, 64.0] {
+    for seed in seeds {
+        let first = course(seed, [1.0, 1.0], 180);
+        for unit in units {
             let other = course(seed, unit, 180);
-            let Some(step) = metres.iter().zip(&other).position(|(a, b)| a != b) else { continue };
-            let body =
-                (0..metres[step].len()).find(|&i| metres[step][i] != other[step][i]).unwrap();
+            let Some(step) = first.iter().zip(&other).position(|(a, b)| a != b) else { continue };
+            let (a, b) = (&first[step], &other[step]);
+            let body = (0..a.len()).find(|&i| a[i] != b[i]).unwrap();
             parted.push(format!(
-                "seed {seed}, unit {unit}, step {step}, body {body}: {:?} and {:?}",
-                metres[step][body], other[step][body]
+                "seed {seed}, units {unit:?}, step {step}, body {body}: {:?} and {:?}",
+                a[body], b[body]
             ));
         }
     }
+    parted
+}
+
+#[test]
+fn random_worlds_keep_all_bits_in_units_of_length_that_are_powers_of_two() {
+    let parted = parted(0..100, [[1.0 / 128.0, 1.0], [64.0, 1.0]]);
+    assert!(parted.is_empty(), "{} part:\n{}", parted.len(), parted.join("\n"));
+}
+
+#[test]
+fn random_worlds_keep_all_bits_in_units_of_mass_that_are_powers_of_two() {
+    let parted = parted(0..100, [[1.0, 1.0 / 1024.0], [1.0, 4096.0]]);
     assert!(parted.is_empty(), "{} part:\n{}", parted.len(), parted.join("\n"));
 }
