@@ -213,7 +213,7 @@ pub(super) fn drive<L: Lanes>([speed, max, old]: [L; 3], velocity: L, mass: L) -
 /// Overrun of a limit, radians or metres, that is pushed back softly; what is beyond goes within a substep. Soft
 /// limits alone let a ragdoll that is hit at 50 m/s bend its joints 9.5 degrees too far; with firm ones alone
 /// ragdolls that lay on each other never came to rest.
-pub(super) const SOFT_OVERRUN: f32 = 0.003;
+const SOFT_OVERRUN: f32 = 0.003;
 /// Overrun over which what is soft becomes firm, radians or length units. At once, no load between the two has a balance: limbs that lie on
 /// each other chatter, and 7 of 216 pits of ragdolls sleep after more than 6 seconds, up to 17. This way it is 1 of them.
 const SPREAD: f32 = 0.02;

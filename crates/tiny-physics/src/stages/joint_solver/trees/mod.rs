@@ -33,6 +33,8 @@ const PUSH: f64 = 1.0;
 const TOUCHED_PUSH: f64 = 0.25;
 /// Most solves in a pass to find the limits that hold.
 const MOST_SOLVES: usize = 4;
+/// Overrun of a limit that is pushed back softly, length units or radians; what is beyond goes within a substep.
+const SOFT_OVERRUN: f64 = 0.005;
 /// Velocity at a limit that does not matter, length units or radians a second.
 const LEAST_OVERRUN: f64 = 1.0e-5;
 /// Trees that one member of the team works on at a time.
@@ -339,7 +341,7 @@ fn overrun<const BIAS: bool>(
     let (snap, unit) = if turns { (snap_turn, 1.0) } else { (snap, unit) };
     // The impulse is another's where it is below 0: at most one limit pushes.
     let least = velocity.min(0.0) - snap + f64::from(SNAP_SHARE) * room * inv_h;
-    let (soft, firm) = (TOUCHED_PUSH * room, room + unit * f64::from(axis::SOFT_OVERRUN));
+    let (soft, firm) = (TOUCHED_PUSH * room, room + unit * SOFT_OVERRUN);
     let push = if firm < soft { firm } else { soft } * inv_h;
     let push = if push < least { least } else { push };
     -(velocity + if BIAS { push } else { 0.0 })
