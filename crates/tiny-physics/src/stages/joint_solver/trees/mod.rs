@@ -34,6 +34,7 @@ const TOUCHED_PUSH: f64 = 0.25;
 /// Most solves in a pass to find the limits that hold.
 const MOST_SOLVES: usize = 4;
 /// Overrun of a limit that is pushed back softly, length units or radians; what is beyond goes within a substep.
+/// At 0.003, which limbs in lanes have, chains at their limits run over them by 0.024 radians; the test allows 0.01.
 const SOFT_OVERRUN: f64 = 0.005;
 /// Velocity at a limit that does not matter, length units or radians a second.
 const LEAST_OVERRUN: f64 = 1.0e-5;
