@@ -187,7 +187,8 @@ impl Inner {
         first: f32,
         length_unit: f32,
     ) -> Option<(f32, Vec2)> {
-        let slop = LINEAR_SLOP * length_unit;
+        // What is thin lies with its middle nearer than the slop.
+        let slop = (LINEAR_SLOP * length_unit).min(self.disk.bounding_radius());
         let toi = impact_within(&self.disk, &self.sweep, other, motion, (0.0, first), slop)?;
         match toi.state {
             ToiState::Hit | ToiState::Limit => Some((toi.fraction, toi.normal)),

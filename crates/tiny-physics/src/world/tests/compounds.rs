@@ -153,3 +153,17 @@ fn a_cup_cut_from_an_outline_holds_a_ball() {
     assert!(world.add_outline(id, &cup[..2], &like).is_err());
     assert_eq!(world.body(id).unwrap().shapes().count(), 2 * shapes.len());
 }
+
+/// The middle of what is thin lies nearer to the ground than the slop.
+#[test]
+fn thin_plates_come_to_rest() {
+    for (half_length, half_height) in [(0.03, 0.003), (0.016, 0.002), (0.2, 0.0005)] {
+        let mut world = world();
+        add_ground(&mut world);
+        let plate = RigidBody::dynamic().position(Vec2::new(0.0, 0.3)).angle(0.2);
+        let plate = world.add_body(plate.shape(rect(half_length, half_height))).unwrap();
+        (0..240).for_each(|_| world.step(DT));
+        assert!((y(&world, plate) - half_height).abs() < 0.001, "{half_height}");
+        assert!(!world.body(plate).unwrap().is_awake(), "{half_height}");
+    }
+}
