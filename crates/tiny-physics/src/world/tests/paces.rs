@@ -320,3 +320,30 @@ fn points_that_are_not_written_yet_rest_on_nothing() {
     }
     assert_eq!(rests(bucket), [0.0; 2]);
 }
+
+/// The sides of two bodies push each other in and out at once: that is no load, and stiffer contacts would shoot them off.
+#[test]
+fn bodies_put_into_each_other_part_slowly() {
+    let bowl = |place: Vec2, angle: f32| {
+        let body = RigidBody::dynamic().position(place).angle(angle);
+        let side = |x: f32| rect(0.06, 0.3).offset(Vec2::new(x, 0.0));
+        body.shape(rect(0.3, 0.06).offset(Vec2::new(0.0, -0.24)))
+            .shape(side(-0.24))
+            .shape(side(0.24))
+    };
+    for k in 0..40 {
+        let mut world = world();
+        add_ground(&mut world);
+        let turn = 0.15 * k as f32;
+        let place = Vec2::new(0.05, 0.9 + 0.02 * (k % 7) as f32);
+        let bodies = [bowl(Vec2::new(0.0, 0.8), 0.4 * turn), bowl(place, 3.0 + turn)];
+        let bodies = bodies.map(|body| world.add_body(body).unwrap());
+        for step in 0..240 {
+            world.step(DT);
+            for body in bodies {
+                let speed = world.body(body).unwrap().velocity().length();
+                assert!(speed < 8.0, "pair {k}, step {step}: {speed} m/s");
+            }
+        }
+    }
+}
