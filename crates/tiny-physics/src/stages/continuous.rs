@@ -343,8 +343,7 @@ impl Search<'_> {
         let FastBody { start, turn, .. } = *self.fast;
         let end = Pose::new(start.p + place.p, place.q.normalized());
         let Meeting { fraction, lost, .. } = meeting;
-        let turn = turn * fraction;
-        FastBody { end, motion: place.p, turn, lost, fraction, ..*self.fast }
+        FastBody { end, motion: place.p, turn: turn * fraction, lost, fraction, ..*self.fast }
     }
 
     /// Where a kinematic body takes it that it met at this place and fraction.
@@ -426,26 +425,18 @@ impl Search<'_> {
         let (body, moving) = (&course.sweep, course.sweep.child(record.central));
         let their = self.body_motion(other.body);
         let rest = 1.0 - course.from;
-        let their = Sweep::new(
-            their.at(course.from),
-            Vec2::ZERO,
-            their.translation() * rest,
-            their.angle * rest,
-        );
-        let room = clear_room(&shapes.rows[index as usize], &their, body)
-            - 2.0 * LINEAR_SLOP * length_unit;
+        let (way, turn) = (their.translation() * rest, their.angle * rest);
+        let their = Sweep::new(their.at(course.from), Vec2::ZERO, way, turn);
+        let slop = LINEAR_SLOP * length_unit;
+        let room = clear_room(&shapes.rows[index as usize], &their, body) - 2.0 * slop;
         if room > bodies.infos[self.fast.body as usize].max_extent {
             return None;
         }
         // How it moves seen from the other.
         let relative = body.translation() - their.translation();
-        let slop = LINEAR_SLOP * length_unit;
+        let rows = [shape, index].map(|shape| &shapes.rows[shape as usize]);
         if course.from == 0.0 && their.angle == 0.0 && self.cannot_jump(relative)
-            || stay_apart(
-                [shape, index].map(|shape| &shapes.rows[shape as usize]),
-                [body, &their],
-                slop,
-            )
+            || stay_apart(rows, [body, &their], slop)
         {
             return None;
         }

@@ -1,5 +1,6 @@
 //! Bounces and what rubs meanwhile, against formulas.
 
+use super::anything::Random;
 use super::*;
 
 const RADIUS: f32 = 0.5;
@@ -112,6 +113,47 @@ fn elastic_bounces_keep_their_energy_under_any_force() {
         for push in [Vec2::ZERO, Vec2::new(0.0, 10.0), Vec2::new(0.0, -25.0), Vec2::new(0.0, 4.0)] {
             let energy = energy_after_a_minute(scale, push);
             assert!((energy - 1.0).abs() < 2.0e-3, "{scale} {push:?}: {energy}");
+        }
+    }
+}
+
+/// A light ball between a heavy one and a wall hits both with its own mass: counted as heavier, it gave more than it had.
+#[test]
+fn uneven_elastic_balls_gain_no_energy() {
+    for seed in 0..6 {
+        let mut random = Random(seed + 1);
+        let mut world = World::new(Vec2::ZERO);
+        let elastic = |shape: ShapeDef| shape.restitution(1.0).friction(0.0);
+        for (place, half) in [((0.0, -0.5), (5.0, 0.5)), ((0.0, 8.5), (5.0, 0.5))] {
+            let wall = RigidBody::fixed().position(Vec2::new(place.0, place.1));
+            world.add_body(wall.shape(elastic(rect(half.0, half.1)))).unwrap();
+        }
+        for x in [-4.5, 4.5] {
+            let wall = RigidBody::fixed().position(Vec2::new(x, 4.0));
+            world.add_body(wall.shape(elastic(rect(0.5, 6.0)))).unwrap();
+        }
+        let balls: Vec<BodyId> = (0..40)
+            .map(|k| {
+                let place = Vec2::new(-3.5 + (k % 8) as f32, 1.0 + 1.2 * (k / 8) as f32);
+                let velocity = Vec2::new(random.between(-6.0, 6.0), random.between(-6.0, 6.0));
+                let ball = elastic(ShapeDef::new(Shape::circle(random.between(0.1, 0.3)).unwrap()));
+                let body = RigidBody::dynamic().position(place).velocity(velocity);
+                world.add_body(body.shape(ball)).unwrap()
+            })
+            .collect();
+        let energy = |world: &World| {
+            let of = |&ball: &BodyId| {
+                let body = world.body(ball).unwrap();
+                let spin = body.angular_velocity();
+                0.5 * (body.mass() * body.velocity().length_sq() + body.inertia() * spin * spin)
+            };
+            balls.iter().map(of).sum::<f32>()
+        };
+        let start = energy(&world);
+        for step in 0..1200 {
+            world.step(DT);
+            let now = energy(&world) / start;
+            assert!(now < 1.01, "seed {seed}, step {step}: {now} of the energy");
         }
     }
 }
