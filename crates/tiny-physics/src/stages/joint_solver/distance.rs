@@ -96,8 +96,9 @@ impl JointKernel for DistanceBlock {
             velocity = velocity + inv_mass * change;
         }
         let old = stride.load(&self.rod.impulse);
-        let demand =
-            soft.hold(stride, velocity, value - stride.load(&self.length.length), stride.snap);
+        let error = value - stride.load(&self.length.length);
+        let soft = soft.in_part(soft.part(stride, error, stride.snap));
+        let demand = soft.demand(velocity, error);
         let rod = -(stride.invert(inv_mass) * rigid * demand) - soft.impulse_scale * old;
         stride.store(old + rod, &mut self.rod.impulse);
         pair.apply_along(&row, change + rod);

@@ -310,25 +310,35 @@ impl<L: Lanes, const BIAS: bool> Soft<L, BIAS> {
         if BIAS { part + self.push * error } else { part }
     }
 
-    /// The same where errors of what is held go no faster than `snap` and a share of themselves.
+    /// The part of its push that is left where errors of what is held go no faster than `snap` and a share of themselves.
     #[inline(always)]
-    pub(super) fn hold(&self, stride: &Stride<L>, velocity: L, error: L, snap: L) -> L {
+    pub(super) fn part(&self, stride: &Stride<L>, error: L, snap: L) -> L {
         if !BIAS {
-            return self.mass_scale * velocity;
+            return stride.one;
         }
-        let push = self.push * error;
         let snap = snap + error.abs() * (stride.inv_h * stride.splat(SNAP_SHARE));
-        let push = L::select(self.held.gt(stride.zero), push.clamp(-snap, snap), push);
-        self.mass_scale * velocity + push
+        let part = snap / (self.push * error).abs().max(snap);
+        L::select(self.held.gt(stride.zero), part, stride.one)
     }
 
-    /// The same for two directions.
+    /// The same where only a part of push and decay is left. One without the other would let go: the push stands for what
+    /// decays of the impulse that bears a load.
     #[inline(always)]
-    pub(super) fn hold2(&self, stride: &Stride<L>, velocity: [L; 2], error: [L; 2]) -> [L; 2] {
-        [
-            self.hold(stride, velocity[0], error[0], stride.snap),
-            self.hold(stride, velocity[1], error[1], stride.snap),
-        ]
+    pub(super) fn in_part(self, part: L) -> Self {
+        Self { push: self.push * part, impulse_scale: self.impulse_scale * part, ..self }
+    }
+
+    /// The same for a point that is so far off.
+    #[inline(always)]
+    pub(super) fn hold2(self, stride: &Stride<L>, error: [L; 2]) -> Self {
+        let [x, y] = error.map(|error| self.part(stride, error, stride.snap));
+        self.in_part(x.min(y))
+    }
+
+    /// The velocities that a point takes away.
+    #[inline(always)]
+    pub(super) fn demand2(&self, velocity: [L; 2], error: [L; 2]) -> [L; 2] {
+        [self.demand(velocity[0], error[0]), self.demand(velocity[1], error[1])]
     }
 
     /// Less the decay of the impulses so far.

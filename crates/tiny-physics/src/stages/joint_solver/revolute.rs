@@ -67,9 +67,11 @@ impl JointKernel for RevoluteBlock {
     fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let soft = Soft::<L, BIAS>::load(stride, &self.soft);
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
+        let held = soft.hold2(stride, pair.gap);
         let rows = Held {
             inverse: pair.point_mass(stride),
-            demand: soft.hold2(stride, pair.anchor_velocity_in::<BIAS>(stride), pair.gap),
+            demand: held.demand2(pair.anchor_velocity_in::<BIAS>(stride), pair.gap),
+            soft: held,
             old,
             coupling: pair.twist(),
         };
@@ -79,7 +81,7 @@ impl JointKernel for RevoluteBlock {
             inv_mass: pair.inv_inertia(),
         };
         let give = Give::turning(stride);
-        let (change, angular) = rows.solve::<BIAS>(stride, &soft, &mut self.axis, coordinate, give);
+        let (change, angular) = rows.solve(stride, &soft, &mut self.axis, coordinate, give);
         let impulse = add(old, change);
         stride.store2(impulse, &mut self.point.impulse_x, &mut self.point.impulse_y);
         pair.apply_at_anchors(change, angular);

@@ -152,12 +152,15 @@ impl JointKernel for SliderBlock {
         let error = dot(pair.gap, jacobians.across.direction);
         let angle = pair.angle(stride, &self.angle);
         let [on_axis, on_angle] = jacobians.coupling(pair);
+        let turned = soft.part(stride, held * angle, stride.snap_turn);
+        let rigid = soft.in_part(soft.part(stride, error, stride.snap).min(turned));
         let rows = Held {
             inverse: jacobians.rigid_mass(stride, pair, held),
             demand: [
-                soft.hold(stride, pair.velocity_along(&jacobians.across), error, stride.snap),
-                held * soft.hold(stride, pair.spin(), angle, stride.snap_turn),
+                rigid.demand(pair.velocity_along(&jacobians.across), error),
+                held * rigid.demand(pair.spin(), angle),
             ],
+            soft: rigid,
             old: [across, held * angular],
             coupling: [on_axis, held * on_angle],
         };
@@ -167,7 +170,7 @@ impl JointKernel for SliderBlock {
             inv_mass: pair.inv_mass_along(&jacobians.along),
         };
         let give = Give::sliding(stride);
-        let (change, along) = rows.solve::<BIAS>(stride, &soft, &mut self.axis, coordinate, give);
+        let (change, along) = rows.solve(stride, &soft, &mut self.axis, coordinate, give);
         let impulse = add([across, angular], change);
         stride.store2(impulse, &mut self.rigid.impulse_x, &mut self.rigid.impulse_y);
         jacobians.apply(pair, along, change);

@@ -47,7 +47,8 @@ impl JointKernel for WeldBlock {
         let inverse = pair.point_mass(stride);
 
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
-        let demand = linear.hold2(stride, pair.anchor_velocity_in::<BIAS>(stride), pair.gap);
+        let linear = linear.hold2(stride, pair.gap);
+        let demand = linear.demand2(pair.anchor_velocity_in::<BIAS>(stride), pair.gap);
         let alone = scale(inverse.apply(demand), -stride.one);
         let coupling = pair.twist();
         // Only a rigid point carries the angle along.
@@ -59,8 +60,8 @@ impl JointKernel for WeldBlock {
         // A rigid angle takes away all of the spin that the point's correction makes, a spring its part.
         let rigid = stride.load(&self.angular.rigid);
         let part = rigid + (stride.one - rigid) * angular.mass_scale;
-        let demand = angular.hold(stride, pair.spin(), angle, stride.snap_turn)
-            + part * dot(coupling, alone);
+        let angular = angular.in_part(angular.part(stride, angle, stride.snap_turn));
+        let demand = angular.demand(pair.spin(), angle) + part * dot(coupling, alone);
         let twist = -(stride.invert(inv_mass) * demand) - angular.impulse_scale * old_twist;
         let carried = add(old, scale(per_angular, old_twist));
         let change =

@@ -527,11 +527,12 @@ fn chain(ratio: f32) -> f64 {
     worst * 100.0
 }
 
-/// In lanes alone, which close an error no faster than 5 mm a substep: under a heavy load they stretch far. In a world such
-/// a chain is a tree, and stretches by less than 0.1 % (quality row 4).
+/// In lanes alone, which close an error no faster than 5 mm a substep: as long as the impulses that bear a load decayed while
+/// what makes that good was so bounded, the heaviest ball stretched its chain by 29 %. In a world such a chain is a tree,
+/// and stretches by less than 0.1 % (quality row 4).
 #[test]
 fn chains_stretch_little() {
-    for (ratio, bound) in [(1.0, 0.5), (10.0, 2.0), (100.0, 70.0)] {
+    for (ratio, bound) in [(1.0, 0.5), (10.0, 2.0), (100.0, 10.0)] {
         let stretch = chain(ratio);
         println!("chain with a ball of {ratio}: {stretch:.3} %");
         assert!(stretch < bound, "{ratio}: {stretch}");
