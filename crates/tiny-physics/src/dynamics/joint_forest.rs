@@ -1,8 +1,8 @@
 //! Which joints are solved directly: trees of joints, each with the order of its elimination.
 //!
 //! A *component* is what joints of rigid kinds tie together through dynamic bodies. Joints in the order of
-//! their indices span it with a tree; one that closes a loop is cut out and stays with the lanes. Joints to
-//! bodies that nothing moves are *anchors* and close no loop. A component is solved as a tree if it has few cuts
+//! their indices span it with a tree; one that closes a loop is a *cut*: it is solved after the tree and through it. One that
+//! has more than rigid rows stays with the lanes. Joints to bodies that nothing moves are *anchors* and close no loop. A component is solved as a tree if it has few cuts
 //! and needs it: where it is long, or joins light bodies to heavy ones. Any other is left to the lanes whole, which
 //! take a tenth of the time: a thousand ragdolls would make a step of theirs last twice as long.
 //!
@@ -85,9 +85,9 @@ pub(crate) struct TreeLink {
     /// Nodes of body A and body B.
     pub(crate) a: u32,
     pub(crate) b: u32,
-    /// The node away from the root: A or B; NULL for an anchor below a node.
+    /// The node away from the root: A or B; NULL for an anchor below a node, and for a cut.
     pub(crate) child: u32,
-    /// The node towards the root; NULL for the root's own anchor.
+    /// The node towards the root; NULL for the root's own anchor, and for a cut.
     pub(crate) parent: u32,
     /// Number of rigid rows.
     pub(crate) rigid: usize,
@@ -162,7 +162,7 @@ pub(crate) struct JointTree {
     pub(crate) nodes: Vec<TreeNode>,
     /// How many nodes are dynamic.
     pub(crate) dynamic: usize,
-    /// The root's anchor if it has one, joints from the root outwards, further anchors.
+    /// The root's anchor if it has one, joints from the root outwards, further anchors, cuts.
     pub(crate) links: Vec<TreeLink>,
     /// In the order of the links, of those that have any.
     pub(crate) axes: Vec<TreeAxis>,
@@ -207,6 +207,11 @@ footprint!(JointTree { nodes, links, axes } none {
 });
 
 impl JointTree {
+    /// How many of its links are no cuts.
+    pub(crate) fn uncut(&self) -> usize {
+        self.links.partition_point(|link| (link.child, link.parent) != (NULL, NULL))
+    }
+
     /// Notes whether all its contacts go through it, and so leave its joints as they are.
     pub(crate) fn note_undisturbed(&mut self, all_through_it: bool) {
         self.undisturbed = self.alone && all_through_it;
@@ -258,6 +263,19 @@ pub(crate) fn is_rigid(def: &JointDef) -> bool {
             }
             _ => false,
         }
+}
+
+/// Does nothing act along what a rigid joint leaves free?
+fn is_plain(def: &JointDef) -> bool {
+    use JointKind::{Distance, Gear, Prismatic, Revolute, Weld};
+    matches!(
+        def.kind,
+        Revolute { spring: None, limits: None, motor: None, .. }
+            | Prismatic { spring: None, limits: None, motor: None, .. }
+            | Weld { .. }
+            | Distance { .. }
+            | Gear { .. }
+    )
 }
 
 impl JointForest {
@@ -448,12 +466,14 @@ fn plant(
     let mut sets = DisjointSets::default();
     let count = component.bodies.len();
     sets.reset(count, 0..count as u32);
-    let (mut spanning, mut anchors) = (Vec::new(), Vec::new());
+    let (mut spanning, mut anchors, mut cut) = (Vec::new(), Vec::new(), Vec::new());
     for joint in &component.joints {
         if inner(joint) {
             let record = &joints.records[*joint as usize];
             if sets.join(places[record.body_a as usize], places[record.body_b as usize]) {
                 spanning.push(*joint);
+            } else if is_plain(&record.def) {
+                cut.push(*joint);
             }
         } else {
             anchors.push(*joint);
@@ -469,6 +489,11 @@ fn plant(
     let tree = JointTree { alone, ..JointTree::default() };
     let mut planter = Planter { bodies, joints, places, nodes, tree, depth: Vec::new() };
     planter.plant(&spanning, &anchors);
+    for &joint in &cut {
+        let JointRecord { body_a, body_b, .. } = joints.records[joint as usize];
+        let ends = [body_a, body_b].map(|body| planter.node_of(body));
+        planter.add_link(joint, ends, NULL, NULL);
+    }
     let deep =
         planter.depth.last().is_some_and(|&depth| depth + usize::from(anchored) >= least_depth);
     (uneven || deep).then_some(planter.tree)

@@ -28,6 +28,7 @@ impl Substep {
 }
 
 /// Where in a block a kernel works, and constants in lanes.
+#[derive(Clone, Copy)]
 pub(super) struct Stride<L: Lanes> {
     pub(super) token: L::Token,
     pub(super) at: usize,

@@ -87,6 +87,7 @@ fn heavy(nodes: &[TreeNode]) -> f64 {
 /// Factors the matrix of a tree, unless that is done.
 #[inline(always)]
 pub(super) fn factor<S: Simd>(simd: S, tree: &mut JointTree) {
+    let uncut = tree.uncut();
     let JointTree { nodes, dynamic, links, factored, .. } = tree;
     if core::mem::replace(factored, true) {
         return;
@@ -96,12 +97,40 @@ pub(super) fn factor<S: Simd>(simd: S, tree: &mut JointTree) {
         node.hat = mass(node, heavy);
     }
     let rooted = is_rooted(links);
-    for link in links.iter_mut().rev() {
+    for link in links[..uncut].iter_mut().rev() {
         factor_link(simd, nodes, link);
     }
     if !rooted {
         nodes[0].hat = invert(&nodes[0].hat, 3);
     }
+    (uncut..tree.links.len()).for_each(|cut| factor_cut(simd, tree, cut));
+}
+
+/// How the ends of a cut answer its impulses through the tree.
+#[inline(always)]
+fn factor_cut<S: Simd>(simd: S, tree: &mut JointTree, cut: usize) {
+    let (mut d, count) = ([[0.0; 4]; 3], tree.links[cut].rigid);
+    for k in 0..count {
+        pull(simd, tree, cut, &core::array::from_fn(|i| f64::from(u8::from(i == k))));
+        let TreeLink { a, b, jacobians: [on_a, on_b], compliance, .. } = &tree.links[cut];
+        let [dv_a, dv_b] = [a, b].map(|&end| tree.nodes[end as usize].dv);
+        add_product(simd, &mut d[k], &on_a.columns, &dv_a);
+        add_product(simd, &mut d[k], &on_b.columns, &dv_b);
+        d[k][k] += compliance[k];
+    }
+    tree.links[cut].inverse = invert(&d, count);
+}
+
+/// Solves for impulses of a cut on its two nodes, which the tree holds against.
+#[inline(always)]
+pub(super) fn pull<S: Simd>(simd: S, tree: &mut JointTree, cut: usize, impulses: &Three) {
+    tree.links.iter_mut().for_each(|link| link.rhs = [0.0; 4]);
+    tree.nodes[..tree.dynamic].iter_mut().for_each(|node| node.g = [0.0; 4]);
+    let link = &tree.links[cut];
+    for (end, jacobian) in [link.a, link.b].into_iter().zip(&link.jacobians) {
+        add_product(simd, &mut tree.nodes[end as usize].g, &jacobian.rows, impulses);
+    }
+    gather_and_scatter(simd, tree);
 }
 
 #[inline(always)]
@@ -156,7 +185,13 @@ fn write_limit(link: &mut TreeLink) {
 pub(super) fn solve<S: Simd>(simd: S, tree: &mut JointTree) {
     let moving = &mut tree.nodes[..tree.dynamic];
     moving.iter_mut().for_each(|node| node.g = [0.0; 4]);
-    for link in tree.links.iter_mut().rev() {
+    gather_and_scatter(simd, tree);
+}
+
+#[inline(always)]
+fn gather_and_scatter<S: Simd>(simd: S, tree: &mut JointTree) {
+    let uncut = tree.uncut();
+    for link in tree.links[..uncut].iter_mut().rev() {
         gather(simd, &mut tree.nodes, link);
     }
     scatter_all(simd, tree);
@@ -186,11 +221,12 @@ fn is_rooted(links: &[TreeLink]) -> bool {
 
 #[inline(always)]
 fn scatter_all<S: Simd>(simd: S, tree: &mut JointTree) {
+    let uncut = tree.uncut();
     let JointTree { nodes, links, .. } = tree;
     if !is_rooted(links) {
         nodes[0].dv = times(simd, &nodes[0].hat, &nodes[0].g);
     }
-    for link in links {
+    for link in &mut links[..uncut] {
         scatter(simd, nodes, link);
     }
 }

@@ -22,7 +22,9 @@ use super::{Pass, axis};
 use crate::dynamics::{
     JOINTED, JointClass, JointColour, JointTree, Joints, Motion, TreeAxis, TreeLink, TreeNode,
 };
-use crate::simd::{FourKernel, Simd, SimdLevel, Three, add_times, dispatch_fours, take_product};
+use crate::simd::{
+    FourKernel, Simd, SimdLevel, Three, add_times, dispatch_fours, take_product, times,
+};
 use crate::threads::{SharedRows, Team};
 
 /// Part of a position error that a substep takes away. What is missing at 0.25 is energy: a double pendulum keeps 0.91
@@ -257,11 +259,13 @@ fn drive_axis<S: Simd, const BIAS: bool>(
 fn solve<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) {
     begin_limits::<S, BIAS>(simd, tree, rates);
     let share = if BIAS { snap_share(simd, tree, rates) } else { 0.0 };
+    let rates = &Rates { push: share * rates.push, ..*rates };
     for _ in 0..MOST_SOLVES {
         factor::factor(simd, tree);
-        demand::<S, BIAS>(simd, tree, rates, share);
+        demand::<S, BIAS>(simd, tree, rates);
         factor::solve(simd, tree);
         apply(simd, tree);
+        close::<S, BIAS>(simd, tree, rates);
         if !change_limits::<S, BIAS>(simd, tree, rates) {
             break;
         }
@@ -269,6 +273,7 @@ fn solve<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates
 }
 
 /// What a tree does to position errors in a substep.
+#[derive(Clone, Copy)]
 struct Rates {
     stride: Stride<f64>,
     /// Part that is taken away.
@@ -416,23 +421,26 @@ fn change_limits<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates
     changed
 }
 
+/// Cuts, one by one, each with all of the tree: they close what it has left open.
+#[inline(always)]
+fn close<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) {
+    for cut in tree.uncut()..tree.links.len() {
+        let link = &tree.links[cut];
+        let short = short_of::<S, BIAS>(simd, link, &tree.nodes, rates);
+        let change = times(simd, &link.inverse, &short);
+        factor::pull(simd, tree, cut, &change);
+        tree.links[cut].change = change;
+        apply(simd, tree);
+    }
+}
+
 /// Right sides: minus what the velocities and position errors are short of.
 #[inline(always)]
-fn demand<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates, share: f64) {
+fn demand<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) {
+    let uncut = tree.uncut();
     let JointTree { nodes, links, axes, .. } = tree;
-    for link in &mut *links {
-        let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
-        let mut rhs = [0.0; 4];
-        if BIAS {
-            rhs = curve(simd, link, a, b, &rates.stride);
-            let rows = link.error.iter().zip(&link.compliance).zip(&link.impulses);
-            for (rhs, ((error, compliance), impulse)) in rhs.iter_mut().zip(rows) {
-                *rhs -= share * rates.rigid_bias(1.0) * error + compliance * impulse;
-            }
-        }
-        take_product(simd, &mut rhs, &link.jacobians[1].columns, &b.v);
-        take_product(simd, &mut rhs, &link.jacobians[0].columns, &a.v);
-        link.rhs = rhs;
+    for link in &mut links[..uncut] {
+        link.rhs = short_of::<S, BIAS>(simd, link, nodes, rates);
     }
     for axis in axes {
         let link = &mut links[axis.link as usize];
@@ -444,6 +452,28 @@ fn demand<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rate
             link.rhs[link.rigid] = wanted;
         }
     }
+}
+
+/// Of the rows of a link.
+#[inline(always)]
+fn short_of<S: Simd, const BIAS: bool>(
+    simd: S,
+    link: &TreeLink,
+    nodes: &[TreeNode],
+    rates: &Rates,
+) -> Three {
+    let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
+    let mut rhs = [0.0; 4];
+    if BIAS {
+        rhs = curve(simd, link, a, b, &rates.stride);
+        let rows = link.error.iter().zip(&link.compliance).zip(&link.impulses);
+        for (rhs, ((error, compliance), impulse)) in rhs.iter_mut().zip(rows) {
+            *rhs -= rates.rigid_bias(1.0) * error + compliance * impulse;
+        }
+    }
+    take_product(simd, &mut rhs, &link.jacobians[1].columns, &b.v);
+    take_product(simd, &mut rhs, &link.jacobians[0].columns, &a.v);
+    rhs
 }
 
 /// What the circles of anchors and rods take from the mean velocities over a substep, to second order:
@@ -488,5 +518,6 @@ fn apply<S: Simd>(simd: S, tree: &mut JointTree) {
     }
     for link in links {
         add_times(simd, &mut link.impulses, &link.change, 1.0);
+        link.change = [0.0; 4];
     }
 }
