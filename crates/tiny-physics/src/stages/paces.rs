@@ -143,12 +143,13 @@ pub(crate) fn assign(mut stores: Stores<'_>, rules: Rules, memory: &mut Memory) 
     let Memory { islands, found, changed, .. } = memory;
     let mut budget = BUDGET * rules.most_bodies;
     changed.clear();
+    // All before any is told: what has just woken is listed last, and may be a root.
+    for &body in stores.bodies.awake.iter().filter(|&&body| islands.root(body) == body) {
+        found[body as usize].grant(rules, &mut budget);
+    }
     for i in 0..stores.bodies.awake.len() {
         let body = stores.bodies.awake[i];
         let root = islands.root(body) as usize;
-        if root == body as usize {
-            found[root].grant(rules, &mut budget);
-        }
         let info = &mut stores.bodies.infos[body as usize];
         info.stirred = if found[root].lively { STIRRED_TIME } else { info.stirred };
         if info.kind == BodyKind::Dynamic && info.pace != found[root].pace {

@@ -78,6 +78,27 @@ fn what_is_hit_gets_its_pace_at_once() {
     }
 }
 
+/// What wakes is listed after what hit it, and had told its island's pace before that was chosen: the hit was solved at a pace at which
+/// one of the two does not move.
+#[test]
+fn what_is_hit_asleep_gets_the_pace_of_what_hits_it() {
+    let mut world = floored();
+    let pair = [-0.5, 0.5].map(|x| {
+        let bar = RigidBody::dynamic().shape(Shape::rect(0.5, 0.1).unwrap()).asleep();
+        world.add_body(bar.position(Vec2::new(x, 0.1))).unwrap()
+    });
+    let hinge = JointDef::revolute().anchors(Vec2::new(0.5, 0.0), Vec2::new(-0.5, 0.0));
+    world.add_joint(pair[0], pair[1], hinge).unwrap();
+    for body in pair {
+        world.body_mut(body).unwrap().sleep();
+    }
+    let heavy = crate_at(0.0, 0.9, 20.0).velocity(Vec2::new(0.0, -15.0));
+    let heavy = world.add_body(heavy).unwrap();
+    steps(&mut world, 1);
+    assert_eq!(pace(&world, heavy), pace(&world, pair[0]));
+    assert!(world.body(heavy).unwrap().position().y > 0.6, "it went into what slept");
+}
+
 #[test]
 fn what_lies_alone_stays_plain_and_so_do_large_islands() {
     let mut world = floored();
