@@ -296,3 +296,36 @@ fn closed_chains_stay_closed() {
         assert!(open < most, "a ring of {links} links opened by {open} m");
     }
 }
+
+/// Three limbs whose hinges turn by 0.3 radians either way float, and a ball hits the last: how far beyond their limits do they go, radians?
+fn overrun(speed: f32, at: f32) -> f32 {
+    let mut world = World::new(Vec2::ZERO);
+    let limb = |i: i32| {
+        let (a, b) = (Vec2::new(-0.14, 0.0), Vec2::new(0.14, 0.0));
+        let limb = Shape::Capsule { a, b, radius: 0.045 };
+        RigidBody::dynamic().shape(limb).position(Vec2::new(0.28 * i as f32, 0.0))
+    };
+    let limbs: Vec<BodyId> = (0..3).map(|i| world.add_body(limb(i)).unwrap()).collect();
+    for pair in limbs.windows(2) {
+        let hinge = JointDef::revolute().limits(-0.3, 0.3);
+        let hinge = hinge.anchors(Vec2::new(0.14, 0.0), Vec2::new(-0.14, 0.0));
+        world.add_joint(pair[0], pair[1], hinge).unwrap();
+    }
+    let ball = RigidBody::dynamic().shape(Shape::circle(0.1).unwrap()).mass(0.05);
+    let ball = ball.position(Vec2::new(0.56 + at, 1.0)).velocity(Vec2::new(0.0, -speed));
+    world.add_body(ball).unwrap();
+    let mut worst = 0.0_f32;
+    for _ in 0..120 {
+        world.step(1.0 / 60.0);
+        let beyond = |id| world.joint(id).unwrap().angle().abs() - 0.3;
+        worst = world.joint_ids().map(beyond).fold(worst, f32::max);
+    }
+    worst
+}
+
+#[test]
+fn limbs_that_are_hit_stay_within_their_limits() {
+    let worst = (20..60).map(|speed| overrun(speed as f32, 0.01 * (speed % 12) as f32));
+    let (most, sum) = worst.fold((0.0_f32, 0.0), |(most, sum), x| (most.max(x), sum + x));
+    assert!(most < 0.03 && sum < 0.1, "{most} {sum}");
+}

@@ -1,6 +1,6 @@
 //! Bodies: hot rows for the solver, poses, and everything else.
 
-use super::pace::{JOINTED, PLAIN};
+use super::pace::{PLAIN, is_jointed};
 use super::places::{claim, put};
 use crate::codec::{Data, Generations, Reader, Sink, kept_as_described, record, store};
 use crate::describe::{BodyKind, Locks, RigidBody};
@@ -287,7 +287,7 @@ impl Bodies {
     pub(crate) fn hangs_loose(&self, index: u32) -> bool {
         let info = &self.infos[index as usize];
         let joined = info.first_joint != NULL && info.kind == BodyKind::Dynamic;
-        joined && info.contact_colours == 0 && usize::from(info.pace) != JOINTED
+        joined && info.contact_colours == 0 && !is_jointed(info.pace.into())
     }
 
     /// The pace at which what joins two bodies is solved.

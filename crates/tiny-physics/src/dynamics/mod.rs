@@ -41,7 +41,7 @@ pub(crate) use joint_graph::{
     JointBlocks, JointBucket, JointColour, JointGraph, JointPlaces, joint_classes, with_bucket,
 };
 pub(crate) use joints::{JointLoad, JointRecord, Joints};
-pub(crate) use pace::{JOINTED, PACES, PLAIN, REFINEMENT, ROUNDS, WATCHED};
+pub(crate) use pace::{JOINTED, PACES, PLAIN, REFINEMENT, ROUNDS, STRUCK, WATCHED, is_jointed};
 #[cfg(test)]
 use schedule::Listed;
 pub(crate) use schedule::{Run, Schedule, Source};

@@ -9,6 +9,7 @@ use crate::dynamics::{Bucket, NULL, PLAIN, Place, REFINEMENT, flags, pace_at};
 use crate::math::{DVec2, Vec2};
 use crate::simd::BLOCK;
 use crate::stages::islands::Stores;
+use crate::stages::solve::Lengths;
 use crate::stages::touching::Changes;
 use crate::stages::{one_way, paces, pairs, sleep};
 use crate::threads::Team;
@@ -273,10 +274,12 @@ impl World {
 
     /// A contact has begun to touch.
     fn begin_contact(&mut self, index: u32) {
-        let State { contacts, bodies, .. } = &mut self.state;
+        let h = Lengths::new(self.stats.dt, &self.settings).h;
+        let State { contacts, bodies, graph, .. } = &mut self.state;
         let contact = &mut contacts.records[index as usize];
         contact.touching = true;
-        paces::stir(bodies, [contact.body_a, contact.body_b], self.settings.length_unit);
+        let pair = [contact.body_a, contact.body_b];
+        graph.mixed |= paces::stir(bodies, pair, self.settings.length_unit, h);
         if self.scratch.predictions.of(index).is_none() {
             self.report_begin(index);
         }

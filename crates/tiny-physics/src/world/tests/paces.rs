@@ -3,7 +3,7 @@
 use super::anything::Random;
 use super::*;
 use crate::describe::JointDef;
-use crate::dynamics::{Bucket, JOINTED, PACES, PLAIN, Place};
+use crate::dynamics::{Bucket, JOINTED, PACES, PLAIN, Place, STRUCK};
 use crate::simd::BLOCK;
 use crate::stages::rests::{Compliance, Sink};
 
@@ -76,6 +76,33 @@ fn what_is_hit_gets_its_pace_at_once() {
         assert!(world.contacts().count() > 0);
         assert_eq!(pair.map(|body| pace(&world, body)), [JOINTED; 2], "{late}");
     }
+}
+
+/// Thin bodies that are joined and are hit fast are solved more finely for a quarter of a second.
+#[test]
+fn what_is_struck_is_finer_for_a_while() {
+    let fast = |speed: f32| {
+        let mut world = World::new(Vec2::ZERO);
+        let pair = [-0.5, 0.5].map(|x| {
+            let bar = RigidBody::dynamic().shape(Shape::rect(0.5, 0.05).unwrap());
+            world.add_body(bar.position(Vec2::new(x, 0.0))).unwrap()
+        });
+        let hinge = JointDef::revolute().anchors(Vec2::new(0.5, 0.0), Vec2::new(-0.5, 0.0));
+        world.add_joint(pair[0], pair[1], hinge).unwrap();
+        // It goes along with them, on one of them.
+        let ball = RigidBody::dynamic().shape(Shape::circle(0.1).unwrap());
+        let ball = ball.position(Vec2::new(0.2, 0.16)).velocity(Vec2::new(0.0, -speed));
+        world.add_body(ball).unwrap();
+        let at = [1, 13, 12].map(|count| {
+            steps(&mut world, count);
+            pace(&world, pair[1])
+        });
+        at
+    };
+    assert_eq!(fast(20.0)[..2], [STRUCK; 2]);
+    assert_ne!(fast(20.0)[2], STRUCK);
+    // In a substep it goes by 0.02 m, less than the half thickness of 0.05 m.
+    assert_eq!(fast(5.0)[0], JOINTED);
 }
 
 /// What wakes is listed after what hit it, and had told its island's pace before that was chosen: the hit was solved at a pace at which

@@ -20,7 +20,7 @@ mod tests;
 use super::parts::{SNAP, SNAP_SHARE, Stride, Substep, slow_turn};
 use super::{Pass, axis};
 use crate::dynamics::{
-    JOINTED, JointClass, JointColour, JointTree, Joints, Motion, TreeAxis, TreeLink, TreeNode,
+    JointClass, JointColour, JointTree, Joints, Motion, TreeAxis, TreeLink, TreeNode, is_jointed,
 };
 use crate::simd::{
     FourKernel, Simd, SimdLevel, Three, add_times, dispatch_fours, take_product, times,
@@ -78,7 +78,7 @@ pub(crate) fn run(
     (lanes, trees): (&mut JointColour, &mut [JointTree]),
 ) {
     if pass == Pass::Finish {
-        if pace == JOINTED {
+        if is_jointed(pace) {
             of_pace(trees, pace).for_each(|tree| rows::restore(tree, bodies));
         }
         lanes.for_each_run(team, |blocks, count| {
@@ -160,7 +160,7 @@ fn run_tree<S: Simd>(
     tree.moved = pass == Pass::Solve;
     match pass {
         Pass::WarmStart => {
-            if tree.pace == JOINTED {
+            if is_jointed(tree.pace) {
                 rows::damp(tree);
             } else {
                 kick(simd, tree, -1.0);
@@ -172,7 +172,7 @@ fn run_tree<S: Simd>(
             solve::<_, true>(simd, tree, &rates);
         }
         _ => {
-            if moved && tree.pace != JOINTED {
+            if moved && !is_jointed(tree.pace) {
                 kick(simd, tree, 1.0);
             }
             drive::<_, false>(simd, tree, &rates);
@@ -282,7 +282,7 @@ struct Rates {
 
 impl Rates {
     fn new(substep: Substep, pace: usize) -> Self {
-        let push = if pace == JOINTED { TOUCHED_PUSH } else { PUSH };
+        let push = if is_jointed(pace) { TOUCHED_PUSH } else { PUSH };
         Self { stride: Stride::new((), 0, substep), push }
     }
 

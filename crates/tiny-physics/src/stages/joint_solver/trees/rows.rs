@@ -5,8 +5,8 @@
 
 use super::factor::{dot3, invert};
 use crate::dynamics::{
-    FrameLanes, Impulses, JOINTED, JointColour, JointTree, Joints, Slot, TreeAxis, TreeLink,
-    TreeNode, TreeRow, with_bucket,
+    FrameLanes, Impulses, JointColour, JointTree, Joints, Slot, TreeAxis, TreeLink, TreeNode,
+    TreeRow, is_jointed, with_bucket,
 };
 use crate::simd::{BLOCK, Simd, Three, add_times, times};
 use crate::stages::joint_solver::JointKernel;
@@ -208,7 +208,7 @@ pub(super) fn refresh<S: Simd>(
         tie(simd, link, axis, &nodes[link.a as usize], &nodes[link.b as usize]);
     }
     (*begun, *fresh, *factored) = (true, true, false);
-    if *pace == JOINTED {
+    if is_jointed(*pace) {
         nodes.iter().for_each(|node| give_inertia(rows, node.body, node.inv[2]));
     }
 }
