@@ -89,15 +89,13 @@ fn what_is_struck_is_finer_for_a_while() {
         });
         let hinge = JointDef::revolute().anchors(Vec2::new(0.5, 0.0), Vec2::new(-0.5, 0.0));
         world.add_joint(pair[0], pair[1], hinge).unwrap();
-        // It goes along with them, on one of them.
         let ball = RigidBody::dynamic().shape(Shape::circle(0.1).unwrap());
         let ball = ball.position(Vec2::new(0.2, 0.16)).velocity(Vec2::new(0.0, -speed));
         world.add_body(ball).unwrap();
-        let at = [1, 13, 12].map(|count| {
+        [1, 13, 12].map(|count| {
             steps(&mut world, count);
             pace(&world, pair[1])
-        });
-        at
+        })
     };
     assert_eq!(fast(20.0)[..2], [STRUCK; 2]);
     assert_ne!(fast(20.0)[2], STRUCK);
