@@ -1,5 +1,8 @@
 //! Joints and contacts that meet: they add no energy, so that what should rest does, and what should be borne is.
 
+mod common;
+
+use common::energy;
 use tiny_physics::{BodyId, JointDef, Polygon, RigidBody, Shape, Vec2, World};
 
 const DT: f32 = 1.0 / 60.0;
@@ -21,18 +24,6 @@ fn rect(x: f32, y: f32) -> Shape {
 
 fn disk(radius: f32) -> Shape {
     Shape::circle(radius).expect("positive")
-}
-
-/// Energy of motion and height, joules.
-fn energy(world: &World) -> f64 {
-    let of = |body: tiny_physics::Body<'_>| {
-        let (v, w) = (body.velocity(), f64::from(body.angular_velocity()));
-        let speed_sq = f64::from(v.x).powi(2) + f64::from(v.y).powi(2);
-        let (mass, inertia) = (f64::from(body.mass()), f64::from(body.inertia()));
-        let height = f64::from(world.gravity.y) * body.position_f64().y;
-        0.5 * (mass * speed_sq + inertia * w * w) - mass * height
-    };
-    world.bodies().map(of).sum()
 }
 
 /// A straight chain of links with round ends from a point on, in a direction; its links.

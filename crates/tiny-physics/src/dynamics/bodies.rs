@@ -184,6 +184,9 @@ store! {
         pub(crate) count: usize,
         /// Bodies of another pace than the plain one, sleeping ones too.
         pub(crate) refined: usize,
+        /// Light bodies that heavy ones pressed at the end of the last step, with the inverse mass of those, see
+        /// [`squeezed`](crate::stages::ahead).
+        pub(crate) pressed: Vec<(u32, f32)>,
         generations: Generations,
     }
     load with Bodies::settle
@@ -206,6 +209,7 @@ impl Default for Bodies {
             free: Vec::new(),
             count: 0,
             refined: 0,
+            pressed: Vec::new(),
             generations: Generations::default(),
         }
     }
@@ -250,6 +254,7 @@ impl Bodies {
     pub(crate) fn remove(&mut self, index: u32) {
         self.count -= 1;
         self.set_pace(index, PLAIN as u8);
+        self.pressed.retain(|&(body, _)| body != index);
         self.infos[index as usize] = BodyInfo::default();
         self.rows[index as usize] = [0.0; 8];
         self.free.push(index);

@@ -453,6 +453,14 @@ impl Graph {
         }
     }
 
+    /// The greatest impulse that a point of a contact carries.
+    pub(crate) fn impulse(&self, contact: &Contact) -> f32 {
+        self.solved_at(contact).map_or(0.0, |(bucket, slot)| {
+            let points = &self.buckets.list()[bucket].constraints[slot / BLOCK].points;
+            points.iter().map(|point| point.normal_impulse[slot % BLOCK]).fold(0.0, f32::max)
+        })
+    }
+
     /// From A to B, of a contact that touched in the last narrow phase and before it.
     pub(crate) fn normal(&self, contact: &Contact) -> Option<Vec2> {
         let (bucket, slot) = self.solved_at(contact)?;

@@ -87,6 +87,8 @@ impl World {
             bodies.infos.iter().filter(is_refined).count() == bodies.refined,
             "bodies of finer paces are miscounted",
         )?;
+        let is_light = |&(body, by): &(u32, f32)| (body as usize) < count && by > 0.0;
+        ensure(bodies.pressed.iter().all(is_light), "what is pressed is nothing")?;
         for (info, pose) in bodies.infos.iter().zip(&bodies.poses) {
             let moves = info.alive && info.enabled && info.kind != BodyKind::Static;
             ensure(!info.awake || moves, "a body that cannot move is awake")?;

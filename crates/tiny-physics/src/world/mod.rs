@@ -328,7 +328,9 @@ impl World {
     /// Predicted contacts that pushed have begun; those that did not have never been.
     fn settle_predictions(&mut self, team: &Team) {
         let State { bodies, contacts, graph, .. } = &mut self.state;
-        self.scratch.predictions.squeezed.release(bodies, contacts, graph);
+        let (squeezed, length_unit) =
+            (&mut self.scratch.predictions.squeezed, self.settings.length_unit);
+        squeezed.release(bodies, contacts, graph, length_unit);
         let predicted = core::mem::take(&mut self.scratch.predictions.fresh);
         let mut changes = core::mem::take(&mut self.scratch.changes);
         changes.clear();
@@ -387,7 +389,8 @@ impl World {
         for &contact in &self.scratch.predictions.fresh {
             self.state.graph.watch(&self.state.contacts.records[contact as usize]);
         }
-        if !self.scratch.predictions.squeezed.pressed.is_empty() {
+        let predictions = &self.scratch.predictions;
+        if !(predictions.squeezed.pressed.is_empty() && self.state.bodies.pressed.is_empty()) {
             self.weigh_squeezed(team, lengths);
         }
         self.update_fresh_manifolds(team, lengths);

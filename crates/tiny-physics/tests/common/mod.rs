@@ -69,6 +69,18 @@ pub fn velocity(world: &World, id: BodyId) -> Vec2 {
     world.body(id).expect("a body that is still there").velocity()
 }
 
+/// Energy of motion and height, joules.
+pub fn energy(world: &World) -> f64 {
+    let of = |body: tiny_physics::Body<'_>| {
+        let (v, w) = (body.velocity(), f64::from(body.angular_velocity()));
+        let speed_sq = f64::from(v.x).powi(2) + f64::from(v.y).powi(2);
+        let (mass, inertia) = (f64::from(body.mass()), f64::from(body.inertia()));
+        let height = f64::from(world.gravity.y) * body.position_f64().y;
+        0.5 * (mass * speed_sq + inertia * w * w) - mass * height
+    };
+    world.bodies().map(of).sum()
+}
+
 /// Boxes of 1 m in a pyramid on a floor.
 pub fn pyramid(rows: usize) -> World {
     let mut world = world_with_floor();

@@ -308,8 +308,7 @@ impl Predictions {
         let pressed = Pressed {
             body: courses[light].body,
             by: a.min(b),
-            bounces: (scene.contacts.records[hit.contact as usize].restitution > 0.0)
-                .then(|| scene.bodies.velocity(courses[1 - light].body)),
+            velocity: scene.bodies.velocity(courses[1 - light].body),
             direction: if light == 1 { hit.normal } else { -hit.normal },
             coming: coming < -squeezed::COMING * surroundings.length_unit,
         };

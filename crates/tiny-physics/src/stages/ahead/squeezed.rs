@@ -34,8 +34,8 @@ pub(crate) struct Pressed {
     pub(super) body: u32,
     /// Inverse mass of what presses it.
     pub(super) by: f32,
-    /// Velocity of that, where they bounce.
-    pub(super) bounces: Option<Vec2>,
+    /// Velocity of that.
+    pub(super) velocity: Vec2,
     /// Where to.
     pub(super) direction: Vec2,
     /// Does anything in the row so far come nearer?
@@ -49,8 +49,18 @@ pub(crate) struct Squeezed {
     /// Those that heavy ones hit hard.
     pub(crate) hit: Vec<u32>,
     /// Those whose mass is another in this step.
-    pub(super) weighed: Vec<u32>,
+    pub(super) weighed: Vec<Weighed>,
     rows: Rows,
+}
+
+/// A body whose mass is another in a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Weighed {
+    body: u32,
+    /// Inverse mass of what presses it.
+    by: f32,
+    /// Its own: what it weighs stays as it is.
+    gravity_scale: f32,
 }
 
 /// What a search for rows has found.
@@ -93,6 +103,8 @@ impl Squeezed {
         length_unit: f32,
         predicted: &dyn Fn(u32) -> Option<Vec2>,
     ) {
+        let scene = Scene { bodies, contacts, graph, length_unit, predicted };
+        bodies.pressed.iter().for_each(|&pressed| scene.press_on(pressed, &mut self.pressed));
         let mut none_for = None;
         for &pressed in &self.pressed {
             if none_for != Some(pressed.by) {
@@ -106,39 +118,96 @@ impl Squeezed {
                 continue;
             }
             let ground = self.rows.ground;
-            // What is faster than what squeezes it, and bounces, would hand on more than it has: of 20 boxes of 20 elastic balls
-            // with masses up to 9 to 1 eleven gained energy, up to three times of it, now none.
-            let push = pressed.bounces.map(|velocity| (velocity - ground).dot(pressed.direction));
+            let push = (pressed.velocity - ground).dot(pressed.direction).max(COMING * length_unit);
             for &body in &self.rows.lead {
+                // What is faster than what squeezes it would hand on more than it has, and counts as less.
                 let speed = (bodies.velocity(body) - ground).length();
-                let row = &mut bodies.rows[body as usize];
-                let part = SHARE * pressed.by / row[Slot::INV_MASS];
-                if part < 1.0 && push.is_none_or(|push| speed <= push) {
-                    row[Slot::INV_MASS] *= part;
-                    row[Slot::INV_INERTIA] *= part;
-                    self.weighed.push(body);
-                    let first = bodies.infos[body as usize].first_contact;
-                    for (index, _) in contacts.of_body(first) {
-                        graph.refresh(&contacts.records[index as usize]);
-                    }
-                }
+                let faster = (speed / push).max(1.0);
+                let by = pressed.by * faster * faster;
+                self.weighed.extend(weigh(body, by, bodies, contacts, graph));
             }
         }
+        let mut pressed = core::mem::take(&mut bodies.pressed);
+        for (body, by) in pressed.drain(..) {
+            if bodies.is_solved(body)
+                && let Some(weighed) = weigh(body, by, bodies, contacts, graph)
+            {
+                self.weighed.push(weighed);
+                let info = &mut bodies.infos[body as usize];
+                info.gravity_scale *= info.mass * bodies.rows[body as usize][Slot::INV_MASS];
+            }
+        }
+        bodies.pressed = pressed;
     }
 
-    /// Gives them their own mass again. What their contacts carried was for another.
-    pub(crate) fn release(&mut self, bodies: &mut Bodies, contacts: &Contacts, graph: &mut Graph) {
-        for body in self.weighed.drain(..) {
+    /// Gives them their own mass again. What is pressed on will be weighed in the next step, too; what the contacts of others
+    /// carried was for another mass.
+    pub(crate) fn release(
+        &mut self,
+        bodies: &mut Bodies,
+        contacts: &Contacts,
+        graph: &mut Graph,
+        length_unit: f32,
+    ) {
+        for Weighed { body, by, gravity_scale } in self.weighed.drain(..) {
             bodies.update_inverse_masses(body);
-            let first = bodies.infos[body as usize].first_contact;
-            for (index, _) in contacts.of_body(first) {
+            let info = &mut bodies.infos[body as usize];
+            info.gravity_scale = gravity_scale;
+            let of_body = || contacts.of_body(info.first_contact);
+            let most = of_body().map(|(index, _)| graph.impulse(&contacts.records[index as usize]));
+            if most.fold(0.0, f32::max) > COMING * length_unit * info.mass {
+                bodies.pressed.push((body, by));
+                continue;
+            }
+            for (index, _) in of_body() {
                 graph.forget_impulses(&contacts.records[index as usize]);
             }
         }
     }
 }
 
+/// Has a body count as what presses it says, if that is more than its own mass, and its constraints written anew.
+fn weigh(
+    body: u32,
+    by: f32,
+    bodies: &mut Bodies,
+    contacts: &Contacts,
+    graph: &mut Graph,
+) -> Option<Weighed> {
+    let (row, info) = (&mut bodies.rows[body as usize], &mut bodies.infos[body as usize]);
+    let part = SHARE * by / row[Slot::INV_MASS];
+    if part >= 1.0 {
+        return None;
+    }
+    row[Slot::INV_MASS] *= part;
+    row[Slot::INV_INERTIA] *= part;
+    for (index, _) in contacts.of_body(info.first_contact) {
+        graph.refresh(&contacts.records[index as usize]);
+    }
+    Some(Weighed { body, by, gravity_scale: info.gravity_scale })
+}
+
 impl Scene<'_> {
+    /// Lists the light bodies that one presses that is pressed itself.
+    fn press_on(self, (body, by): (u32, f32), pressed: &mut Vec<Pressed>) {
+        let first = self.bodies.infos[body as usize].first_contact;
+        for (index, side) in self.contacts.of_body(first) {
+            let contact = &self.contacts.records[index as usize];
+            let (other, sign) =
+                if side == 0 { (contact.body_b, 1.0) } else { (contact.body_a, -1.0) };
+            let inverse_mass = self.bodies.inverse_masses(other).0;
+            if inverse_mass > HEAVIER * by
+                && self.graph.impulse(contact) * inverse_mass > COMING * self.length_unit
+                && let Some(normal) = self.graph.normal(contact)
+            {
+                let direction = normal * sign;
+                let velocity = self.bodies.velocity(body);
+                let body = other;
+                pressed.push(Pressed { body, by, velocity, direction, coming: true });
+            }
+        }
+    }
+
     /// Do rows of bodies, no longer than `most`, lead from one that is pressed on to what nothing moves? If so: does
     /// anything in them come nearer? Lists all that is in them: what one row leaves out would be gone through by another.
     /// Rows go through what is heavy, too, such as a crate under a chip. Through light bodies alone, those heaps have 11.9 m.
