@@ -50,8 +50,8 @@ const STIRRED_TIME: f32 = 2.0;
 /// so many seconds: what hits a limb or a plank is stopped by it and by all that hangs on it in turns.
 const STRUCK_TIME: f32 = 0.25;
 /// A contact carries no more than this many times what pulls at all bodies of its island: wedges and levers do. What it pushes
-/// with beyond that holds something in that is squeezed; more stiffly, that would shoot out. Of 100 pairs of U-shaped bodies put
-/// into each other 13 went off at 8 to 83 m/s, with this none.
+/// with beyond that holds something in that is squeezed; more stiffly, that would shoot out. Of 100 triples of U-shaped bodies put
+/// into each other 28 went off faster than 8 m/s, with this one.
 const MOST_CARRIED: f32 = 2.0;
 /// Bodies that an island of the finest pace may have.
 const MOST_AT_FINEST: usize = 128;

@@ -1,9 +1,12 @@
 //! Squeezed: light bodies between heavy ones that come and what nothing moves.
 //!
 //! A pass of the solver hands on no more of a heavy body's momentum than the light one in between takes up, so that of
-//! a hundred times its mass went through it as through nothing. For the step in which something heavy comes, what is
+//! a hundred times its mass went through it as through nothing. From the step in which something heavy comes, what is
 //! squeezed therefore counts as half as heavy, and so does what it leans on, up to what nothing moves. As that stops
-//! them all, no momentum is lost; what nothing backs keeps its own mass, and what bounces and is faster than the heavy one.
+//! them all, no momentum is lost; what nothing backs keeps its own mass, and what is faster than the heavy one counts as less.
+//!
+//! It stays so, with its own weight, while its contacts carry what would throw it away: a press goes on pressing. With its own
+//! mass in between, and the impulses that are too much for it forgotten, 25 of 120 bodies under presses were gone through.
 
 use crate::dynamics::{Bodies, Contacts, Graph, Slot};
 use crate::footprint::footprint;
