@@ -18,6 +18,9 @@ pub(crate) const HEAVIER: f32 = 4.0;
 const SHARE: f32 = 2.0;
 /// How fast something in the row must come to squeeze, length units a second: what rests has its paces and rests.
 pub(super) const COMING: f32 = 0.1;
+/// What an impulse of its contacts would move faster than this is pressed on, length units a second. At 0.1 piles of mixed masses cost
+/// 4 % more; at 1 what lies in rows goes half as deep again.
+const PRESSED: f32 = 0.4;
 /// Bodies in a row at most.
 const LONGEST: usize = 16;
 /// Bodies that are looked at in search of rows at most, while none is found for what weighs the same. In 40 heaps of what weighs up to
@@ -158,7 +161,7 @@ impl Squeezed {
             info.gravity_scale = gravity_scale;
             let of_body = || contacts.of_body(info.first_contact);
             let most = of_body().map(|(index, _)| graph.impulse(&contacts.records[index as usize]));
-            if most.fold(0.0, f32::max) > COMING * length_unit * info.mass {
+            if most.fold(0.0, f32::max) > PRESSED * length_unit * info.mass {
                 bodies.pressed.push((body, by));
                 continue;
             }
