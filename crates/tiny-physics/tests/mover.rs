@@ -183,7 +183,7 @@ fn bad_numbers_change_nothing() {
 
 /// Walks to the right, and says how far it came.
 fn walked(world: &mut World, speed: f32, steps: u32, dt: f32) -> f64 {
-    let mut mover = CharacterMover::new(Vec2::new(0.0, 0.91), 1.8, 0.3);
+    let mut mover = CharacterMover::new(Vec2::new(0.0, 0.91), 1.8, 0.2);
     for _ in 0..steps {
         world.step(dt);
         mover.update(world, MoverInput { walk: speed, ..MoverInput::default() }, dt);
