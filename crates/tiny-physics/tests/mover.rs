@@ -234,3 +234,22 @@ fn one_way_lifts_pick_it_up() {
         assert!((above - 0.94).abs() < 0.001, "{speed}: {above}");
     }
 }
+
+#[test]
+fn no_machine_pushes_it_through_a_wall() {
+    let dt = 1.0 / 60.0;
+    for k in 1..40 {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let floor = ShapeDef::new(Shape::rect(20.0, 0.5).unwrap()).offset(Vec2::new(0.0, -0.5));
+        let wall = ShapeDef::new(Shape::rect(0.05, 5.0).unwrap()).offset(Vec2::new(2.0, 5.0));
+        world.add_body(RigidBody::fixed().shape(floor).shape(wall)).unwrap();
+        let machine = RigidBody::kinematic().position(Vec2::new(-0.5, 2.0));
+        let machine = machine.velocity(Vec2::new(0.25 * k as f32, 0.0));
+        world.add_body(machine.shape(Shape::rect(0.5, 1.9).unwrap())).unwrap();
+        let mut mover = CharacterMover::new(Vec2::new(1.0, 0.91), 1.8, 0.3);
+        for _ in 0..120 {
+            settle(&mut world, &mut mover, 1, dt);
+            assert!(mover.position.x < 1.95, "{k}: {}", mover.position.x);
+        }
+    }
+}

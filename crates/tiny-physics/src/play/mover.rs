@@ -561,21 +561,27 @@ impl CharacterMover {
         for _ in 0..MAX_CASTS {
             let pose = Pose::new(self.position, Rot::IDENTITY);
             let bounds = capsule.world_aabb(pose).grown(self.skin);
-            let mut deepest: Option<(f32, Vec2)> = None;
+            let mut deepest: Option<(f32, Vec2, BodyId)> = None;
             for obstacle in self.obstacles(world, bounds) {
                 let place = obstacle.pose();
                 let gap = distance(obstacle.shape(), &capsule, pose.relative_to(place));
                 let normal = place.q.rotate(gap.normal);
                 let near = gap.separation < 0.9 * self.skin;
                 let solid = self.is_solid(frame, &obstacle, place, -normal);
-                if near && solid && deepest.is_none_or(|(least, _)| gap.separation < least) {
-                    deepest = Some((gap.separation, normal));
+                if near && solid && deepest.is_none_or(|(least, ..)| gap.separation < least) {
+                    deepest = Some((gap.separation, normal, obstacle.body()));
                 }
             }
-            let Some((separation, normal)) = deepest else { return };
+            let Some((separation, normal, body)) = deepest else { return };
             // Where there is no room for its skin on both sides it goes to the middle.
             let is_tight = separation > 0.0 && normal.dot(last) < -0.9;
-            self.position += normal * ((self.skin - separation) * if is_tight { 0.5 } else { 1.0 });
+            let out = normal * ((self.skin - separation) * if is_tight { 0.5 } else { 1.0 });
+            // What moves does not push it into walls.
+            if world.body(body).is_some_and(|body| body.kind() != BodyKind::Static) {
+                self.slide(world, frame, out, Some(body));
+            } else {
+                self.position += out;
+            }
             if is_tight {
                 return;
             }
