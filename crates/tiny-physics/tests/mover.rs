@@ -1,6 +1,8 @@
 //! The character mover: what it must do by numbers. The tests of the scenes have its level.
 
-use tiny_physics::{CharacterMover, MoverInput, RigidBody, Shape, ShapeDef, TileGrid, Vec2, World};
+use tiny_physics::{
+    ChainDef, CharacterMover, MoverInput, RigidBody, Shape, ShapeDef, TileGrid, Vec2, World,
+};
 
 const FLOOR: f64 = 0.91; // Half the height and the skin.
 
@@ -177,4 +179,77 @@ fn bad_numbers_change_nothing() {
     mover.update(&mut world, MoverInput::default(), 0.0);
     mover.update(&mut world, MoverInput::default(), f32::INFINITY);
     assert_eq!(mover, before);
+}
+
+/// Walks to the right, and says how far it came.
+fn walked(world: &mut World, speed: f32, steps: u32, dt: f32) -> f64 {
+    let mut mover = CharacterMover::new(Vec2::new(0.0, 0.91), 1.8, 0.2);
+    for _ in 0..steps {
+        world.step(dt);
+        mover.update(world, MoverInput { walk: speed, ..MoverInput::default() }, dt);
+    }
+    mover.position.x
+}
+
+#[test]
+fn however_slow_it_climbs_steps() {
+    for speed in [0.1, 0.3, 0.5, 1.0] {
+        for hertz in [30.0, 60.0, 144.0] {
+            let mut world = World::new(Vec2::new(0.0, -10.0));
+            let step = Shape::rect(4.0, 0.65).unwrap();
+            let step = ShapeDef::new(step).offset(Vec2::new(5.0, -0.35));
+            let floor = ShapeDef::new(Shape::rect(2.0, 0.5).unwrap()).offset(Vec2::new(0.0, -0.5));
+            world.add_body(RigidBody::fixed().shape(floor).shape(step)).unwrap();
+            let x = walked(&mut world, speed, (2.0 / speed * hertz) as u32, 1.0 / hertz);
+            assert!(x > 1.9 && x < 2.1, "{speed} {hertz}: {x}");
+        }
+    }
+}
+
+#[test]
+fn corners_of_chains_do_not_hold_it() {
+    // Nearly level ground, with many corners that turn it by no more than a fifteenth of a degree.
+    let ground = |k: i32| Vec2::new(30.0 - 0.037 * k as f32, 0.0004 * ((k * k) % 7) as f32 / 7.0);
+    let points: Vec<Vec2> = (0..900).map(ground).collect();
+    for speed in [0.7, 2.3, 7.9] {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        world.add_body(RigidBody::fixed().chain(&ChainDef::open(&points)).unwrap()).unwrap();
+        let x = walked(&mut world, speed, (28.0 / speed * 120.0) as u32, 1.0 / 120.0);
+        assert!(x > 27.9, "{speed}: {x}");
+    }
+}
+
+#[test]
+fn one_way_lifts_pick_it_up() {
+    for k in 0..40 {
+        let (k, dt) = (k as f32, if k % 2 == 0 { 1.0 / 60.0 } else { 1.0 / 30.0 });
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let plank = ShapeDef::new(Shape::rect(3.0, 0.03).unwrap()).one_way(Vec2::Y);
+        let lift = world.add_body(RigidBody::kinematic().shape(plank)).unwrap();
+        let speed = if k < 20.0 { 0.2 * k } else { 1.0 - 0.2 * k };
+        world.body_mut(lift).unwrap().set_velocity(Vec2::new(0.3, speed));
+        let mut mover = CharacterMover::new(Vec2::new(0.0, 1.5 + 0.013 * k), 1.8, 0.3);
+        settle(&mut world, &mut mover, 120, dt);
+        let above = mover.position.y - world.body(lift).unwrap().position_f64().y;
+        assert!((above - 0.94).abs() < 0.001, "{speed}: {above}");
+    }
+}
+
+#[test]
+fn no_machine_pushes_it_through_a_wall() {
+    let dt = 1.0 / 60.0;
+    for k in 1..40 {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let floor = ShapeDef::new(Shape::rect(20.0, 0.5).unwrap()).offset(Vec2::new(0.0, -0.5));
+        let wall = ShapeDef::new(Shape::rect(0.05, 5.0).unwrap()).offset(Vec2::new(2.0, 5.0));
+        world.add_body(RigidBody::fixed().shape(floor).shape(wall)).unwrap();
+        let machine = RigidBody::kinematic().position(Vec2::new(-0.5, 2.0));
+        let machine = machine.velocity(Vec2::new(0.25 * k as f32, 0.0));
+        world.add_body(machine.shape(Shape::rect(0.5, 1.9).unwrap())).unwrap();
+        let mut mover = CharacterMover::new(Vec2::new(1.0, 0.91), 1.8, 0.3);
+        for _ in 0..120 {
+            settle(&mut world, &mut mover, 1, dt);
+            assert!(mover.position.x < 1.95, "{k}: {}", mover.position.x);
+        }
+    }
 }

@@ -187,17 +187,20 @@ impl World {
     /// Buoyancy and drag of one shape, if it moves.
     fn float(&mut self, shape: ShapeId, water: &Water, normal: Vec2, dt: f32) {
         let Some(shape) = self.shape(shape) else { return };
-        let (id, frame) = (shape.body(), shape.pose());
-        if !self.body(id).is_some_and(|body| body.kind() == BodyKind::Dynamic && body.is_awake()) {
-            return;
-        }
-        let height = water.surface.relative_to(frame.p).dot(normal);
-        let part = shape.shape().part_below(frame.q.unrotate(normal), height);
+        let id = shape.body();
+        let body = self.body(id).filter(|body| body.kind() == BodyKind::Dynamic && body.is_awake());
+        let (Some(body), place) = (body, shape.pose()) else { return };
+        // As it lies in the middle of the step: what bobs on forces of its start swings further and further.
+        let half = 0.5 * dt;
+        let turned = place.q.integrate(body.angular_velocity() * half);
+        let middle = place.p + body.velocity_at(place.p) * half;
+        let height = water.surface.relative_to(middle).dot(normal);
+        let part = shape.shape().part_below(turned.unrotate(normal), height);
         if part.area <= 0.0 {
             return;
         }
         let whole = shape.shape().mass_properties(1.0);
-        let center = frame.apply(part.center);
+        let center = place.apply(part.center);
         let displaced = water.density * part.area;
         let gravity = self.gravity;
         let Some(mut body) = self.body_mut(id) else { return };

@@ -322,7 +322,7 @@ impl CharacterMover {
             };
             self.position += motion * hit.fraction;
             way *= 1.0 - hit.fraction;
-            if self.is_walkable(hit.normal, up) && hit.normal.dot(normal) < 1.0 - 1.0e-6 {
+            if self.is_walkable(hit.normal, up) {
                 self.stand(world, &hit);
             } else {
                 if !self.step_up(world, frame, way) {
@@ -335,8 +335,14 @@ impl CharacterMover {
         self.find_ground(world, frame, drop);
     }
 
-    /// Climbs what stops it, if that is a step: up, forward by `way`, down again.
+    /// Climbs what stops it, if that is a step. A way shorter than its skin may not get it onto the edge.
     fn step_up(&mut self, world: &World, frame: Frame, way: f32) -> bool {
+        self.step_on(world, frame, way)
+            || way.abs() < self.skin && self.step_on(world, frame, self.skin.copysign(way))
+    }
+
+    /// Up, forward by `way`, down again.
+    fn step_on(&mut self, world: &World, frame: Frame, way: f32) -> bool {
         let start = self.position;
         let foot = start - frame.up * (0.5 * self.height);
         let rise = frame.up * self.step_height;
@@ -416,7 +422,9 @@ impl CharacterMover {
     fn land(&mut self, world: &mut World, frame: Frame, hit: &Obstacle, speed: f32, left: f32) {
         self.stand(world, hit);
         self.drift = 0.0;
+        // It has met it where the step has taken it: only sideways it goes along.
         let carry = self.ground_velocity(world) * left;
+        let carry = carry - hit.normal * hit.normal.dot(carry);
         self.slide(world, frame, carry, self.ground.map(|ground| ground.body));
         self.walk(world, frame, speed, left);
     }
@@ -553,21 +561,27 @@ impl CharacterMover {
         for _ in 0..MAX_CASTS {
             let pose = Pose::new(self.position, Rot::IDENTITY);
             let bounds = capsule.world_aabb(pose).grown(self.skin);
-            let mut deepest: Option<(f32, Vec2)> = None;
+            let mut deepest: Option<(f32, Vec2, BodyId)> = None;
             for obstacle in self.obstacles(world, bounds) {
                 let place = obstacle.pose();
                 let gap = distance(obstacle.shape(), &capsule, pose.relative_to(place));
                 let normal = place.q.rotate(gap.normal);
-                let near = gap.separation < self.skin - 1.0e-3;
-                let solid = self.is_solid(world, frame, &obstacle, -normal);
-                if near && solid && deepest.is_none_or(|(least, _)| gap.separation < least) {
-                    deepest = Some((gap.separation, normal));
+                let near = gap.separation < 0.9 * self.skin;
+                let solid = self.is_solid(frame, &obstacle, place, -normal);
+                if near && solid && deepest.is_none_or(|(least, ..)| gap.separation < least) {
+                    deepest = Some((gap.separation, normal, obstacle.body()));
                 }
             }
-            let Some((separation, normal)) = deepest else { return };
+            let Some((separation, normal, body)) = deepest else { return };
             // Where there is no room for its skin on both sides it goes to the middle.
             let is_tight = separation > 0.0 && normal.dot(last) < -0.9;
-            self.position += normal * ((self.skin - separation) * if is_tight { 0.5 } else { 1.0 });
+            let out = normal * ((self.skin - separation) * if is_tight { 0.5 } else { 1.0 });
+            // What moves does not push it into walls.
+            if world.body(body).is_some_and(|body| body.kind() != BodyKind::Static) {
+                self.slide(world, frame, out, Some(body));
+            } else {
+                self.position += out;
+            }
             if is_tight {
                 return;
             }
@@ -583,7 +597,7 @@ impl CharacterMover {
         self.obstacles(world, bounds).into_iter().any(|obstacle| {
             let start = pose.relative_to(obstacle.pose());
             let gap = || distance(obstacle.shape(), &capsule, start).separation;
-            obstacle.one_way().is_some() && gap() <= self.skin + 1.0e-3
+            obstacle.one_way().is_some() && gap() <= 1.1 * self.skin
         })
     }
 
@@ -636,7 +650,7 @@ impl CharacterMover {
         let mut first: Option<Obstacle> = None;
         for obstacle in self.obstacles(world, bounds) {
             let (place, body) = (obstacle.pose(), obstacle.body());
-            if without == Some(body) || !self.is_solid(world, frame, &obstacle, motion) {
+            if without == Some(body) || !self.is_solid(frame, &obstacle, place, motion) {
                 continue;
             }
             let way = place.q.unrotate(motion);
@@ -683,15 +697,14 @@ impl CharacterMover {
     }
 
     /// Is a shape solid for something that moves this way? One-way platforms are from above, chains from
-    /// outside.
-    fn is_solid(&self, world: &World, frame: Frame, obstacle: &ShapeRef<'_>, motion: Vec2) -> bool {
-        let place = obstacle.pose();
+    /// outside. `place` is where the shape is, or was.
+    fn is_solid(&self, frame: Frame, obstacle: &ShapeRef<'_>, place: Pose, motion: Vec2) -> bool {
         if let (Some(_), Shape::Segment { a, b }) = (obstacle.link(), *obstacle.shape()) {
             let way = b - a;
             return Vec2::new(way.y, 0.0 - way.x).dot(place.unapply(self.position) - a) >= 0.0;
         }
         let Some(way) = obstacle.one_way() else { return true };
-        let way = world.body(obstacle.body()).map_or(way, |body| body.rotation().rotate(way));
+        let way = place.q.rotate(obstacle.local().q.unrotate(way));
         if self.dropping || way.dot(motion) >= 0.0 {
             return false;
         }

@@ -17,23 +17,12 @@ pub(super) const LEAST_COSINE: f32 = 0.5;
 /// What parts faster than this is still on its way out, metres a second; multiplied by the length unit.
 const PARTING_SPEED: f32 = 0.1;
 
-/// How the last step moved things, and what counts as touching.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Limits {
-    /// Length of the step, seconds.
-    pub(crate) dt: f32,
-    /// Points up to this far apart are contacts, metres.
-    pub(crate) speculative_distance: f32,
-    /// See [`Settings::length_unit`](crate::Settings).
-    pub(crate) length_unit: f32,
-}
-
-/// May this contact, which touches now and did not before, begin?
+/// May this contact, which touches now and did not before, begin? Points up to `reach` apart are contacts, metres.
 pub(crate) fn may_begin(
     contact: &Contact,
     bodies: &Bodies,
     shapes: &Shapes,
-    limits: Limits,
+    (reach, length_unit): (f32, f32),
 ) -> bool {
     let record = |i: u32| &shapes.records[i as usize];
     let (a, b) = (record(contact.shape_a), record(contact.shape_b));
@@ -43,7 +32,7 @@ pub(crate) fn may_begin(
     let pose = |shape: &ShapeRecord| bodies.poses[shape.body as usize].compose(shape.central);
     let (frame_a, frame_b) = (pose(a), pose(b));
     let b_in_a = frame_b.relative_to(frame_a);
-    let manifold = collide(&a.shape, &b.shape, b_in_a, limits.speculative_distance);
+    let manifold = collide(&a.shape, &b.shape, b_in_a, reach);
     let normal = frame_a.q.rotate(manifold.normal);
     let (mut depth, mut point) = (f32::NEG_INFINITY, frame_a.p);
     for p in manifold.points() {
@@ -51,20 +40,26 @@ pub(crate) fn may_begin(
             (depth, point) = (-p.separation, frame_a.apply(p.point));
         }
     }
+    // How a point that lies there now moved with a body in the last step, whatever has become of its velocity since.
+    let moved = |body: u32| {
+        let (from, to) = (bodies.previous[body as usize], bodies.poses[body as usize]);
+        point.relative_to(from.apply(to.unapply(point)))
+    };
     let velocity = |body: u32| {
         let arm = point.relative_to(bodies.poses[body as usize].p);
         bodies.velocity(body) + arm.perp() * bodies.angular_velocity(body)
     };
-    let approach = velocity(contact.body_a) - velocity(contact.body_b);
+    let [came, closing] = [
+        moved(contact.body_a) - moved(contact.body_b),
+        velocity(contact.body_a) - velocity(contact.body_b),
+    ]
+    .map(|way| way.dot(normal));
+    let came = if came > 0.0 { came } else { 0.0 };
     let turn = |body: u32| bodies.poses[body as usize].q;
     let sides = [(a, normal, turn(contact.body_a)), (b, -normal, turn(contact.body_b))];
-    sides.into_iter().all(|(platform, outward, q)| {
-        let closing = approach.dot(normal);
-        let came = if closing > 0.0 { closing * limits.dt } else { 0.0 };
-        is_solid_side(platform, outward, q)
-            && closing >= -PARTING_SPEED * limits.length_unit
-            && depth <= LINEAR_SLOP * limits.length_unit + came
-    })
+    (came > 0.0 || closing >= -PARTING_SPEED * length_unit)
+        && depth <= LINEAR_SLOP * length_unit + came
+        && sides.into_iter().all(|(platform, outward, q)| is_solid_side(platform, outward, q))
 }
 
 /// Does a normal out of a shape point out of its solid side? `q` is the rotation of its body.

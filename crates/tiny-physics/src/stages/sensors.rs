@@ -193,7 +193,7 @@ impl Scene<'_> {
     }
 
     /// The overlap of a swept shape with another, if the first of the pair is a sensor that sees the second and they
-    /// met on the way. What they had before the step and lost is none.
+    /// met on the way. What they had before the step and lost is none, nor is it one to be still near what was left before.
     fn on_the_way(
         &self,
         fast: &FastBody,
@@ -211,6 +211,10 @@ impl Scene<'_> {
         let motion = step.seen_from(fast.start).child(other.central);
         let slop = LINEAR_SLOP * self.length_unit;
         let toi = impact_within(&shape.shape, moving, &other.shape, &motion, (0.0, 1.0), slop)?;
-        (toi.state != ToiState::Touching || !self.sensors.saw(&overlap)).then_some(overlap)
+        let closes = || toi.normal.dot(moving.translation() - motion.translation()) > 0.0;
+        let gap = || motion.at(0.0).relative_to(moving.at(0.0));
+        let overlapped = || distance(&shape.shape, &other.shape, gap()).separation <= 0.0;
+        let began = || !self.sensors.saw(&overlap) && (closes() || overlapped());
+        (toi.state != ToiState::Touching || began()).then_some(overlap)
     }
 }

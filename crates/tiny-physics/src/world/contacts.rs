@@ -261,15 +261,10 @@ impl World {
     }
 
     /// May a contact that touches now begin? One-way platforms turn some down.
-    pub(super) fn may_begin(&self, index: u32, dt: f32) -> bool {
-        let length_unit = self.settings.length_unit;
-        let limits = one_way::Limits {
-            dt,
-            speculative_distance: super::SPECULATIVE_DISTANCE * length_unit,
-            length_unit,
-        };
+    pub(super) fn may_begin(&self, index: u32) -> bool {
         let contact = &self.state.contacts.records[index as usize];
-        one_way::may_begin(contact, &self.state.bodies, &self.state.shapes, limits)
+        let lengths = (self.contact_reach(), self.settings.length_unit);
+        one_way::may_begin(contact, &self.state.bodies, &self.state.shapes, lengths)
     }
 
     /// A contact has begun to touch.

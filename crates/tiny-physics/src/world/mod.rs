@@ -380,7 +380,7 @@ impl World {
         let mut changes = core::mem::take(&mut self.scratch.changes);
         let Scratch { schedule, found_changes, .. } = &mut self.scratch;
         touching::find_changes(team, &self.state.graph, schedule, found_changes, &mut changes);
-        changes.began.retain(|&index| self.may_begin(index, lengths.dt));
+        changes.began.retain(|&index| self.may_begin(index));
         self.transfer(team, &changes);
         self.assign_paces(lengths);
         self.stats.contacts_begun = changes.began.len();

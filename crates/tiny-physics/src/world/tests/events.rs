@@ -219,3 +219,21 @@ fn a_joint_breaks_by_a_peak_within_a_step() {
     }
     assert!(hidden > 0, "some peaks are over at the end of their step");
 }
+
+#[test]
+fn what_flies_through_a_sensor_is_seen_once() {
+    for k in 0..200 {
+        let mut world = World::new(Vec2::ZERO);
+        world.add_body(RigidBody::fixed().shape(rect(0.2, 1.0).sensor())).unwrap();
+        let velocity = Vec2::new(10.0 + 0.1 * k as f32, 0.0);
+        let ball = RigidBody::dynamic().position(Vec2::new(-2.0 - 0.003 * k as f32, 0.0));
+        world.add_body(ball.velocity(velocity).shape(rect(0.1, 0.1))).unwrap();
+        let (mut begun, mut ended) = (0, 0);
+        for _ in 0..40 {
+            world.step(DT);
+            begun += world.events().sensor_begin().len();
+            ended += world.events().sensor_end().len();
+        }
+        assert_eq!((begun, ended), (1, 1), "{k}");
+    }
+}

@@ -80,6 +80,21 @@ fn wood_floats_at_the_depth_of_its_density() {
 }
 
 #[test]
+fn small_floats_come_to_rest() {
+    for (radius, density, dt) in [(0.1, 200.0, DT), (0.05, 300.0, DT), (0.1, 300.0, 2.0 * DT)] {
+        let mut world = world();
+        let cork = add(&mut world, 0.0, 0.2, circle(radius).density(density));
+        world.body_mut(cork).unwrap().set_can_sleep(false);
+        for _ in 0..1200 {
+            world.apply_water(&Water::default(), &QueryFilter::new(), dt);
+            world.step(dt);
+        }
+        let speed = world.body(cork).unwrap().velocity().length();
+        assert!(speed < 0.001, "{radius} {density}: {speed}");
+    }
+}
+
+#[test]
 fn a_stream_carries_what_swims_and_iron_sinks() {
     let mut world = world();
     let cork = add(&mut world, 0.0, 0.0, circle(0.3).density(300.0));

@@ -162,3 +162,26 @@ fn a_platform_can_be_opened_to_let_go() {
     run(&mut world, 60);
     assert!(y(&world, body) < -2.0);
 }
+
+#[test]
+fn it_holds_what_came_from_above_whatever_has_become_of_step_and_speed() {
+    for k in 0..40 {
+        for shape in shapes() {
+            for calmed in [false, true] {
+                let mut world = world();
+                add_platform(&mut world, BodyKind::Static, 0.0, 0.05);
+                let body = RigidBody::dynamic().position(Vec2::new(0.0, 1.0 + 0.02 * k as f32));
+                let body = world.add_body(body.lock_rotation().shape(shape.clone())).unwrap();
+                for step in 0..160 {
+                    let short = !calmed && step % 2 == 0;
+                    world.step(if short { 0.25 * DT } else { DT });
+                    let velocity = world.body(body).unwrap().velocity();
+                    if calmed && y(&world, body) < 0.6 {
+                        world.body_mut(body).unwrap().set_velocity(velocity * 0.2);
+                    }
+                }
+                assert!(y(&world, body) > 0.3, "{k} {calmed} {shape:?}: {}", y(&world, body));
+            }
+        }
+    }
+}
