@@ -235,6 +235,33 @@ fn what_is_squeezed_weighs_what_it_weighs() {
     assert!((bears / weight - 1.0).abs() < 0.01, "{bears} of {weight}");
 }
 
+/// Stones of up to a hundred times the weight of others are tipped into a bin: all weigh what they did in every step, and come to rest.
+/// One whose mass had counted as two in a step kept the weight of the second, and flew off.
+#[test]
+fn what_was_squeezed_falls_again_as_it_did() {
+    for seed in 0..4 {
+        let (mut random, mut world) = (Random::new(40 + seed), world_with_floor());
+        for side in [-2.5, 2.5] {
+            let wall = RigidBody::fixed().position(Vec2::new(side, 5.0)).shape(rect(0.5, 5.0));
+            world.add_body(wall).expect("a wall");
+        }
+        for i in 0..80 {
+            let size = random.range(0.08, 0.25);
+            let shape = if i % 2 == 0 { circle(size) } else { rect(size, 0.6 * size) };
+            let at = Vec2::new(-1.5 + 0.6 * (i % 6) as f32, 0.5 + 0.6 * (i / 6) as f32);
+            let stone = ShapeDef::new(shape).density(100.0_f32.powf(random.range(-0.5, 0.5)));
+            world.add_body(RigidBody::dynamic().position(at).shape(stone)).expect("a stone");
+        }
+        let mut weighed = 0;
+        for _ in 0..1200 {
+            world.step(DT);
+            weighed += world.stats().squeezed_bodies;
+            assert!(world.bodies().all(|body| body.gravity_scale() == 1.0), "heap {seed}");
+        }
+        assert!(weighed > 0 && !world.bodies().any(|body| body.is_awake()), "heap {seed}");
+    }
+}
+
 /// So fast that it would reach the ground in the same step: that hit is not the one that counts.
 #[test]
 fn what_is_squeezed_by_what_would_reach_the_ground_is_not_passed_through() {

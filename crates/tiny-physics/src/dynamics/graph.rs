@@ -443,16 +443,6 @@ impl Graph {
         }
     }
 
-    /// Has the next step begin without the impulses of a contact.
-    pub(crate) fn forget_impulses(&mut self, contact: &Contact) {
-        if let Some((bucket, slot)) = self.solved_at(contact) {
-            let lane = slot % BLOCK;
-            for point in &mut self.buckets.list_mut()[bucket].constraints[slot / BLOCK].points {
-                (point.normal_impulse[lane], point.tangent_impulse[lane]) = (0.0, 0.0);
-            }
-        }
-    }
-
     /// The greatest impulse that a point of a contact carries.
     pub(crate) fn impulse(&self, contact: &Contact) -> f32 {
         self.solved_at(contact).map_or(0.0, |(bucket, slot)| {
