@@ -105,5 +105,5 @@ fn memory_follows_bodies_and_contacts_and_is_used_again() {
     assert_eq!(after.shapes.used, memory.shapes.used);
     // Of what is removed, nobody remembers that it was pressed: a body and a mass.
     let less = memory.bodies.used - after.bodies.used;
-    assert!(less % 8 == 0 && less < bodies, "{less} bytes");
+    assert!(less.is_multiple_of(8) && less < bodies, "{less} bytes");
 }
