@@ -151,7 +151,7 @@ fn run_tree<S: Simd>(
     if again && tree.is_undisturbed() {
         return;
     }
-    let rates = Rates::new(substep, tree.pace);
+    let rates = Rates::new(substep, tree.pace, pass == Pass::Solve);
     let moved = pass == Pass::Relax && tree.moved;
     if moved || !tree.fresh {
         rows::refresh(simd, tree, lanes, bodies, substep);
@@ -167,16 +167,12 @@ fn run_tree<S: Simd>(
             }
             warm_start(simd, tree);
         }
-        Pass::Solve => {
-            drive::<_, true>(simd, tree, &rates);
-            solve::<_, true>(simd, tree, &rates);
-        }
         _ => {
             if moved && !is_jointed(tree.pace) {
                 kick(simd, tree, 1.0);
             }
-            drive::<_, false>(simd, tree, &rates);
-            solve::<_, false>(simd, tree, &rates);
+            drive(simd, tree, &rates);
+            solve(simd, tree, &rates);
         }
     }
     rows::store(tree, bodies);
@@ -216,7 +212,7 @@ fn turn(nodes: &mut [TreeNode], [a, b]: [u32; 2], impulse: f64) {
 
 /// Springs and motors, joint by joint.
 #[inline(always)]
-fn drive<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) {
+fn drive<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
     let JointTree { nodes, links, axes, .. } = tree;
     for axis in axes {
         let link = &mut links[axis.link as usize];
@@ -228,23 +224,27 @@ fn drive<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates
             turn(nodes, [link.a, link.b], change);
         }
         if axis.axis.push != 0.0 || axis.axis.motor_max != 0.0 {
-            drive_axis::<S, BIAS>(simd, link, axis, nodes, rates);
+            drive_axis(simd, link, axis, nodes, rates);
         }
     }
 }
 
 /// Along the free coordinate, with the mass of the two bodies as the joint's rigid rows tie them.
 #[inline(always)]
-fn drive_axis<S: Simd, const BIAS: bool>(
+fn drive_axis<S: Simd>(
     simd: S,
     link: &mut TreeLink,
     axis: &mut TreeAxis,
     nodes: &mut [TreeNode],
-    Rates { stride, .. }: &Rates,
+    Rates { stride, bias, .. }: &Rates,
 ) {
     let mut velocity = velocity(link, nodes);
     let masses = [stride.invert(axis.tied), axis.tied];
-    let change = axis.axis.drive::<BIAS>(link.value, &mut velocity, masses);
+    let change = if *bias {
+        axis.axis.drive::<true>(link.value, &mut velocity, masses)
+    } else {
+        axis.axis.drive::<false>(link.value, &mut velocity, masses)
+    };
     rows::push(simd, nodes, [link.a, link.b], &axis.on, change);
     for (impulse, given) in link.impulses[..link.rigid].iter_mut().zip(axis.given) {
         *impulse += given * change;
@@ -256,17 +256,17 @@ fn drive_axis<S: Simd, const BIAS: bool>(
 /// Which do is not known before: those that pushed before, and those that would be overrun, begin. A limit that
 /// would have to pull goes, one that is overrun comes, and the tree is solved again.
 #[inline(always)]
-fn solve<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) {
-    begin_limits::<S, BIAS>(simd, tree, rates);
-    let share = if BIAS { snap_share(simd, tree, rates) } else { 0.0 };
+fn solve<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
+    begin_limits(simd, tree, rates);
+    let share = if rates.bias { snap_share(simd, tree, rates) } else { 0.0 };
     let rates = &Rates { push: share * rates.push, ..*rates };
     for _ in 0..MOST_SOLVES {
         factor::factor(simd, tree);
-        demand::<S, BIAS>(simd, tree, rates);
+        demand(simd, tree, rates);
         factor::solve(simd, tree);
         apply(simd, tree);
-        close::<S, BIAS>(simd, tree, rates);
-        if !change_limits::<S, BIAS>(simd, tree, rates) {
+        close(simd, tree, rates);
+        if !change_limits(simd, tree, rates) {
             break;
         }
     }
@@ -278,12 +278,14 @@ struct Rates {
     stride: Stride<f64>,
     /// Part that is taken away.
     push: f64,
+    /// Are they made good in this pass at all? Told at run time: both ways together would not fit into the cache for code.
+    bias: bool,
 }
 
 impl Rates {
-    fn new(substep: Substep, pace: usize) -> Self {
+    fn new(substep: Substep, pace: usize, bias: bool) -> Self {
         let push = if is_jointed(pace) { TOUCHED_PUSH } else { PUSH };
-        Self { stride: Stride::new((), 0, substep), push }
+        Self { stride: Stride::new((), 0, substep), push, bias }
     }
 
     /// Velocity that the error of a rigid row asks for.
@@ -330,13 +332,7 @@ fn snap_share<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) -> f64 {
 /// Within the substep a limit may be reached, but not passed. An overrun goes as it does in lanes, softly while it is
 /// small, and no faster than what the limit has taken.
 #[inline(always)]
-fn overrun<const BIAS: bool>(
-    link: &TreeLink,
-    axis: &TreeAxis,
-    velocity: f64,
-    side: f64,
-    rates: &Rates,
-) -> f64 {
+fn overrun(link: &TreeLink, axis: &TreeAxis, velocity: f64, side: f64, rates: &Rates) -> f64 {
     let Stride { inv_h, snap, snap_turn, unit, .. } = rates.stride;
     let end = axis.axis.ends[usize::from(side < 0.0)];
     let (velocity, room) = (side * velocity, side * (link.value - end));
@@ -350,7 +346,7 @@ fn overrun<const BIAS: bool>(
     let (soft, firm) = (TOUCHED_PUSH * room, room + unit * SOFT_OVERRUN);
     let push = if firm < soft { firm } else { soft } * inv_h;
     let push = if push < least { least } else { push };
-    -(velocity + if BIAS { push } else { 0.0 })
+    -(velocity + if rates.bias { push } else { 0.0 })
 }
 
 /// Velocity along the free coordinate of a link.
@@ -367,14 +363,13 @@ fn release<S: Simd>(simd: S, link: &TreeLink, axis: &mut TreeAxis, nodes: &mut [
 
 /// Begins with the limits that pushed or would be overrun.
 #[inline(always)]
-fn begin_limits<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) {
+fn begin_limits<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
     let JointTree { nodes, links, axes, factored, .. } = tree;
     for axis in axes {
         let link = &mut links[axis.link as usize];
         let velocity = velocity(link, nodes);
         let wants = |side: f64| {
-            side * axis.axis.limits[0] > 0.0
-                || overrun::<BIAS>(link, axis, velocity, side, rates) > 0.0
+            side * axis.axis.limits[0] > 0.0 || overrun(link, axis, velocity, side, rates) > 0.0
         };
         let side = if wants(1.0) {
             1.0
@@ -395,7 +390,7 @@ fn begin_limits<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates:
 
 /// Lets go of limits that pull, takes hold of those that are overrun. Has anything changed?
 #[inline(always)]
-fn change_limits<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) -> bool {
+fn change_limits<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) -> bool {
     let JointTree { nodes, links, axes, factored, .. } = tree;
     let mut changed = false;
     for axis in axes {
@@ -411,7 +406,7 @@ fn change_limits<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates
         let velocity = velocity(link, nodes);
         let unit = if link.class == JointClass::Revolute { 1.0 } else { rates.stride.unit };
         for side in [1.0, -1.0] {
-            if overrun::<BIAS>(link, axis, velocity, side, rates) > LEAST_OVERRUN * unit {
+            if overrun(link, axis, velocity, side, rates) > LEAST_OVERRUN * unit {
                 link.limit = side;
                 changed = true;
             }
@@ -423,10 +418,10 @@ fn change_limits<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates
 
 /// Cuts, one by one, each with all of the tree: they close what it has left open.
 #[inline(always)]
-fn close<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) {
+fn close<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
     for cut in tree.uncut()..tree.links.len() {
         let link = &tree.links[cut];
-        let short = short_of::<S, BIAS>(simd, link, &tree.nodes, rates);
+        let short = short_of(simd, link, &tree.nodes, rates);
         let change = times(simd, &link.inverse, &short);
         factor::pull(simd, tree, cut, &change);
         tree.links[cut].change = change;
@@ -436,17 +431,17 @@ fn close<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates
 
 /// Right sides: minus what the velocities and position errors are short of.
 #[inline(always)]
-fn demand<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rates) {
+fn demand<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
     let uncut = tree.uncut();
     let JointTree { nodes, links, axes, .. } = tree;
     for link in &mut links[..uncut] {
-        link.rhs = short_of::<S, BIAS>(simd, link, nodes, rates);
+        link.rhs = short_of(simd, link, nodes, rates);
     }
     for axis in axes {
         let link = &mut links[axis.link as usize];
         if link.limit != 0.0 {
-            let mut wanted = overrun::<BIAS>(link, axis, velocity(link, nodes), link.limit, rates);
-            if BIAS {
+            let mut wanted = overrun(link, axis, velocity(link, nodes), link.limit, rates);
+            if rates.bias {
                 wanted -= link.coordinate.compliance * link.limit * axis.axis.limits[0];
             }
             link.rhs[link.rigid] = wanted;
@@ -456,15 +451,10 @@ fn demand<S: Simd, const BIAS: bool>(simd: S, tree: &mut JointTree, rates: &Rate
 
 /// Of the rows of a link.
 #[inline(always)]
-fn short_of<S: Simd, const BIAS: bool>(
-    simd: S,
-    link: &TreeLink,
-    nodes: &[TreeNode],
-    rates: &Rates,
-) -> Three {
+fn short_of<S: Simd>(simd: S, link: &TreeLink, nodes: &[TreeNode], rates: &Rates) -> Three {
     let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
     let mut rhs = [0.0; 4];
-    if BIAS {
+    if rates.bias {
         rhs = curve(simd, link, a, b, &rates.stride);
         let rows = link.error.iter().zip(&link.compliance).zip(&link.impulses);
         for (rhs, ((error, compliance), impulse)) in rhs.iter_mut().zip(rows) {
