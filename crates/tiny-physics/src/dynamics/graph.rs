@@ -434,13 +434,13 @@ impl Graph {
         }
     }
 
-    /// Has the constraint of a contact written anew.
-    pub(crate) fn refresh(&mut self, contact: &Contact) {
-        if let Place::Graph { colour, slot } = contact.place
-            && colour as usize != IDLE
-        {
-            self.fresh.push((colour, contact.class as u8, slot / BLOCK as u32));
-        }
+    /// The block and lane in which a contact is solved.
+    pub(crate) fn solved_mut(
+        &mut self,
+        contact: &Contact,
+    ) -> Option<(&mut ConstraintBlock, usize)> {
+        let (bucket, slot) = self.solved_at(contact)?;
+        Some((&mut self.buckets.list_mut()[bucket].constraints[slot / BLOCK], slot % BLOCK))
     }
 
     /// The greatest impulse that a point of a contact carries.

@@ -8,6 +8,7 @@ pub(crate) mod arcs;
 pub(crate) mod boxes;
 pub(crate) mod contact_solver;
 pub(crate) mod continuous;
+mod effective_mass;
 pub(crate) mod finalize;
 pub(crate) mod integrate;
 pub(crate) mod islands;

@@ -6,6 +6,7 @@
 //! after the pass are simply run again.
 
 use super::ahead::{HARMLESS, HEAVIER, Predictions, SLIGHT};
+use super::effective_mass::effective_mass;
 use super::middle::Lead;
 use super::narrow_context::Context;
 use super::surfaces::{self, LanePoints};
@@ -593,12 +594,4 @@ impl<L: Lanes> Arms<L> {
         let normal = effective_mass(token, self.normal, inverses);
         (normal, effective_mass(token, self.tangent, inverses))
     }
-}
-
-/// 1 / (sum of inverse masses + arms squared times inverse inertias), zero where nothing can move.
-#[inline(always)]
-fn effective_mass<L: Lanes>(token: L::Token, arm: [L; 2], [mass, a, b]: [L; 3]) -> L {
-    let k = mass + a * arm[0] * arm[0] + b * arm[1] * arm[1];
-    let zero = L::splat(token, 0.0);
-    L::select(k.gt(zero), L::splat(token, 1.0) / k, zero)
 }

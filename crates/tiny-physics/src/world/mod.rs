@@ -389,17 +389,15 @@ impl World {
         for &contact in &self.scratch.predictions.fresh {
             self.state.graph.watch(&self.state.contacts.records[contact as usize]);
         }
+        self.update_fresh_manifolds(team, lengths);
         let predictions = &self.scratch.predictions;
         if !(predictions.squeezed.pressed.is_empty() && self.state.bodies.pressed.is_empty()) {
-            self.weigh_squeezed(team, lengths);
+            self.weigh_squeezed();
         }
-        self.update_fresh_manifolds(team, lengths);
     }
 
     /// Has light bodies between heavy ones and what nothing moves count as heavier in this step.
-    fn weigh_squeezed(&mut self, team: &Team, lengths: Lengths) {
-        // What has just woken leans on others as well.
-        self.update_fresh_manifolds(team, lengths);
+    fn weigh_squeezed(&mut self) {
         let State { bodies, contacts, graph, .. } = &mut self.state;
         let (predictions, length_unit) = (&mut self.scratch.predictions, self.settings.length_unit);
         self.stats.squeezed_bodies =

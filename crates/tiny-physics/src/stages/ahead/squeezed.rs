@@ -8,9 +8,10 @@
 //! It stays so, with its own weight, while its contacts carry what would throw it away: a press goes on pressing. With its own
 //! mass in between 25 of 120 bodies under presses were gone through.
 
-use crate::dynamics::{Bodies, Contacts, Graph, Slot};
+use crate::dynamics::{Bodies, BodyInfo, Contacts, Graph, Slot};
 use crate::footprint::footprint;
 use crate::math::Vec2;
+use crate::stages::effective_mass;
 
 /// What is hit by something so many times its mass may be squeezed.
 pub(crate) const HEAVIER: f32 = 4.0;
@@ -100,7 +101,7 @@ impl Squeezed {
         self.hit.clear();
     }
 
-    /// Gives the bodies of rows that are squeezed the mass that they count as, and has their constraints written anew.
+    /// Gives the bodies of rows that are squeezed the mass that they count as.
     pub(super) fn weigh(
         &mut self,
         bodies: &mut Bodies,
@@ -170,7 +171,7 @@ impl Squeezed {
     }
 }
 
-/// Has a body count as what presses it says, if that is more than its own mass, and its constraints written anew.
+/// Has a body count as what presses it says, if that is more than its own mass, and its constraints follow.
 fn weigh(
     body: u32,
     by: f32,
@@ -178,17 +179,18 @@ fn weigh(
     contacts: &Contacts,
     graph: &mut Graph,
 ) -> Option<Weighed> {
-    let (row, info) = (&mut bodies.rows[body as usize], &mut bodies.infos[body as usize]);
+    let row = &mut bodies.rows[body as usize];
     let part = SHARE * by / row[Slot::INV_MASS];
     if part >= 1.0 {
         return None;
     }
     row[Slot::INV_MASS] *= part;
     row[Slot::INV_INERTIA] *= part;
-    for (index, _) in contacts.of_body(info.first_contact) {
-        graph.refresh(&contacts.records[index as usize]);
+    let BodyInfo { first_contact, gravity_scale, .. } = bodies.infos[body as usize];
+    for (index, _) in contacts.of_body(first_contact) {
+        effective_mass::follow(graph, &contacts.records[index as usize], bodies);
     }
-    Some(Weighed { body, by, gravity_scale: info.gravity_scale })
+    Some(Weighed { body, by, gravity_scale })
 }
 
 impl Scene<'_> {
