@@ -57,6 +57,16 @@ record! {
 
 edges!(Contact, first_contact);
 
+impl Contact {
+    /// Multiplies the impulses that are kept.
+    pub(crate) fn scale_saved(&mut self, factor: f32) {
+        for point in &mut self.saved {
+            point.normal_impulse *= factor;
+            point.tangent_impulse *= factor;
+        }
+    }
+}
+
 store! {
     /// All contacts of a world.
     #[derive(Debug, PartialEq, Default)]

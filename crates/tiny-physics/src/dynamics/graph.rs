@@ -321,6 +321,12 @@ impl Graph {
         self.all().map(|(place, _, bucket)| (place, bucket)).take_while(|&(place, _)| place != IDLE)
     }
 
+    /// The same, to change.
+    pub(crate) fn touching_buckets_mut(&mut self) -> impl Iterator<Item = (usize, &mut Bucket)> {
+        let all = self.buckets.entries_mut().map(|(key, bucket)| (place_at(key), bucket));
+        all.take_while(|&(place, _)| place != IDLE)
+    }
+
     /// The buckets of contacts that touch at a pace.
     pub(crate) fn of_pace(&self, pace: usize) -> &[Bucket] {
         &self.buckets.list()[self.range_of_pace(pace)]
@@ -470,6 +476,18 @@ impl Graph {
                     lanes &= lanes - 1;
                 }
             }
+        }
+    }
+
+    /// Multiplies all impulses.
+    pub(crate) fn scale(&mut self, factor: f32) {
+        for bucket in self.buckets.list_mut() {
+            let surfaces = bucket.surfaces.iter_mut().map(|block| &mut block.rolling_impulse);
+            let points = bucket.constraints.iter_mut().flat_map(|block| &mut block.points);
+            let points = points.flat_map(|point| {
+                [&mut point.normal_impulse, &mut point.tangent_impulse, &mut point.load]
+            });
+            points.chain(surfaces).flatten().for_each(|impulse| *impulse *= factor);
         }
     }
 

@@ -52,6 +52,12 @@ impl JointClass {
             JointKind::Filter => return None,
         })
     }
+
+    /// Multiplies impulses. What a gear has slipped is none.
+    pub(crate) fn scale(self, impulses: &mut Impulses, factor: f32) {
+        let count = if self == Self::Gear { 1 } else { impulses.len() };
+        impulses[..count].iter_mut().for_each(|impulse| *impulse *= factor);
+    }
 }
 
 /// Lanes, or parts made of lanes.

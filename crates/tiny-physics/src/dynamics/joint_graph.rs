@@ -10,8 +10,8 @@ use super::coloured::{
     take_colour,
 };
 use super::joint_blocks::{
-    DistanceBlock, DriveBlock, GearBlock, Impulses, JointLanes, PulleyBlock, RevoluteBlock,
-    SliderBlock, WeldBlock,
+    DistanceBlock, DriveBlock, GearBlock, Impulses, JointClass, JointLanes, PulleyBlock,
+    RevoluteBlock, SliderBlock, WeldBlock,
 };
 use super::joint_forest::{JointForest, JointTree, is_rigid};
 use super::joints::{JointRecord, Joints};
@@ -110,6 +110,15 @@ impl<B: JointLanes> JointBucket<B> {
     fn mark_stale(&mut self, slot: u32) {
         self.stale[slot as usize / BLOCK] = true;
     }
+
+    /// Multiplies the impulses of all slots.
+    fn scale(&mut self, class: JointClass, factor: f32) {
+        for slot in 0..self.joints.len() {
+            let mut impulses = self.saved(slot as u32);
+            class.scale(&mut impulses, factor);
+            self.blocks[slot / BLOCK].restore(slot % BLOCK, &impulses);
+        }
+    }
 }
 
 /// Calls a macro with the list of all classes: the bucket, the class, its block. What is given goes before the list.
@@ -145,6 +154,11 @@ macro_rules! declare {
         }
 
         impl JointColour {
+            /// Multiplies all impulses.
+            fn scale(&mut self, factor: f32) {
+                $(self.$bucket.scale(JointClass::$class, factor);)*
+            }
+
             /// The joints of each class.
             fn lists(&self) -> impl Iterator<Item = &Vec<u32>> {
                 [$(&self.$bucket.joints),*].into_iter()
@@ -303,6 +317,11 @@ impl JointGraph {
         record.lanes().map_or(PLAIN, |(place, ..)| pace_at(place))
     }
 
+    /// Multiplies all impulses.
+    pub(crate) fn scale(&mut self, factor: f32) {
+        self.colours.list_mut().iter_mut().for_each(|colour| colour.scale(factor));
+    }
+
     /// Joints that are awake and have something to solve.
     pub(crate) fn count(&self) -> usize {
         self.count
@@ -311,7 +330,18 @@ impl JointGraph {
     /// Puts a joint into the graph with the impulses of its record. Does nothing where it is there
     /// already, has nothing to solve, or one of its bodies is not enabled.
     pub(crate) fn insert(&mut self, bodies: &mut Bodies, joints: &mut Joints, index: u32) {
-        let record = &joints.records[index as usize];
+        self.insert_scaled(bodies, joints, index, 1.0);
+    }
+
+    /// The same with a multiple of the impulses.
+    pub(crate) fn insert_scaled(
+        &mut self,
+        bodies: &mut Bodies,
+        joints: &mut Joints,
+        index: u32,
+        factor: f32,
+    ) {
+        let record = &mut joints.records[index as usize];
         let enabled = |body: u32| bodies.infos[body as usize].enabled;
         if record.class().is_none()
             || record.place != Place::Asleep
@@ -319,6 +349,7 @@ impl JointGraph {
         {
             return;
         }
+        record.scale_saved(factor);
         let (a, b) = (record.body_a, record.body_b);
         self.mixed |= bodies.are_mixed(a, b);
         self.forest.note(a, b);

@@ -41,10 +41,11 @@ impl JointRecord {
         }
     }
 
-    /// Multiplies the impulses that are kept. What a gear has slipped is none.
+    /// Multiplies the impulses that are kept.
     pub(crate) fn scale_saved(&mut self, factor: f32) {
-        let count = if self.class() == Some(JointClass::Gear) { 1 } else { self.saved.len() };
-        self.saved[..count].iter_mut().for_each(|impulse| *impulse *= factor);
+        if let Some(class) = self.class() {
+            class.scale(&mut self.saved, factor);
+        }
     }
 
     /// Where it has lanes: place, class, slot.

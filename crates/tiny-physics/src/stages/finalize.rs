@@ -2,9 +2,10 @@
 
 use super::boxes::{self, Boxes, Moved, Way};
 use super::rests;
+use super::solve::Lengths;
 use crate::broad_phase::BroadPhase;
 use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, BodyInfo, Shapes, Slot};
+use crate::dynamics::{Bodies, BodyInfo, Motion, Shapes, Slot};
 use crate::geometry::Sweep;
 use crate::math::{Aabb, Pose, Transform, Vec2};
 use crate::simd::Row;
@@ -81,6 +82,8 @@ impl FastBody {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Options {
     pub(crate) dt: f32,
+    /// Length of a plain substep, seconds.
+    h: f32,
     pub(crate) continuous: bool,
     /// See [`Settings::length_unit`](crate::Settings).
     pub(crate) length_unit: f32,
@@ -89,13 +92,20 @@ pub(crate) struct Options {
 }
 
 impl Options {
-    pub(crate) fn new(dt: f32, continuous: bool, length_unit: f32) -> Self {
-        Self { dt, continuous, length_unit, calm: rests::calm_of(dt) }
+    pub(crate) fn new(lengths: Lengths, continuous: bool, length_unit: f32) -> Self {
+        let Lengths { dt, h, .. } = lengths;
+        Self { dt, h, continuous, length_unit, calm: rests::calm_of(dt) }
     }
 }
 
 /// Bodies whose outline moves less than this fraction of their smallest half width in a step cannot jump.
 pub(super) const SAFE_FRACTION: f32 = 0.5;
+
+/// What goes off by more than this part of what the forces on it ask for is not held.
+const HELD: f32 = 0.25;
+
+/// What forces would take longer than this to get to its sleep speed may sleep, seconds: what floats swings on for long.
+const PATIENCE: f32 = 20.0;
 
 /// Bodies that one member of the team finalises at a time.
 const CHUNK: usize = 128;
@@ -124,7 +134,7 @@ pub(crate) fn run(
     options: Options,
     found: &mut Vec<Findings>,
 ) -> usize {
-    let Bodies { awake, rows, poses, previous, infos, .. } = bodies;
+    let Bodies { awake, rows, poses, previous, motions, starts, infos, .. } = bodies;
     let previous = SharedSlice::new(previous);
     let (rows, poses, infos) =
         (SharedSlice::new(rows), SharedSlice::new(poses), SharedSlice::new(infos));
@@ -139,7 +149,9 @@ pub(crate) fn run(
                     poses.update(index, |pose| {
                         previous.write(index, *pose);
                         infos.update(index, |info| {
-                            let body = FinalBody { index, row, pose, info };
+                            let (motion, start) =
+                                (&motions[index as usize], &starts[index as usize]);
+                            let body = FinalBody { index, row, pose, info, motion, start };
                             finalize_body(body, boxes, options, found);
                         });
                     });
@@ -159,11 +171,14 @@ struct FinalBody<'a> {
     row: &'a mut Row,
     pose: &'a mut Pose,
     info: &'a mut BodyInfo,
+    /// What forces have added in the last substep, and the velocity that they had made before impulses.
+    motion: &'a Motion,
+    start: &'a [f32; 4],
 }
 
 #[inline]
 fn finalize_body(body: FinalBody<'_>, boxes: Boxes<'_>, options: Options, found: &mut Findings) {
-    let FinalBody { index, row, pose, info } = body;
+    let FinalBody { index, row, pose, info, motion: Motion { gain, .. }, start: base } = body;
     let motion = Vec2::new(row[Slot::DX], row[Slot::DY]);
     let turn = row[Slot::DA];
     // All eight at once, without a branch for each.
@@ -177,7 +192,7 @@ fn finalize_body(body: FinalBody<'_>, boxes: Boxes<'_>, options: Options, found:
     let start = *pose;
     *pose = Pose::new(start.p + motion, start.q.integrate(turn));
     let way = motion.length();
-    time_rest(row, [way, turn], info, options);
+    time_rest(row, [way, turn], [base, gain], info, options);
     info.force = Vec2::ZERO;
     info.torque = 0.0;
     let reach = way + turned_reach(turn, info);
@@ -202,10 +217,17 @@ pub(super) fn turned_reach(turn: f32, info: &BodyInfo) -> f32 {
 }
 
 /// Counts the time that a body has been slower than its sleep speed, by its velocity and by how far it went:
-/// what is being pushed out of something has no velocity left at the end of a step.
+/// what is being pushed out of something has no velocity left at the end of a step. What is not held against the forces on it
+/// does not rest, however slow it is yet.
 #[inline]
-fn time_rest(row: &Row, [way, turn]: [f32; 2], info: &mut BodyInfo, options: Options) {
-    let Options { dt, length_unit, .. } = options;
+fn time_rest(
+    row: &Row,
+    [way, turn]: [f32; 2],
+    [base, gain]: [&[f32; 4]; 2],
+    info: &mut BodyInfo,
+    options: Options,
+) {
+    let Options { dt, h, length_unit, .. } = options;
     // All are finite.
     let larger = |a: f32, b: f32| if a > b { a } else { b };
     let speed = larger(Vec2::new(row[Slot::VX], row[Slot::VY]).length(), way / dt);
@@ -215,9 +237,16 @@ fn time_rest(row: &Row, [way, turn]: [f32; 2], info: &mut BodyInfo, options: Opt
     info.stirred = larger(info.stirred - dt, 0.0);
     // A platform that creeps must not stop.
     let limit = if info.kind == BodyKind::Dynamic { info.sleep_speed * length_unit } else { 0.0 };
-    if info.can_sleep && fastest <= limit {
+    let most = limit * h / PATIENCE;
+    if info.can_sleep && fastest <= limit && is_held(row, [base, gain], [most, info.max_extent]) {
         info.sleep_time += dt;
     } else {
         info.sleep_time = 0.0;
     }
+}
+
+/// Is a body held against the forces on it, or is what they add to its speed in a substep no more than `most`?
+fn is_held(row: &Row, [base, gain]: [&[f32; 4]; 2], [most, extent]: [f32; 2]) -> bool {
+    let yields = |k: usize| (row[k] - base[k] + gain[k] - HELD * gain[k]) * gain[k];
+    yields(0) + yields(1) <= most * most && yields(2) * extent * extent <= most * most
 }

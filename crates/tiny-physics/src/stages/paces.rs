@@ -413,11 +413,9 @@ fn change(stores: &mut Stores<'_>, rules: Rules, memory: &mut Memory) {
     for &(index, old, sinks) in moved_contacts.iter() {
         let contact = &mut contacts.records[index as usize];
         let new = bodies.common_pace(contact.body_a, contact.body_b);
-        let scale = rescale(old, new);
-        for (k, point) in contact.saved.iter_mut().enumerate() {
-            point.normal_impulse *= scale;
-            point.tangent_impulse *= scale;
-            point.rest = sinks[k].rest_at(new);
+        contact.scale_saved(rescale(old, new));
+        for (point, sink) in contact.saved.iter_mut().zip(sinks) {
+            point.rest = sink.rest_at(new);
         }
         graph.insert(bodies, contacts, index);
     }

@@ -5,7 +5,7 @@
 //! at the plain pace, less the one that it has. From then on the spring pushes as at that depth, and the island goes
 //! back to the plain pace as it stands. A rest is never more than the load accounts for, so it goes with the load.
 
-use crate::dynamics::{Bodies, Bucket, PointLanes, REFINEMENT};
+use crate::dynamics::{Bodies, Bucket, Graph, PointLanes, REFINEMENT, flags, pace_at};
 use crate::simd::BLOCK;
 
 /// Speed of bodies that have settled at most, length units a second. What sways goes on swaying at softer springs, twice
@@ -71,6 +71,28 @@ impl Sink {
     pub(crate) fn rest_at(self, pace: usize) -> f32 {
         let refinement = REFINEMENT[pace] as f32;
         (self.full / (refinement * refinement) + self.separation).max(0.0)
+    }
+}
+
+/// Lets contacts of bodies that have settled stay where they are under another compliance.
+pub(crate) fn stay(graph: &mut Graph, bodies: &Bodies, compliance: Compliance) {
+    for (place, bucket) in graph.touching_buckets_mut() {
+        for slot in 0..bucket.contacts.len() {
+            let (a, b) = bucket.bodies(slot);
+            if is_calm(bodies, a) && is_calm(bodies, b) {
+                let pace = pace_at(place);
+                let sinks = Sink::of(bucket, slot, pace, compliance, bodies);
+                let (block, lane) = (slot / BLOCK, slot % BLOCK);
+                let surface = &mut bucket.surfaces[block];
+                let rests = [&mut surface.rest_1[lane], &mut surface.rest_2[lane]];
+                // What has just woken is not known yet, and keeps its rest.
+                for (rest, sink) in rests.into_iter().zip(sinks).filter(|(_, sink)| sink.full > 0.0)
+                {
+                    *rest = sink.rest_at(pace);
+                }
+                bucket.heads[block].flags |= flags::RESTS;
+            }
+        }
     }
 }
 

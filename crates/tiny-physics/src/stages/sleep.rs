@@ -7,8 +7,9 @@
 
 use super::islands::{self, Islands, Stores};
 use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, Contacts, Graph, Joints, NULL, Place, next_edge};
+use crate::dynamics::{Bodies, Bucket, Contacts, Graph, Joints, NULL, Place, flags, next_edge};
 use crate::math::Vec2;
+use crate::simd::BLOCK;
 use std::collections::BTreeSet;
 
 /// Steps between two looks for islands at rest: one look costs about as much as a solver pass.
@@ -16,6 +17,9 @@ pub(crate) const INTERVAL: u64 = 8;
 
 /// Taking a body out of the list of those awake costs about as much as going past this many that stay.
 const MANY_AWAKE: usize = 16;
+
+/// A surface slides where its friction is at least this part of the greatest.
+const SLIDES: f32 = 0.99;
 
 /// What the look for islands at rest fills anew; kept for its memory.
 #[derive(Debug, Default)]
@@ -30,7 +34,7 @@ pub(crate) struct Sets {
 crate::footprint::footprint!(Sets { islands, restless, resting });
 
 /// Finds islands at rest and lists their bodies in `found`, each island ended by [`NULL`]: those in which every
-/// body has rested and none is moved by what it lies on.
+/// body has rested and none is moved or carried by what it lies on.
 pub(crate) fn find_resting(
     bodies: &Bodies,
     graph: &Graph,
@@ -54,6 +58,11 @@ pub(crate) fn find_resting(
             _ => {}
         }
     }
+    for (_, bucket) in graph.touching_buckets() {
+        for (a, b) in carried(bucket) {
+            (restless[a as usize], restless[b as usize]) = (true, true);
+        }
+    }
     for &body in &bodies.awake {
         let rested = bodies.infos[body as usize].sleep_time >= time_to_sleep;
         if !rested || restless[body as usize] {
@@ -70,6 +79,22 @@ pub(crate) fn find_resting(
             found.push(NULL);
         }
     }
+}
+
+/// The bodies of contacts whose surfaces run, and do not slide: however slowly a belt carries something, that does not rest.
+/// What it slides under is held by something else.
+fn carried(bucket: &Bucket) -> impl Iterator<Item = (u32, u32)> + '_ {
+    let runs = |slot: &usize| {
+        let (block, lane) = (slot / BLOCK, slot % BLOCK);
+        let constraint = &bucket.constraints[block];
+        let slides = constraint.points.iter().all(|point| {
+            point.tangent_impulse[lane].abs()
+                >= SLIDES * constraint.friction[lane] * point.load[lane]
+        });
+        bucket.surfaces[block].tangent_speed[lane] != 0.0 && !slides
+    };
+    let belts = |slot: &usize| bucket.heads[slot / BLOCK].flags & flags::TANGENT_SPEED != 0;
+    (0..bucket.contacts.len()).filter(belts).filter(runs).map(|slot| bucket.bodies(slot))
 }
 
 /// May what lies on a body that is not dynamic sleep? Not on a kinematic one that moves or stays awake.
@@ -119,10 +144,15 @@ pub(crate) fn island_of(
 }
 
 /// Puts islands (each ended by [`NULL`]) to sleep: takes their bodies and what hangs on them out of the
-/// simulation. `hinges` is memory.
-pub(crate) fn put_to_sleep(islands: &[u32], mut stores: Stores<'_>, hinges: &mut Vec<u32>) {
+/// simulation. The impulses that are kept are multiplied with `scale`. `hinges` is memory.
+pub(crate) fn put_to_sleep(
+    islands: &[u32],
+    mut stores: Stores<'_>,
+    scale: f32,
+    hinges: &mut Vec<u32>,
+) {
     for island in islands.split(|&body| body == NULL).filter(|island| !island.is_empty()) {
-        put_island_to_sleep(island, &mut stores, hinges);
+        put_island_to_sleep(island, &mut stores, scale, hinges);
     }
     // One by one where that is less than all: an island that the user puts to sleep.
     if islands.len() < stores.bodies.awake.len() / MANY_AWAKE {
@@ -132,7 +162,7 @@ pub(crate) fn put_to_sleep(islands: &[u32], mut stores: Stores<'_>, hinges: &mut
     }
 }
 
-fn put_island_to_sleep(island: &[u32], stores: &mut Stores<'_>, hinges: &mut Vec<u32>) {
+fn put_island_to_sleep(island: &[u32], stores: &mut Stores<'_>, scale: f32, hinges: &mut Vec<u32>) {
     let Stores { bodies, contacts, graph, joints, joint_graph } = stores;
     for (i, &body) in island.iter().enumerate() {
         bodies.set_velocity(body, Vec2::ZERO);
@@ -147,18 +177,21 @@ fn put_island_to_sleep(island: &[u32], stores: &mut Stores<'_>, hinges: &mut Vec
         let mut edge = bodies.infos[body as usize].first_contact;
         while edge != NULL {
             let contact = &contacts.records[edge as usize / 2];
-            if !super::pairs::is_awake(bodies, contact) {
+            if contact.place != Place::Asleep && !super::pairs::is_awake(bodies, contact) {
                 graph.remove(bodies, contacts, edge / 2);
+                contacts.records[edge as usize / 2].scale_saved(scale);
             }
             edge = next_edge(&contacts.records, edge);
         }
         list_joints(bodies, joints, body, hinges);
         for &index in hinges.iter() {
             let record = &joints.records[index as usize];
-            if !bodies.infos[record.body_a as usize].awake
+            if record.place != Place::Asleep
+                && !bodies.infos[record.body_a as usize].awake
                 && !bodies.infos[record.body_b as usize].awake
             {
                 joint_graph.remove(bodies, joints, index);
+                joints.records[index as usize].scale_saved(scale);
             }
         }
     }
@@ -166,8 +199,14 @@ fn put_island_to_sleep(island: &[u32], stores: &mut Stores<'_>, hinges: &mut Vec
 
 /// Wakes a body and its island, and lists the bodies that woke, ascending. Islands that a joint links to it wake
 /// with it: they fell asleep before the joint was made. Nothing happens and the list is empty if it is awake or
-/// cannot move. `hinges` is memory.
-pub(crate) fn wake(index: u32, stores: Stores<'_>, island: &mut Vec<u32>, hinges: &mut Vec<u32>) {
+/// cannot move. Impulses that were kept are multiplied with `scale`. `hinges` is memory.
+pub(crate) fn wake(
+    index: u32,
+    stores: Stores<'_>,
+    scale: f32,
+    island: &mut Vec<u32>,
+    hinges: &mut Vec<u32>,
+) {
     let Stores { bodies, contacts, graph, joints, joint_graph } = stores;
     island.clear();
     wake_ring(index, bodies, island);
@@ -188,13 +227,14 @@ pub(crate) fn wake(index: u32, stores: Stores<'_>, island: &mut Vec<u32>, hinges
         let mut edge = bodies.infos[body as usize].first_contact;
         while edge != NULL {
             if contacts.records[edge as usize / 2].place == Place::Asleep {
+                contacts.records[edge as usize / 2].scale_saved(scale);
                 graph.insert(bodies, contacts, edge / 2);
             }
             edge = next_edge(&contacts.records, edge);
         }
         list_joints(bodies, joints, body, hinges);
         for &index in hinges.iter() {
-            joint_graph.insert(bodies, joints, index);
+            joint_graph.insert_scaled(bodies, joints, index, scale);
         }
     }
 }

@@ -26,6 +26,9 @@ const STATIC_STIFFNESS: f32 = 2.0;
 /// 0.125, as elsewhere, lets a tower of 20 crates sink by 0.135 m, 0.22 by 0.044 m. From 0.25 on a pyramid
 /// of 40 rows no longer comes to rest.
 const CONTACT_RATE_FRACTION: f32 = 0.22;
+/// Contacts are as soft as the coarsest step of late lets them be, and forget it at this rate, 1 / second: where softness went with
+/// each step, stacks would sink in coarse ones and be pushed out in fine ones.
+const FORGETS: f32 = 0.5;
 /// Metres a second; multiplied by [`Settings::length_unit`]. Overlaps that close in faster are solved without
 /// softness, which would let a part of the speed pass.
 const FAST_APPROACH: f32 = 10.0;
@@ -51,6 +54,8 @@ pub(crate) struct Lengths {
     pub(crate) iterations: u32,
     /// Iterations without bias.
     pub(crate) relaxations: u32,
+    /// Contacts are as soft as substeps this many times as long make them, at least 1.
+    pub(crate) softer: f32,
 }
 
 impl Lengths {
@@ -58,7 +63,15 @@ impl Lengths {
     pub(crate) fn new(dt: f32, settings: &Settings) -> Self {
         let substeps = settings.substeps.clamp(1, 1000);
         let iterations = settings.iterations.clamp(1, 1000);
-        Self { dt, h: dt / substeps as f32, substeps, iterations, relaxations: 1 }
+        let h = dt / substeps as f32;
+        Self { dt, h, substeps, iterations, relaxations: 1, softer: 1.0 }
+    }
+
+    /// The same, after steps that left a coarse substep behind; gives what is to be left to the next one.
+    pub(crate) fn after(self, coarse: f32) -> (Self, f32) {
+        let kept = self.h + (coarse - self.h) / (1.0 + FORGETS * self.dt);
+        let coarse = if kept > 1.001 * self.h { kept } else { self.h };
+        (Self { softer: coarse / self.h, ..self }, coarse)
     }
 
     /// The same at a pace.
@@ -105,7 +118,8 @@ impl Rules<'_> {
 
     /// Stiffness of contacts.
     fn contact_hertz(&self) -> f32 {
-        self.settings.contact_hertz.min(CONTACT_RATE_FRACTION / self.lengths.h)
+        let Lengths { h, softer, .. } = self.lengths;
+        self.settings.contact_hertz.min(CONTACT_RATE_FRACTION / (h * softer))
     }
 
     fn contact_parameters(&self) -> Parameters {

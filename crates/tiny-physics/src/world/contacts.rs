@@ -9,9 +9,9 @@ use crate::dynamics::{Bucket, NULL, PLAIN, Place, REFINEMENT, flags, pace_at};
 use crate::math::{DVec2, Vec2};
 use crate::simd::BLOCK;
 use crate::stages::islands::Stores;
-use crate::stages::solve::Lengths;
+use crate::stages::solve::{Lengths, Rules};
 use crate::stages::touching::Changes;
-use crate::stages::{one_way, paces, pairs, sleep};
+use crate::stages::{one_way, paces, pairs, rests, sleep};
 use crate::threads::Team;
 
 /// One point of a contact.
@@ -335,9 +335,9 @@ impl World {
 
     /// Wakes the island of a body; with a kinematic body, also what rests on it or hangs on it.
     pub(super) fn wake_index(&mut self, index: u32) {
-        let mut woken = core::mem::take(&mut self.scratch.woken);
+        let (mut woken, scale) = (core::mem::take(&mut self.scratch.woken), self.kept_scale());
         let (stores, hinges) = self.sleep_stores();
-        sleep::wake(index, stores, &mut woken, hinges);
+        sleep::wake(index, stores, 1.0 / scale, &mut woken, hinges);
         // Not where it was awake already or is not enabled: this calls itself.
         let info = &self.state.bodies.infos[index as usize];
         let starts_to_carry = info.kind == BodyKind::Kinematic && !woken.is_empty();
@@ -363,8 +363,36 @@ impl World {
             self.state.events.pending_asleep.push(body);
         }
         self.state.waiting.stale = true;
+        let scale = self.kept_scale();
         let (stores, hinges) = self.sleep_stores();
-        sleep::put_to_sleep(islands, stores, hinges);
+        sleep::put_to_sleep(islands, stores, scale, hinges);
+    }
+
+    /// By how much the impulses that sleepers keep are those of another substep than the last one.
+    fn kept_scale(&self) -> f32 {
+        let State { inv_h, inv_h_asleep, .. } = self.state;
+        if inv_h > 0.0 { inv_h / inv_h_asleep } else { 1.0 }
+    }
+
+    /// Makes impulses those of the substeps of the step that begins, and contacts as soft as in those before.
+    pub(super) fn follow_lengths(&mut self, lengths: Lengths) -> Lengths {
+        let State { graph, joint_graph, bodies, inv_h, inv_h_asleep, coarse_h, .. } =
+            &mut self.state;
+        let new = 1.0 / lengths.h;
+        if *inv_h_asleep == 0.0 {
+            *inv_h_asleep = new;
+        } else if *inv_h != new {
+            graph.scale(*inv_h / new);
+            joint_graph.scale(*inv_h / new);
+        }
+        *inv_h = new;
+        let (lengths, coarse) = lengths.after(*coarse_h);
+        let (settings, gravity, level) = (&self.settings, self.gravity, self.level);
+        if core::mem::replace(coarse_h, coarse) != coarse {
+            let rules = Rules { settings, gravity, level, lengths };
+            rests::stay(graph, bodies, rules.compliance());
+        }
+        lengths
     }
 
     /// What changes when bodies fall asleep and wake, and memory for it.

@@ -87,8 +87,17 @@ impl World {
     pub fn memory(&self) -> Memory {
         let State { bodies, shapes, contacts, waiting, graph, joints, joint_graph, .. } =
             &self.state;
-        let State { broad_phase, tiles, sensors, events, step_count: _, inv_h: _, .. } =
-            &self.state;
+        let State {
+            broad_phase,
+            tiles,
+            sensors,
+            events,
+            step_count: _,
+            inv_h: _,
+            inv_h_asleep: _,
+            coarse_h: _,
+            ..
+        } = &self.state;
         let moved: MemoryUse = self.moved.get().into_iter().map(Footprint::footprint).sum();
         let other = [sensors.memory(), tiles.memory(), events.memory(), moved];
         Memory {

@@ -179,6 +179,7 @@ impl World {
         self.moved.take();
         self.state.bodies.sort_awake();
         self.wake_disturbed();
+        let lengths = self.follow_lengths(lengths);
         self.refresh_surfaces();
 
         self.reach_ahead(team, lengths);
@@ -414,7 +415,6 @@ impl World {
 
     /// Solves all that is awake; hits and joints that broke become events.
     fn solve(&mut self, team: &Team, lengths: Lengths) {
-        self.state.inv_h = 1.0 / lengths.h;
         let Self { settings, gravity, level, .. } = *self;
         let rules = solve::Rules { settings: &settings, gravity, level, lengths };
         let reach = self.contact_reach();
@@ -439,7 +439,7 @@ impl World {
     /// Takes the motion over into poses and boxes.
     fn finalize(&mut self, team: &Team, lengths: Lengths) {
         let Settings { continuous, length_unit, .. } = self.settings;
-        let options = finalize::Options::new(lengths.dt, continuous, length_unit);
+        let options = finalize::Options::new(lengths, continuous, length_unit);
         let State { bodies, shapes, broad_phase, .. } = &mut self.state;
         let scratch = &mut self.scratch;
         let count =

@@ -33,6 +33,10 @@ store! {
         pub(super) gravity: Option<Vec2>,
         /// 1 / substep length of the last step, at the plain pace.
         pub(super) inv_h: f32,
+        /// That of the first step: what sleeps keeps impulses of such substeps.
+        pub(super) inv_h_asleep: f32,
+        /// The substep that contacts are as soft as, seconds.
+        pub(super) coarse_h: f32,
     }
 }
 

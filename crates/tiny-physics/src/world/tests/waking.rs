@@ -1,7 +1,7 @@
 //! What changes from outside wakes those whom it concerns, and no others.
 
 use super::*;
-use crate::describe::{JointDef, Tile, TileForm, TileGrid};
+use crate::describe::{JointDef, Material, Tile, TileForm, TileGrid};
 
 /// A crate that sleeps on the ground at x.
 fn sleeper(world: &mut World, x: f32) -> BodyId {
@@ -125,4 +125,110 @@ fn ground_beside_a_sleeper_lets_it_sleep() {
     world.add_body(fixed(0.0, -1.5, rect(3.0, 1.4))).unwrap();
     run(&mut world, 3);
     assert!(!is_awake(&world, body));
+}
+
+/// Belts of any speed carry what lies on them, sleep when they stand, and wake it when they run again; what they only
+/// rub at, as a wall holds it, sleeps.
+#[test]
+fn no_belt_is_too_slow_to_carry() {
+    for (case, speed) in [0.001, -0.01, 0.03, -0.049, 0.5].into_iter().enumerate() {
+        let mut world = world();
+        let body = if case % 2 == 0 { RigidBody::fixed() } else { RigidBody::kinematic() };
+        let body = body.position(Vec2::new(0.0, -1.0)).shape(rect(50.0, 1.0).tangent_speed(speed));
+        let belt = world.add_body(body).unwrap();
+        let load = add(&mut world, 0.0, 0.5, rect(0.5, 0.5));
+        add(&mut world, 0.0, 1.3, rect(0.4, 0.3));
+        let went = |world: &mut World, steps| {
+            let x = |world: &World| world.body(load).unwrap().position().x;
+            let before = x(world);
+            run(world, steps);
+            (x(world) - before) / (steps as f32 * DT)
+        };
+        run(&mut world, 60);
+        let ran = went(&mut world, 180);
+        assert!((ran / speed - 1.0).abs() < 0.05, "{ran} on a belt of {speed}");
+        let shape = shape_of(&world, belt);
+        let material = world.shape(shape).unwrap().material();
+        let still = Material { tangent_speed: 0.0, ..material };
+        world.shape_mut(shape).unwrap().set_material(still).unwrap();
+        run(&mut world, 120);
+        assert!(!is_awake(&world, load), "awake on a belt that stands");
+        world.shape_mut(shape).unwrap().set_material(material).unwrap();
+        let ran = went(&mut world, 120);
+        assert!((ran / speed - 1.0).abs() < 0.1, "{ran} on a belt of {speed} again");
+        let end = world.body(load).unwrap().position().x + 0.52_f32.copysign(speed);
+        world.add_body(fixed(end + 1.0_f32.copysign(speed), 1.0, rect(1.0, 3.0))).unwrap();
+        run(&mut world, 2400);
+        assert!(!is_awake(&world, load), "awake before a wall, on a belt of {speed}");
+    }
+}
+
+/// What accelerates as slowly as it likes, by gravity, its own scale of it, forces or torques, is not put to sleep.
+#[test]
+fn slow_to_start_is_not_at_rest() {
+    for acceleration in [0.006, 0.01, 0.04, 0.09] {
+        for case in 0..5 {
+            let mut world = World::new(Vec2::new(0.0, if case == 0 { -acceleration } else { 0.0 }));
+            let shape = rect(0.5, 0.3).friction(0.0);
+            let mut body = RigidBody::dynamic().shape(shape.clone());
+            if case == 1 {
+                world.gravity = Vec2::new(0.0, -10.0);
+                body = body.gravity_scale(acceleration / -10.0);
+            }
+            if case == 2 {
+                // On a slope without friction.
+                world.gravity = Vec2::new(-acceleration, -acceleration);
+                let slope = RigidBody::fixed().position(Vec2::new(0.0, -1.3));
+                world.add_body(slope.shape(rect(50.0, 1.0).friction(0.0))).unwrap();
+            }
+            let body = world.add_body(body).unwrap();
+            for _ in 0..600 {
+                let mut body = world.body_mut(body).unwrap();
+                let (mass, inertia) = (body.as_ref().mass(), body.as_ref().inertia());
+                match case {
+                    3 => body.apply_force_to_center(Vec2::new(acceleration * mass, 0.0)),
+                    4 => body.apply_torque(acceleration * inertia),
+                    _ => {}
+                }
+                world.step(DT);
+            }
+            let body = world.body(body).unwrap();
+            let got = body.velocity().length() + body.angular_velocity().abs();
+            let ratio = got / (10.0 * acceleration);
+            assert!((ratio - 1.0).abs() < 0.02, "case {case}, {acceleration}: {ratio}");
+        }
+    }
+}
+
+/// Steps that change their length leave stacks where they are, awake or woken, and joints that bear their load whole.
+#[test]
+fn steps_of_another_length_shake_nothing() {
+    for (before, after, woken) in [(60.0, 240.0, false), (240.0, 60.0, false), (60.0, 240.0, true)]
+    {
+        let mut world = world();
+        add_ground(&mut world);
+        let mut stack: Vec<_> =
+            (0..6).map(|i| add(&mut world, 0.0, 0.4 + 0.8 * i as f32, rect(0.5, 0.4))).collect();
+        let hook = world.add_body(fixed(9.0, 9.0, rect(0.1, 0.1))).unwrap();
+        let mut above = hook;
+        for i in 1..4 {
+            let link = add(&mut world, 9.0, 9.0 - i as f32, circle(0.1));
+            world.add_joint(above, link, JointDef::rope(1.0)).unwrap();
+            stack.push(link);
+            above = link;
+        }
+        for &body in &stack {
+            world.body_mut(body).unwrap().set_can_sleep(woken);
+        }
+        (0..240).for_each(|_| world.step(1.0 / before));
+        assert_eq!(world.awake_body_count() == 0, woken);
+        stack.iter().for_each(|&body| world.body_mut(body).unwrap().set_can_sleep(false));
+        for step in 0..120 {
+            world.step(1.0 / after);
+            for &body in &stack {
+                let speed = world.body(body).unwrap().velocity().length();
+                assert!(speed < 0.03, "{before} to {after}, step {step}: {speed}");
+            }
+        }
+    }
 }
