@@ -159,6 +159,8 @@ impl Squeezed {
             bodies.update_inverse_masses(body);
             let info = &mut bodies.infos[body as usize];
             info.gravity_scale = gravity_scale;
+            // It is held, however little its weight adds to its speed.
+            bodies.motions[body as usize].gain = [0.0; 4];
             let of_body = contacts.of_body(info.first_contact);
             let most = of_body.map(|(index, _)| graph.impulse(&contacts.records[index as usize]));
             if most.fold(0.0, f32::max) > PRESSED * length_unit * info.mass {
