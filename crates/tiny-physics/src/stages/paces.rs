@@ -14,8 +14,8 @@ use super::passivity::may_drive;
 use super::rests::{Compliance, Sink, is_calm};
 use crate::describe::BodyKind;
 use crate::dynamics::{
-    Bodies, Graph, JOINTED, NULL, PLAIN, Place, REFINEMENT, ROUNDS, STRUCK, WATCHED, next_edge,
-    pace_at,
+    Bodies, Bucket, Graph, JOINTED, NULL, PLAIN, Place, PointLanes, REFINEMENT, ROUNDS, STRUCK,
+    WATCHED, next_edge, pace_at,
 };
 use crate::math::Vec2;
 use crate::simd::BLOCK;
@@ -228,6 +228,8 @@ struct Island {
     joints: usize,
     /// Does anything in it touch something?
     touches: bool,
+    /// Do two of its bodies hold each other in?
+    tangled: bool,
 }
 
 impl Island {
@@ -270,7 +272,8 @@ impl Island {
         });
         // As many joints as bodies close a loop, and no pass solves those at once.
         let looped = self.touches && self.joints > 0 && self.joints >= self.joined;
-        let pace = allowed.unwrap_or(if looped { WATCHED } else { PLAIN });
+        let coarse = if looped { WATCHED } else { PLAIN };
+        let pace = allowed.map_or(coarse, |pace| if self.tangled { WATCHED } else { pace });
         *budget -= cost(pace);
         self.pace = pace as u8;
     }
@@ -312,6 +315,7 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
             }
             let speed = (bodies.velocity(b) - bodies.velocity(a)).length();
             island.lively |= speed > LIVELY * rules.length_unit;
+            island.tangled |= is_tangled(bodies, bucket, slot);
             if speed < SETTLED * rules.length_unit {
                 let severity = rules.severity(bodies, [a, b]);
                 let most = rules.sink(bodies, [a, b], MOST_CARRIED * island.weight);
@@ -326,6 +330,18 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         }
     }
     foresee(stores, rules, memory);
+}
+
+/// Do the two bodies of a contact overlap by more than the thinner half thickness? They may be held in by each other then, as U-shapes
+/// are with contacts on both sides of a web. What these push with is no load, and stiffer ones shoot the bodies out: of 400
+/// crowds of up to nine such bodies 46 went off at more than 8 m/s, two at the plain pace.
+fn is_tangled(bodies: &Bodies, bucket: &Bucket, slot: usize) -> bool {
+    let (block, lane) = (&bucket.constraints[slot / BLOCK], slot % BLOCK);
+    let (a, b) = bucket.bodies(slot);
+    let half = [a, b].map(|body| bodies.infos[body as usize].min_extent);
+    let least = -if half[0] < half[1] { half[0] } else { half[1] };
+    let is_in = |p: &PointLanes| p.normal_mass[lane] > 0.0 && p.separation[lane] < least;
+    block.points.iter().any(is_in)
 }
 
 /// Lets weights run down through small islands and notes how far contacts would sink under them.
