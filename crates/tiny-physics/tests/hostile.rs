@@ -406,3 +406,20 @@ fn a_clock_takes_no_harm_from_hostile_times() {
         assert!((0.0..=1.0).contains(&clock.alpha()));
     }
 }
+
+/// One wild step, long or short, is forgotten: what comes after it rests as always.
+#[test]
+fn one_wild_step_is_forgotten() {
+    for dt in [1.0e6, f32::MIN_POSITIVE] {
+        let mut world = World::new((0.0, -10.0));
+        assert_eq!(world.try_step(dt).is_ok(), dt > 1.0);
+        world.add_body(RigidBody::fixed().position((0.0, -1.0)).shape(rect(50.0, 1.0))).unwrap();
+        let crates = [0.5, 1.5, 2.5].map(|y| drop_at(&mut world, rect(0.5, 0.5), 0.0, y));
+        steps(&mut world, 600);
+        assert!(world.bodies().all(|body| !body.is_awake()));
+        world.body_mut(crates[0]).unwrap().wake();
+        steps(&mut world, 60);
+        let top = position(&world, crates[2]);
+        assert!((top.y - 2.5).abs() < 0.02 && top.x.abs() < 0.01, "{dt}: {top:?}");
+    }
+}

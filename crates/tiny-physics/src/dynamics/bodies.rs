@@ -273,6 +273,13 @@ impl Bodies {
         self.refined += usize::from(usize::from(pace) != PLAIN);
     }
 
+    /// The half thickness of the thinner one of two bodies, metres.
+    #[inline]
+    pub(crate) fn thinner_half(&self, pair: [u32; 2]) -> f32 {
+        let [a, b] = pair.map(|body| self.infos[body as usize].min_extent);
+        if b < a { b } else { a }
+    }
+
     /// Is any awake body of another pace than the plain one?
     pub(crate) fn any_refined(&self) -> bool {
         let is_refined = |&i: &u32| usize::from(self.infos[i as usize].pace) != PLAIN;

@@ -99,6 +99,7 @@ impl Bucket {
 
     fn fill_constraint(&mut self, block: usize, lane: usize, contact: &Contact) {
         let constraint = &mut self.constraints[block];
+        constraint.copy_lane(lane, &ConstraintBlock::NULL, 0);
         constraint.body_a[lane] = contact.body_a;
         constraint.body_b[lane] = contact.body_b;
         for (point, saved) in constraint.points.iter_mut().zip(contact.saved) {
@@ -106,6 +107,7 @@ impl Bucket {
             point.tangent_impulse[lane] = saved.tangent_impulse;
         }
         let surface = &mut self.surfaces[block];
+        surface.copy_lane(lane, &SurfaceBlock::NULL, 0);
         surface.restitution[lane] = contact.restitution;
         surface.rolling_resistance[lane] = contact.rolling_resistance;
         surface.tangent_speed[lane] = contact.tangent_speed;
@@ -441,6 +443,12 @@ impl Graph {
     }
 
     /// The block and lane in which a contact is solved.
+    fn solved(&self, contact: &Contact) -> Option<(&ConstraintBlock, usize)> {
+        let (bucket, slot) = self.solved_at(contact)?;
+        Some((&self.buckets.list()[bucket].constraints[slot / BLOCK], slot % BLOCK))
+    }
+
+    /// The same, to change.
     pub(crate) fn solved_mut(
         &mut self,
         contact: &Contact,
@@ -451,17 +459,14 @@ impl Graph {
 
     /// The greatest impulse that a point of a contact carries.
     pub(crate) fn impulse(&self, contact: &Contact) -> f32 {
-        self.solved_at(contact).map_or(0.0, |(bucket, slot)| {
-            let points = &self.buckets.list()[bucket].constraints[slot / BLOCK].points;
-            points.iter().map(|point| point.normal_impulse[slot % BLOCK]).fold(0.0, f32::max)
+        self.solved(contact).map_or(0.0, |(constraint, lane)| {
+            constraint.points.iter().map(|point| point.normal_impulse[lane]).fold(0.0, f32::max)
         })
     }
 
     /// From A to B, of a contact that touched in the last narrow phase and before it.
     pub(crate) fn normal(&self, contact: &Contact) -> Option<Vec2> {
-        let (bucket, slot) = self.solved_at(contact)?;
-        let constraint = &self.buckets.list()[bucket].constraints[slot / BLOCK];
-        let lane = slot % BLOCK;
+        let (constraint, lane) = self.solved(contact)?;
         Some(Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]))
     }
 

@@ -410,11 +410,11 @@ impl Walk {
             self.places[body as usize] = found.bodies.len() as u32;
             self.met.push(body);
             found.bodies.push(body);
-            for (joint, side) in joints.of_body(bodies.infos[body as usize].first_joint) {
+            for (joint, _) in joints.of_body(bodies.infos[body as usize].first_joint) {
                 let record = &joints.records[joint as usize];
                 if record.place != Place::Asleep && is_rigid(&record.def) {
                     found.joints.push(joint);
-                    self.waiting.push(if side == 0 { record.body_b } else { record.body_a });
+                    self.waiting.push(record.other(body));
                 }
             }
         }

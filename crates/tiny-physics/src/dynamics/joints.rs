@@ -132,10 +132,9 @@ impl Joints {
         }
         // Every joint of a static body may be a long list; that of a dynamic one is short.
         let (body, other) = if bodies.is_dynamic(a) { (a, b) } else { (b, a) };
-        self.of_body(first(body)).all(|(index, side)| {
+        self.of_body(first(body)).all(|(index, _)| {
             let record = &self.records[index as usize];
-            let partner = if side == 0 { record.body_b } else { record.body_a };
-            partner != other || record.def.collide_connected || !record.def.enabled
+            record.other(body) != other || record.def.collide_connected || !record.def.enabled
         })
     }
 

@@ -14,10 +14,15 @@ pub(crate) struct Run {
     pub(crate) bucket: usize,
     pub(crate) class: PairClass,
     pub(crate) blocks: Range<usize>,
-    /// Is it of an overflow, in which one comes after the other?
-    pub(crate) in_order: bool,
     /// Where in its bucket the run begins, 0 to 1.
     at: f32,
+}
+
+impl Run {
+    /// Is it of an overflow, in which one comes after the other?
+    pub(crate) fn is_in_order(&self) -> bool {
+        is_overflow(self.place)
+    }
 }
 
 /// The runs of one place, which are worked on at the same time: no two share a moving body, unless the place
@@ -79,7 +84,6 @@ impl Schedule {
                 bucket: index,
                 class,
                 blocks: start..count.min(start + len),
-                in_order: is_overflow(place),
                 at: start as f32 / count as f32,
             }));
             if all.peek().is_none_or(|&(_, (next, ..))| next != place) {
@@ -108,8 +112,8 @@ impl Schedule {
                     Some(run) => run.blocks.end += 1,
                     None => {
                         let bucket = graph.buckets.position(key(place, class));
-                        let (blocks, in_order) = (block..block + 1, is_overflow(place));
-                        self.runs.push(Run { place, bucket, class, blocks, in_order, at: 0.0 });
+                        let blocks = block..block + 1;
+                        self.runs.push(Run { place, bucket, class, blocks, at: 0.0 });
                     }
                 }
             }

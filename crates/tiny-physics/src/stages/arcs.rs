@@ -125,7 +125,7 @@ impl Search<'_> {
             }
             let slide = (way(other) - way(body)).length();
             let is_disk = matches!(shapes.records[own as usize].shape, Shape::Circle { .. });
-            let half = info.min_extent.min(bodies.infos[other as usize].min_extent);
+            let half = bodies.thinner_half([body, other]);
             let off = turn.abs() * (slide + 0.5 * rim);
             if is_disk || off <= most || off <= HARMLESS * half {
                 continue;

@@ -120,14 +120,12 @@ pub(crate) fn update(
     shapes: &mut Shapes,
     broad_phase: &mut BroadPhase,
     index: u32,
-    motion: Vec2,
-    moved: &mut Moved,
 ) {
-    moved.clear();
-    let first_shape = bodies.infos[index as usize].first_shape;
-    let pose = bodies.poses[index as usize];
-    share(shapes, broad_phase, |boxes| boxes.follow(first_shape, pose, motion, moved));
-    take_over(shapes, broad_phase, moved);
+    let (first_shape, pose) =
+        (bodies.infos[index as usize].first_shape, bodies.poses[index as usize]);
+    let mut moved = Moved::new();
+    share(shapes, broad_phase, |boxes| boxes.follow(first_shape, pose, Vec2::ZERO, &mut moved));
+    take_over(shapes, broad_phase, &moved);
 }
 
 /// The box of a shape on a body whose centre of mass has this pose.

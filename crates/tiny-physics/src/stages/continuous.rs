@@ -10,9 +10,10 @@
 
 use super::boxes::{self, Moved, Way};
 use super::finalize::{self, FastBody};
+use super::narrow_context::Ground;
 use super::one_way;
 use super::pairs::PairRule;
-use super::surfaces::{self, Ground, Seams};
+use super::surfaces::{self, Seams};
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, NULL, ShapeRecord, Shapes, Slot, is_rigid};
 use crate::geometry::manifold::{self, ShapeClass};
@@ -126,6 +127,7 @@ fn settle(
     broad_phase: &mut BroadPhase,
     moved: &mut Vec<Moved>,
 ) {
+    debug_assert!(fast.is_sorted_by(|a, b| a.body < b.body), "a body is settled twice");
     let (infos, rows) = (&bodies.infos, SharedSlice::new(&mut bodies.rows));
     let poses = SharedSlice::new(&mut bodies.poses);
     let chunks = boxes::share(shapes, broad_phase, |boxes| {
@@ -248,9 +250,9 @@ struct Scene<'a> {
 
 impl Scene<'_> {
     /// Adds slow bodies that fast kinematic ones may have gone through.
+    /// Leaves all in order of their bodies, each once.
     fn add_what_is_hit(&self, fast: &mut Vec<FastBody>) {
         let Scene { bodies, shapes, broad_phase, .. } = *self;
-        let count = fast.len();
         for carrier in self.carriers {
             let info = &bodies.infos[carrier.body as usize];
             let way = carrier.way(info);
@@ -270,11 +272,11 @@ impl Scene<'_> {
                 });
             }
         }
-        if fast.len() > count {
-            // Stable: what is fast by itself comes first and stays.
-            fast.sort_by_key(|fast| fast.body);
-            fast.dedup_by_key(|fast| fast.body);
-        }
+        // What woke in the step comes last among the awake. What is fast by itself knows how often it turned, and stays.
+        fast.sort_unstable_by(|a, b| {
+            a.body.cmp(&b.body).then(b.turn.abs().total_cmp(&a.turn.abs()))
+        });
+        fast.dedup_by_key(|fast| fast.body);
     }
 }
 
@@ -513,12 +515,9 @@ impl Search<'_> {
         if self.scene.shapes.guards[other as usize] == 0 {
             return false;
         }
-        let Scene { broad_phase, rules, .. } = self.scene;
-        let length_unit = rules.length_unit;
-        let (shapes, guards) = (&self.scene.shapes.records, &self.scene.shapes.guards);
-        let ground =
-            Ground { shapes, guards, poses: &self.scene.bodies.poses, broad_phase, length_unit };
-        let hit = &shapes[other as usize];
+        let Scene { bodies, shapes, broad_phase, rules, .. } = self.scene;
+        let ground = Ground::new(bodies, shapes, broad_phase, rules.length_unit);
+        let hit = &shapes.records[other as usize];
         let gap = distance(&hit.shape, &record.shape, place);
         let point = hit.box_frame.unapply(gap.point_a);
         let normal = hit.box_frame.q.unrotate(gap.normal);

@@ -10,15 +10,12 @@ use crate::simd::{Row, SimdLevel};
 pub(crate) struct Context<'a> {
     pub(crate) level: SimdLevel,
     pub(crate) body_rows: &'a [Row],
-    pub(crate) poses: &'a [Pose],
     pub(crate) shape_rows: &'a [Row],
-    pub(crate) shapes: &'a [ShapeRecord],
     /// Bodies, for whether they have joints; nothing where no joint is awake.
     pub(crate) infos: Option<&'a [BodyInfo]>,
     /// Points up to this far apart are contacts already, metres.
     pub(crate) speculative_distance: f32,
-    /// For contacts with guarded shapes.
-    pub(crate) surroundings: Surroundings<'a>,
+    pub(crate) ground: Ground<'a>,
     /// Length of the step, seconds.
     pub(crate) dt: f32,
     /// Is anything fast?
@@ -40,12 +37,10 @@ impl<'a> Context<'a> {
         Self {
             level,
             body_rows: &bodies.rows,
-            poses: &bodies.poses,
             shape_rows: &shapes.rows,
-            shapes: &shapes.records,
             infos: jointed.then_some(&bodies.infos),
             speculative_distance,
-            surroundings: Surroundings { guards: &shapes.guards, broad_phase, length_unit },
+            ground: Ground::new(bodies, shapes, broad_phase, length_unit),
             dt,
             fast,
             naming,
@@ -53,10 +48,24 @@ impl<'a> Context<'a> {
     }
 }
 
-/// What looking at surfaces needs beyond the narrow phase's own.
+/// Where static shapes are found.
 #[derive(Clone, Copy)]
-pub(crate) struct Surroundings<'a> {
+pub(crate) struct Ground<'a> {
+    pub(crate) shapes: &'a [ShapeRecord],
     pub(crate) guards: &'a [u32],
+    pub(crate) poses: &'a [Pose],
     pub(crate) broad_phase: &'a BroadPhase,
     pub(crate) length_unit: f32,
+}
+
+impl<'a> Ground<'a> {
+    pub(crate) fn new(
+        bodies: &'a Bodies,
+        shapes: &'a Shapes,
+        broad_phase: &'a BroadPhase,
+        length_unit: f32,
+    ) -> Self {
+        let Shapes { records, guards, .. } = shapes;
+        Self { shapes: records, guards, poses: &bodies.poses, broad_phase, length_unit }
+    }
 }

@@ -81,8 +81,7 @@ impl Rules {
 
     /// Factor on a sink of two bodies into each other: more for thin ones, see [`THIN`].
     fn severity(&self, bodies: &Bodies, pair: [u32; 2]) -> f32 {
-        let half = pair.map(|body| bodies.infos[body as usize].min_extent);
-        let thickness = 2.0 * if half[0] < half[1] { half[0] } else { half[1] };
+        let thickness = 2.0 * bodies.thinner_half(pair);
         let thin = THIN * self.length_unit;
         if thickness < thin { thin / thickness.max(THINNEST * thin) } else { 1.0 }
     }
@@ -151,7 +150,7 @@ pub(crate) fn assign(mut stores: Stores<'_>, rules: Rules, memory: &mut Memory) 
     memory.islands.find_all(stores.bodies, stores.graph, stores.joints);
     survey(&stores, rules, memory);
     let Memory { islands, found, changed, .. } = memory;
-    let mut budget = BUDGET * rules.most_bodies;
+    let mut budget = BUDGET.saturating_mul(rules.most_bodies);
     changed.clear();
     // All before any is told: what has just woken is listed last, and may be a root.
     for &body in stores.bodies.awake.iter().filter(|&&body| islands.root(body) == body) {
@@ -337,9 +336,7 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
 /// crowds of up to nine such bodies 46 went off at more than 8 m/s, two at the plain pace.
 fn is_tangled(bodies: &Bodies, bucket: &Bucket, slot: usize) -> bool {
     let (block, lane) = (&bucket.constraints[slot / BLOCK], slot % BLOCK);
-    let (a, b) = bucket.bodies(slot);
-    let half = [a, b].map(|body| bodies.infos[body as usize].min_extent);
-    let least = -if half[0] < half[1] { half[0] } else { half[1] };
+    let least = -bodies.thinner_half(bucket.bodies(slot).into());
     let is_in = |p: &PointLanes| p.normal_mass[lane] > 0.0 && p.separation[lane] < least;
     block.points.iter().any(is_in)
 }
@@ -372,10 +369,10 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
     for &(top, body) in order.iter() {
         let info = &bodies.infos[body as usize];
         below.clear();
-        below.extend(contacts.of_body(info.first_contact).filter_map(|(index, side)| {
+        below.extend(contacts.of_body(info.first_contact).filter_map(|(index, _)| {
             let contact = &contacts.records[index as usize];
-            let other = if side == 0 { contact.body_b } else { contact.body_a };
-            let step = LOWER * info.min_extent.min(bodies.infos[other as usize].min_extent);
+            let other = contact.other(body);
+            let step = LOWER * bodies.thinner_half([body, other]);
             let lower = !bodies.is_dynamic(other) || top - height(other) > f64::from(step);
             (contact.touching && lower).then_some(other)
         }));

@@ -60,7 +60,9 @@ pub(crate) fn find_resting(
     }
     for (_, bucket) in graph.touching_buckets() {
         for (a, b) in carried(bucket) {
-            (restless[a as usize], restless[b as usize]) = (true, true);
+            for body in [a, b] {
+                restless[body as usize] |= bodies.is_dynamic(body);
+            }
         }
     }
     for &body in &bodies.awake {
@@ -171,6 +173,7 @@ fn put_island_to_sleep(island: &[u32], stores: &mut Stores<'_>, scale: f32, hing
         bodies.swings[body as usize] = 0;
         let info = &mut bodies.infos[body as usize];
         info.awake = false;
+        (info.force, info.torque) = (Vec2::ZERO, 0.0);
         info.island_next = island[(i + 1) % island.len()];
     }
     for &body in island {
@@ -213,9 +216,9 @@ pub(crate) fn wake(
     let mut next = 0;
     while let Some(&body) = island.get(next) {
         next += 1;
-        for (joint, side) in joints.of_body(bodies.infos[body as usize].first_joint) {
+        for (joint, _) in joints.of_body(bodies.infos[body as usize].first_joint) {
             let record = &joints.records[joint as usize];
-            let other = if side == 0 { record.body_b } else { record.body_a };
+            let other = record.other(body);
             if record.class().is_some() && bodies.is_dynamic(other) {
                 wake_ring(other, bodies, island);
             }
@@ -251,6 +254,8 @@ fn wake_ring(index: u32, bodies: &mut Bodies, island: &mut Vec<u32>) {
         let info = &mut bodies.infos[body as usize];
         info.awake = true;
         info.sleep_time = 0.0;
+        // Of the step in which it was last awake.
+        (bodies.motions[body as usize], bodies.starts[body as usize]) = Default::default();
         body = core::mem::replace(&mut info.island_next, NULL);
         if body == index || body == NULL {
             break;

@@ -29,6 +29,8 @@ const CONTACT_RATE_FRACTION: f32 = 0.22;
 /// Contacts are as soft as the coarsest step of late lets them be, and forget it at this rate, 1 / second: where softness went with
 /// each step, stacks would sink in coarse ones and be pushed out in fine ones.
 const FORGETS: f32 = 0.5;
+/// No substep counts as coarser than this for those that follow, seconds: one wild step would leave contacts soft for minutes.
+const MOST_COARSE: f32 = 0.1;
 /// Metres a second; multiplied by [`Settings::length_unit`]. Overlaps that close in faster are solved without
 /// softness, which would let a part of the speed pass.
 const FAST_APPROACH: f32 = 10.0;
@@ -69,6 +71,7 @@ impl Lengths {
 
     /// The same, after steps that left a coarse substep behind; gives what is to be left to the next one.
     pub(crate) fn after(self, coarse: f32) -> (Self, f32) {
+        let coarse = coarse.min(MOST_COARSE.max(self.h));
         let kept = self.h + (coarse - self.h) / (1.0 + FORGETS * self.dt);
         let coarse = if kept > 1.001 * self.h { kept } else { self.h };
         (Self { softer: coarse / self.h, ..self }, coarse)
@@ -89,14 +92,14 @@ impl Lengths {
 
 /// What the solver is told.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Rules<'a> {
-    pub(crate) settings: &'a Settings,
+pub(crate) struct Rules {
+    pub(crate) settings: Settings,
     pub(crate) gravity: Vec2,
     pub(crate) level: SimdLevel,
     pub(crate) lengths: Lengths,
 }
 
-impl Rules<'_> {
+impl Rules {
     /// How paces are chosen in this step, the `step`th.
     pub(crate) fn of_paces(&self, step: u64) -> paces::Rules {
         paces::Rules {
@@ -172,7 +175,7 @@ impl Solver {
         &mut self,
         team: &Team,
         stores: &mut Stores<'_>,
-        rules: Rules<'_>,
+        rules: Rules,
         predictions: &Predictions,
         scope: Scope<'_>,
     ) {
@@ -219,14 +222,13 @@ impl Solver {
         &mut self,
         team: &Team,
         stores: &mut Stores<'_>,
-        rules: Rules<'_>,
+        rules: Rules,
         pace: usize,
         listed: &[u32],
         scope: Scope<'_>,
     ) {
         let Self { schedule, squeezed, hit, tree_contacts, bounces, passivity, broken, .. } = self;
-        let Rules { settings, gravity, level, lengths } = rules;
-        let h = lengths.h;
+        let Rules { settings, gravity, level, lengths: lengths @ Lengths { h, .. } } = rules;
         let joint_substep = Substep::new(h, settings.length_unit);
         let parameters = rules.contact_parameters();
         schedule.fill_pace(stores.graph, pace, contact_solver::CHUNK);

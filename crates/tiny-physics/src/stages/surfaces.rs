@@ -14,7 +14,7 @@
 //! the usual contact (on a free face) costs a look at a few bits. Worlds without static neighbours pay one
 //! comparison a stride of lanes.
 
-use super::narrow_context::{Context, Surroundings};
+use super::narrow_context::{Context, Ground};
 use super::one_way;
 use crate::broad_phase::{BroadPhase, ProxyId, ProxyKind};
 use crate::describe::{BodyKind, ChainLink};
@@ -103,7 +103,7 @@ pub(crate) struct Pair {
 
 /// Corrects the manifold of a pair of which one shape at least is guarded.
 pub(crate) fn correct(context: &Context<'_>, pair: Pair, lane: &mut LanePoints) {
-    let guards = context.surroundings.guards;
+    let guards = context.ground.guards;
     let frames = [Transform::IDENTITY, pair.b_in_a];
     let shapes = [pair.shape_a, pair.shape_b];
     for side in [0, 1] {
@@ -130,16 +130,6 @@ enum Verdict {
     Keep,
     Drop,
     Replace(Manifold),
-}
-
-/// Where static shapes are found.
-#[derive(Clone, Copy)]
-pub(crate) struct Ground<'a> {
-    pub(crate) shapes: &'a [ShapeRecord],
-    pub(crate) guards: &'a [u32],
-    pub(crate) poses: &'a [Pose],
-    pub(crate) broad_phase: &'a BroadPhase,
-    pub(crate) length_unit: f32,
 }
 
 /// A guarded shape among its neighbours, as another shape meets it. Everything is in the frame of the
@@ -280,14 +270,11 @@ impl<'a> View<'a> {
         frames: [Transform; 2],
         side: usize,
     ) -> Self {
-        let other = &context.shapes[other as usize];
+        let other = &context.ground.shapes[other as usize];
         let other_in_own = frames[1 - side].relative_to(frames[side]);
-        let Surroundings { guards, broad_phase, length_unit, .. } = context.surroundings;
-        let (shapes, poses) = (context.shapes, context.poses);
-        let ground = Ground { shapes, guards, poses, broad_phase, length_unit };
         Self {
             context,
-            seams: Seams::new(ground, own, other),
+            seams: Seams::new(context.ground, own, other),
             frame: frames[side],
             sign: if side == 0 { 1.0 } else { -1.0 },
             other_core: boxed_core(other).transformed(other_in_own),

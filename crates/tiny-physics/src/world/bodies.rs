@@ -116,6 +116,7 @@ impl BodyMut<'_> {
         world.wake_joined(index);
         world.note_ground_of(index);
         world.state.bodies.set_origin_pose(index, pose.p, pose.q.normalized());
+        world.state.bodies.infos[index as usize].calm = 0;
         world.mark_shapes_changed(index);
         world.update_boxes(index);
         world.note_ground_of(index);
@@ -225,8 +226,9 @@ impl BodyMut<'_> {
     /// Sets linear and angular damping, 1/s; negative values count as 0.
     pub fn set_damping(&mut self, linear: f32, angular: f32) {
         if self.accept(&[linear, angular]) {
-            self.info().linear_damping = linear.max(0.0);
-            self.info().angular_damping = angular.max(0.0);
+            let info = self.info();
+            [info.linear_damping, info.angular_damping] =
+                [linear, angular].map(|damping| if damping > 0.0 { damping } else { 0.0 });
         }
     }
 

@@ -5,7 +5,7 @@ use super::bodies::{Body, BodyMut};
 use super::descriptions::{check_center, check_given};
 use super::ids::{BodyId, JointId};
 use crate::describe::{BodyKind, Locks};
-use crate::dynamics::{Given, GivenPoint, NULL};
+use crate::dynamics::{Given, GivenPoint, NULL, PLAIN};
 use crate::error::Error;
 use crate::math::{Pose, Vec2};
 
@@ -49,6 +49,7 @@ impl BodyMut<'_> {
         let (world, index) = (&mut *self.world, self.index);
         world.take_out(index);
         world.state.bodies.infos[index as usize].kind = kind;
+        world.state.bodies.set_pace(index, PLAIN as u8);
         if kind == BodyKind::Static {
             world.state.bodies.set_velocity(index, Vec2::ZERO);
             world.state.bodies.set_angular_velocity(index, 0.0);
@@ -171,7 +172,7 @@ impl World {
     /// or was joined to it wakes. [`World::put_in`] is the way back.
     fn take_out(&mut self, index: u32) {
         self.wake_index(index);
-        self.destroy_contacts_of(index, |_| true);
+        self.destroy_contacts_of(index, |_, _| true);
         for (joint, partner) in self.joints_and_partners(index) {
             self.wake_index(partner);
             self.state.displace_joint(joint);
@@ -195,6 +196,7 @@ impl World {
         }
         info.sleep_time = 0.0;
         info.island_next = NULL;
+        (info.force, info.torque) = (Vec2::ZERO, 0.0);
         if info.kind != BodyKind::Static {
             info.awake = true;
             self.state.bodies.push_awake(index);
@@ -211,7 +213,7 @@ impl World {
     }
 
     /// The joints of a body with the body at the other end, ascending.
-    fn joints_and_partners(&self, body: u32) -> Vec<(u32, u32)> {
+    pub(super) fn joints_and_partners(&self, body: u32) -> Vec<(u32, u32)> {
         let joints = self.state.joints_of(body);
         let mut joints: Vec<(u32, u32)> = joints.map(|(i, joint)| (i, joint.other(body))).collect();
         joints.sort_unstable();

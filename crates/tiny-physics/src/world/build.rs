@@ -59,7 +59,7 @@ impl World {
         let index = self.body_index(id)?;
         self.wake_index(index);
         self.destroy_joints_of(index);
-        self.destroy_contacts_of(index, |_| true);
+        self.destroy_contacts_of(index, |_, _| true);
         while self.state.bodies.infos[index as usize].first_shape != NULL {
             self.unlink_shape(self.state.bodies.infos[index as usize].first_shape);
         }
@@ -153,17 +153,20 @@ impl World {
         let goes = |shape: u32| shapes.binary_search(&shape).is_ok();
         for &body in &bodies {
             self.wake_index(body);
-            self.destroy_contacts_of(body, |contact| goes(contact.0) || goes(contact.1));
+            self.destroy_contacts_of(body, |_, c| goes(c.shape_a) || goes(c.shape_b));
         }
         shapes.iter().for_each(|&shape| self.unlink_shape(shape));
         bodies.into_iter().for_each(|body| self.update_mass(body));
         Ok(())
     }
 
-    /// Destroys the contacts of a body whose shapes (A, B) satisfy the predicate.
-    pub(super) fn destroy_contacts_of(&mut self, body: u32, which: impl Fn((u32, u32)) -> bool) {
-        let goes = |contact: &Contact| which((contact.shape_a, contact.shape_b));
-        for index in self.contacts_where(body, goes) {
+    /// Destroys the contacts of a body for which the predicate holds.
+    pub(super) fn destroy_contacts_of(
+        &mut self,
+        body: u32,
+        which: impl Fn(&State, &Contact) -> bool,
+    ) {
+        for index in self.contacts_where(body, |contact| which(&self.state, contact)) {
             self.destroy_contact(index);
         }
     }
@@ -249,8 +252,15 @@ impl World {
         };
         let center =
             if dynamic { info.fixed_center.get().unwrap_or(total.center) } else { Vec2::ZERO };
-        let shifted = core::mem::replace(&mut info.local_center, center) != center;
-        self.state.bodies.set_origin_pose(index, origin.p, origin.q);
+        let way = origin.q.rotate(center - core::mem::replace(&mut info.local_center, center));
+        let shifted = way != Vec2::ZERO;
+        let bodies = &mut self.state.bodies;
+        bodies.set_origin_pose(index, origin.p, origin.q);
+        // Every point of it goes on as it was, its frame too.
+        let turning = bodies.angular_velocity(index);
+        if shifted && turning != 0.0 {
+            bodies.set_velocity(index, bodies.velocity(index) + way.perp() * turning);
+        }
         self.state.bodies.update_inverse_masses(index);
         self.update_central_frames(index);
         if shifted {
@@ -266,7 +276,7 @@ impl World {
     /// Brings the boxes of a body's shapes to where they are.
     pub(super) fn update_boxes(&mut self, index: u32) {
         let State { bodies, shapes, broad_phase, .. } = &mut self.state;
-        boxes::update(bodies, shapes, broad_phase, index, Vec2::ZERO, &mut boxes::Moved::new());
+        boxes::update(bodies, shapes, broad_phase, index);
     }
 
     /// Mass properties of all shapes in the body's frame, and whether one of them must not turn.

@@ -6,8 +6,8 @@ use super::World;
 use crate::broad_phase::ProxyId;
 use crate::describe::{BodyKind, JointKind};
 use crate::dynamics::{
-    BodyInfo, Bucket, Contact, FrameLanes, IDLE, JointBucket, JointClass, JointLanes, JointRecord,
-    NULL, PACES, PLAIN, Place, guard, joint_classes,
+    BodyInfo, Bucket, COLOURS, Contact, FrameLanes, IDLE, JointBucket, JointClass, JointLanes,
+    JointRecord, NULL, PACES, PLAIN, Place, colour_at, guard, joint_classes,
 };
 use crate::geometry::manifold::{PairClass, ShapeClass};
 use crate::simd::BLOCK;
@@ -66,8 +66,9 @@ impl World {
     fn check_bodies(&self) -> Check {
         let bodies = &self.state.bodies;
         let count = bodies.infos.len();
-        let lengths = [bodies.rows.len(), bodies.poses.len(), bodies.previous.len()];
-        ensure(count > 0 && lengths == [count; 3], "bodies are missing")?;
+        let poses = [bodies.poses.len(), bodies.previous.len()];
+        let lengths = [bodies.rows.len(), bodies.swings.len()];
+        ensure(count > 0 && [poses, lengths] == [[count; 2]; 2], "bodies are missing")?;
         let null = &bodies.infos[0];
         ensure(!null.alive && null.kind == BodyKind::Static, "body 0 is alive")?;
         ensure(
@@ -89,11 +90,16 @@ impl World {
         )?;
         let is_light = |&(body, by): &(u32, f32)| (body as usize) < count && by > 0.0;
         ensure(bodies.pressed.iter().all(is_light), "what is pressed is nothing")?;
-        for (info, pose) in bodies.infos.iter().zip(&bodies.poses) {
+        let mut follows = vec![false; count];
+        for (index, (info, pose)) in bodies.infos.iter().zip(&bodies.poses).enumerate() {
             let moves = info.alive && info.enabled && info.kind != BodyKind::Static;
             ensure(!info.awake || moves, "a body that cannot move is awake")?;
             ensure(pose.is_finite(), "a body is nowhere")?;
             ensure(usize::from(info.pace) < PACES, "a body has no pace")?;
+            let (inv_mass, inv_inertia) = bodies.inverse_masses(index as u32);
+            let moved = inv_mass != 0.0 || inv_inertia != 0.0;
+            let right = info.kind == BodyKind::Dynamic || !moved;
+            ensure(right && inv_mass >= 0.0 && inv_inertia >= 0.0, "a body moves that cannot")?;
             let next = info.island_next;
             let sleeps = |i: u32| {
                 bodies.infos.get(i as usize).is_some_and(|info| {
@@ -104,6 +110,10 @@ impl World {
                 next == NULL || !info.alive || (!info.awake && sleeps(next)),
                 "an island is broken",
             )?;
+            if info.alive && next != NULL {
+                let once = !core::mem::replace(&mut follows[next as usize], true);
+                ensure(once, "two bodies of islands lead to one")?;
+            }
         }
         Ok(())
     }
@@ -207,7 +217,8 @@ impl World {
     fn check_graph(&self) -> Check {
         let mut placed = 0;
         for (place, class, bucket) in self.state.graph.all() {
-            ensure(place <= IDLE, "a place is unknown")?;
+            let known = place == IDLE || place < IDLE && colour_at(place) <= COLOURS;
+            ensure(known, "a place is unknown")?;
             self.check_bucket(place, class, bucket)?;
             placed += bucket.contacts.len();
         }

@@ -9,7 +9,7 @@ use crate::dynamics::{Bucket, NULL, PLAIN, Place, REFINEMENT, flags, pace_at};
 use crate::math::{DVec2, Vec2};
 use crate::simd::BLOCK;
 use crate::stages::islands::Stores;
-use crate::stages::solve::{Lengths, Rules};
+use crate::stages::solve::Lengths;
 use crate::stages::touching::Changes;
 use crate::stages::{one_way, paces, pairs, rests, sleep};
 use crate::threads::Team;
@@ -376,8 +376,7 @@ impl World {
 
     /// Makes impulses those of the substeps of the step that begins, and contacts as soft as in those before.
     pub(super) fn follow_lengths(&mut self, lengths: Lengths) -> Lengths {
-        let State { graph, joint_graph, bodies, inv_h, inv_h_asleep, coarse_h, .. } =
-            &mut self.state;
+        let State { graph, joint_graph, inv_h, inv_h_asleep, coarse_h, .. } = &mut self.state;
         let new = 1.0 / lengths.h;
         if *inv_h_asleep == 0.0 {
             *inv_h_asleep = new;
@@ -387,10 +386,10 @@ impl World {
         }
         *inv_h = new;
         let (lengths, coarse) = lengths.after(*coarse_h);
-        let (settings, gravity, level) = (&self.settings, self.gravity, self.level);
         if core::mem::replace(coarse_h, coarse) != coarse {
-            let rules = Rules { settings, gravity, level, lengths };
-            rests::stay(graph, bodies, rules.compliance());
+            let compliance = self.solver_rules(lengths).compliance();
+            let State { graph, bodies, .. } = &mut self.state;
+            rests::stay(graph, bodies, compliance);
         }
         lengths
     }

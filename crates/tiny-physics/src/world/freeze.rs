@@ -22,9 +22,7 @@ impl World {
     }
 
     fn forget_joint_impulses(&mut self, index: u32) {
-        let mut joints: Vec<u32> = self.state.joints_of(index).map(|(joint, _)| joint).collect();
-        joints.sort_unstable();
-        for joint in joints {
+        for (joint, _) in self.joints_and_partners(index) {
             self.state.displace_joint(joint);
             self.state.joints.records[joint as usize].saved = Default::default();
             self.state.place_joint(joint);

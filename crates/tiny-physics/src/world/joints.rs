@@ -260,9 +260,8 @@ impl World {
     /// Destroys the contacts between two bodies.
     fn part_bodies(&mut self, a: u32, b: u32) {
         let one = self.smaller(a, b);
-        let between =
-            self.contacts_where(one, |contact| contact.other(one) == if one == a { b } else { a });
-        between.into_iter().for_each(|index| self.destroy_contact(index));
+        let other = if one == a { b } else { a };
+        self.destroy_contacts_of(one, |_, contact| contact.other(one) == other);
     }
 
     /// Makes the next step look for all partners of a body's shapes.

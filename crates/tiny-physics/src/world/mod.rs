@@ -210,7 +210,9 @@ impl World {
         Error::check_positive("dt", dt)?;
         self.settings.validate()?;
         Error::check_finite_vec("gravity", self.gravity)?;
-        Ok(Lengths::new(dt, &self.settings))
+        let lengths = Lengths::new(dt, &self.settings);
+        Error::check("dt", dt, (1.0 / lengths.h).is_finite(), "long enough to be divided")?;
+        Ok(lengths)
     }
 
     /// Lets the boxes of fast bodies reach as far as they will go.
@@ -354,7 +356,7 @@ impl World {
         let State { bodies, shapes, broad_phase, .. } = &mut self.state;
         for body in self.scratch.predictions.bodies() {
             if !bodies.infos[body as usize].awake {
-                boxes::update(bodies, shapes, broad_phase, body, Vec2::ZERO, &mut Vec::new());
+                boxes::update(bodies, shapes, broad_phase, body);
             }
         }
     }
@@ -393,30 +395,29 @@ impl World {
         self.update_fresh_manifolds(team, lengths);
         let predictions = &self.scratch.predictions;
         if !(predictions.squeezed.pressed.is_empty() && self.state.bodies.pressed.is_empty()) {
-            self.weigh_squeezed();
+            let State { bodies, contacts, graph, .. } = &mut self.state;
+            let predictions = &mut self.scratch.predictions;
+            let length_unit = self.settings.length_unit;
+            self.stats.squeezed_bodies =
+                predictions.weigh_squeezed(bodies, contacts, graph, length_unit);
         }
     }
 
-    /// Has light bodies between heavy ones and what nothing moves count as heavier in this step.
-    fn weigh_squeezed(&mut self) {
-        let State { bodies, contacts, graph, .. } = &mut self.state;
-        let (predictions, length_unit) = (&mut self.scratch.predictions, self.settings.length_unit);
-        self.stats.squeezed_bodies =
-            predictions.weigh_squeezed(bodies, contacts, graph, length_unit);
+    /// What the solver is told.
+    pub(super) fn solver_rules(&self, lengths: Lengths) -> solve::Rules {
+        let Self { settings, gravity, level, .. } = *self;
+        solve::Rules { settings, gravity, level, lengths }
     }
 
     /// Chooses which islands are solved more finely than others.
     fn assign_paces(&mut self, lengths: Lengths) {
-        let Self { settings, gravity, level, .. } = *self;
-        let rules = solve::Rules { settings: &settings, gravity, level, lengths };
-        let rules = rules.of_paces(self.state.step_count);
+        let rules = self.solver_rules(lengths).of_paces(self.state.step_count);
         paces::assign(self.state.solved(), rules, &mut self.scratch.paces);
     }
 
     /// Solves all that is awake; hits and joints that broke become events.
     fn solve(&mut self, team: &Team, lengths: Lengths) {
-        let Self { settings, gravity, level, .. } = *self;
-        let rules = solve::Rules { settings: &settings, gravity, level, lengths };
+        let rules = self.solver_rules(lengths);
         let reach = self.contact_reach();
         let Scratch { solver, predictions, .. } = &mut self.scratch;
         let (shapes, mut stores) = self.state.shapes_and_solved();

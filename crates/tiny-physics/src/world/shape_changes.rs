@@ -124,9 +124,10 @@ impl ShapeMut<'_> {
         let (category, mask) = filter.reach();
         world.state.broad_phase.set_filter(world.state.shapes.proxy(index), category, mask);
         world.state.sensors.mark_changed(index);
-        world.drop_contacts_of(index, |world, a, b| {
-            let filter = |shape: u32| world.state.shapes.records[shape as usize].filter;
-            !filter(a).collides(&filter(b))
+        world.note_ground(index);
+        world.destroy_contacts_of(body, |state, contact| {
+            let filter = |shape: u32| state.shapes.records[shape as usize].filter;
+            !filter(contact.shape_a).collides(&filter(contact.shape_b))
         });
     }
 
@@ -171,7 +172,7 @@ impl ShapeMut<'_> {
         let (world, index) = (&mut *self.world, self.index);
         let body = world.state.shapes.records[index as usize].body;
         world.wake_index(body);
-        world.drop_contacts_of(index, |_, _, _| true);
+        world.contacts_of(index).into_iter().for_each(|index| world.destroy_contact(index));
         change(&mut world.state.shapes.records[index as usize]);
         let record = &mut world.state.shapes.records[index as usize];
         if !matches!(record.shape, Shape::Segment { .. }) {
@@ -189,17 +190,6 @@ impl ShapeMut<'_> {
 }
 
 impl World {
-    /// Destroys the contacts of a shape whose shapes (A, B) satisfy the predicate.
-    fn drop_contacts_of(&mut self, shape: u32, which: impl Fn(&Self, u32, u32) -> bool) {
-        for index in self.contacts_of(shape) {
-            let contact = &self.state.contacts.records[index as usize];
-            let (a, b) = (contact.shape_a, contact.shape_b);
-            if which(self, a, b) {
-                self.destroy_contact(index);
-            }
-        }
-    }
-
     /// Contacts of a shape, ascending.
     fn contacts_of(&self, shape: u32) -> Vec<u32> {
         let body = self.state.shapes.records[shape as usize].body;

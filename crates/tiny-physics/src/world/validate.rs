@@ -3,8 +3,7 @@
 use super::World;
 use super::build::proxy_kind;
 use super::state::State;
-use crate::describe::BodyKind;
-use crate::dynamics::{COLOURS, IDLE, JointRecord, NULL, Place, colour_at};
+use crate::dynamics::{Bodies, BodyInfo, COLOURS, IDLE, JointRecord, NULL, Place, colour_at};
 use crate::stages::{boxes, pairs};
 
 impl World {
@@ -161,29 +160,41 @@ impl World {
         Ok(())
     }
 
-    /// No two contacts of a colour share a dynamic body, and the bodies know their colours.
+    /// No two contacts of a colour share a dynamic body, nor do two joints, and the bodies know their colours.
     fn validate_colours(&self) -> Result<(), String> {
-        let infos = &self.state.bodies.infos;
-        let mut used = vec![0_u32; infos.len()];
-        let is_dynamic: Vec<bool> =
-            infos.iter().map(|info| info.kind == BodyKind::Dynamic).collect();
-        for (place, bucket) in self.state.graph.touching_buckets() {
-            let colour = colour_at(place);
-            // Empty lanes are of body 0, which is static.
-            let lanes =
-                bucket.manifolds.iter().flat_map(|block| block.body_a.iter().chain(&block.body_b));
-            for &body in lanes.filter(|&&i| colour < COLOURS && is_dynamic[i as usize]) {
-                let once = used[body as usize] >> colour & 1 == 0;
-                ensure(once, || format!("body {body} occurs twice in colour {colour}"))?;
-                used[body as usize] |= 1 << colour;
-            }
-        }
-        for index in self.state.bodies.indices().filter(|&i| self.state.bodies.is_dynamic(i)) {
-            let known = infos[index as usize].contact_colours == used[index as usize];
-            ensure(known, || format!("body {index} does not know its colours"))?;
-        }
-        Ok(())
+        let State { bodies, contacts, joints, .. } = &self.state;
+        let contacts = contacts.records.iter().filter(|contact| contact.alive);
+        let contacts = contacts.map(|contact| (contact.place, [contact.body_a, contact.body_b]));
+        validate_colours_of(contacts, bodies, |info| info.contact_colours)?;
+        let joints = joints.records.iter().filter(|joint| joint.alive);
+        let joints = joints.map(|joint| (joint.place, [joint.body_a, joint.body_b]));
+        validate_colours_of(joints, bodies, |info| info.joint_colours)
     }
+}
+
+fn validate_colours_of(
+    constraints: impl Iterator<Item = (Place, [u32; 2])>,
+    bodies: &Bodies,
+    known: fn(&BodyInfo) -> u32,
+) -> Result<(), String> {
+    let mut used = vec![0_u32; bodies.infos.len()];
+    for (place, ends) in constraints {
+        let Place::Graph { colour: place, .. } = place else { continue };
+        let colour = colour_at(place.into());
+        if usize::from(place) == IDLE || colour >= COLOURS {
+            continue;
+        }
+        for body in ends.into_iter().filter(|&body| bodies.is_dynamic(body)) {
+            let once = used[body as usize] >> colour & 1 == 0;
+            ensure(once, || format!("body {body} occurs twice in colour {colour}"))?;
+            used[body as usize] |= 1 << colour;
+        }
+    }
+    for index in bodies.indices().filter(|&index| bodies.is_dynamic(index)) {
+        let right = known(&bodies.infos[index as usize]) == used[index as usize];
+        ensure(right, || format!("body {index} does not know its colours"))?;
+    }
+    Ok(())
 }
 
 /// What is wrong, unless the condition holds.

@@ -21,12 +21,13 @@ pub(crate) use again::Around;
 pub(crate) use predictions::{Predictions, Scene};
 pub(crate) use squeezed::HEAVIER;
 
-use super::boxes::{self, Moved, Way};
+use super::boxes::{self, Moved};
 use crate::broad_phase::BroadPhase;
-use crate::dynamics::{Bodies, Shapes, Slot};
+use crate::dynamics::{Bodies, Shapes};
 use crate::footprint::footprint;
 use crate::math::Vec2;
 use crate::threads::Team;
+use courses::Course;
 
 /// Bodies that one member of the team looks at at a time.
 const CHUNK: usize = 256;
@@ -75,7 +76,7 @@ pub(crate) fn reach(
             found.clear();
             for &body in &bodies.awake[range] {
                 let info = &bodies.infos[body as usize];
-                let way = Way::to_come(bodies, body, dt);
+                let way = Course::of(bodies, dt, body).way(bodies);
                 let length = way.motion.length() + way.turn.abs() * info.max_extent;
                 // Also false for what is not finite.
                 if length > limit.max(HARMLESS * info.min_extent) && length < f32::MAX {
@@ -100,14 +101,5 @@ impl Ways {
         for &(shape, way) in &found.fast {
             self.of_shapes[shape as usize] = way;
         }
-    }
-}
-
-impl Way {
-    /// That of a body to which nothing happens in the step.
-    fn to_come(bodies: &Bodies, body: u32, dt: f32) -> Self {
-        let row = &bodies.rows[body as usize];
-        let motion = Vec2::new(row[Slot::VX], row[Slot::VY]) * dt;
-        Self { start: bodies.poses[body as usize], motion, turn: row[Slot::W] * dt }
     }
 }

@@ -243,8 +243,7 @@ impl Predictions {
         let mut impact = Impact::new(scene.bodies, [of(a), of(b)], rest);
         let astray = [impact.courses[0].astray, impact.courses[1].astray];
         self.note_squeezed(scene, hit, &mut impact.courses);
-        let half = bodies.map(|body| scene.bodies.infos[body as usize].min_extent);
-        let thinner = if half[0] < half[1] { half[0] } else { half[1] };
+        let thinner = scene.bodies.thinner_half(bodies);
         let mut pushed = self.put_forward(hit, fraction, scene.dt, &mut impact);
         for (arms, pushed) in hit.arms.into_iter().zip(&mut pushed) {
             let (speed, mass) = impact.approach(hit.normal, arms.normal);
@@ -304,13 +303,13 @@ impl Predictions {
             hit.arms.into_iter().flat_map(|arms| [approach(courses, arms), approach(&first, arms)]);
         let coming = approaches.fold(0.0, f32::min);
         let light = usize::from(b > a);
-        let Context { speculative_distance, surroundings, .. } = scene.narrow_phase;
+        let Context { speculative_distance, ground, .. } = scene.narrow_phase;
         let pressed = Pressed {
             body: courses[light].body,
             by: a.min(b),
             velocity: scene.bodies.velocity(courses[1 - light].body),
             direction: if light == 1 { hit.normal } else { -hit.normal },
-            coming: coming < -squeezed::COMING * surroundings.length_unit,
+            coming: coming < -squeezed::COMING * ground.length_unit,
         };
         if coming * scene.dt < -SLIGHT * speculative_distance {
             self.squeezed.hit.push(pressed.body);
@@ -463,7 +462,7 @@ impl Look<'_> {
     }
 
     fn length_unit(&self) -> f32 {
-        self.scene.narrow_phase.surroundings.length_unit
+        self.scene.narrow_phase.ground.length_unit
     }
 
     fn near(&self) -> f32 {

@@ -123,8 +123,8 @@ pub(crate) fn run(
 ) {
     let work = Work { pass, parameters, rows };
     graph.for_each_chunk(team, schedule, |runs, mut source| {
-        for runs in runs.chunk_by(|a, b| a.in_order == b.in_order) {
-            if runs[0].in_order {
+        for runs in runs.chunk_by(|a, b| a.is_in_order() == b.is_in_order()) {
+            if runs[0].is_in_order() {
                 runs.iter().for_each(|run| work.one_by_one(level, run, &mut source));
             } else {
                 dispatch(level, RunPass { work, runs, source: &mut source });

@@ -1,5 +1,6 @@
 use super::*;
 use crate::describe::{Filter, JointDef, Locks, Material};
+use crate::math::Rot;
 
 #[test]
 fn a_body_changes_its_kind_while_others_lean_on_it() {
@@ -356,4 +357,61 @@ fn targets_are_reached_by_any_turn() {
         assert!(pose.q.angle_from(target.q).abs() < 1.0e-6, "{angle}: {:?}", pose.q.angle());
         assert!((pose.to_transform().p - target.p).length() < 1.0e-6);
     }
+}
+
+#[test]
+fn forces_on_what_takes_no_part_do_not_add_up() {
+    let mut world = World::new(Vec2::ZERO);
+    let ship = add(&mut world, 0.0, 0.0, rect(0.5, 0.5).density(1.0));
+    let push = |world: &mut World| {
+        world.body_mut(ship).unwrap().apply_force_to_center((6.0, 0.0));
+        world.body_mut(ship).unwrap().apply_torque(1.0);
+    };
+    world.body_mut(ship).unwrap().set_enabled(false);
+    for _ in 0..100 {
+        push(&mut world);
+        world.step(DT);
+    }
+    world.body_mut(ship).unwrap().set_enabled(true);
+    world.step(DT);
+    assert_eq!(world.body(ship).unwrap().velocity(), Vec2::ZERO);
+    push(&mut world);
+    world.body_mut(ship).unwrap().sleep();
+    world.body_mut(ship).unwrap().wake();
+    world.step(DT);
+    assert_eq!(world.body(ship).unwrap().velocity(), Vec2::ZERO);
+    assert_eq!(world.body(ship).unwrap().angular_velocity(), 0.0);
+}
+
+/// A dumbbell that turns about its middle flies apart: each end goes on as it went.
+#[test]
+fn what_is_left_of_a_turning_body_goes_on_as_it_went() {
+    let mut world = World::new(Vec2::ZERO);
+    let body = RigidBody::dynamic().angle(0.3).velocity(Vec2::new(1.0, 2.0)).angular_velocity(10.0);
+    let body = body.shape(circle(0.25).offset((-0.5, 0.0))).shape(circle(0.25).offset((0.5, 0.0)));
+    let body = world.add_body(body).unwrap();
+    let (mut shapes, turned) = (world.body(body).unwrap().shapes(), Rot::from_angle(0.3));
+    let before = world.body(body).unwrap().velocity_at(turned.rotate(Vec2::new(-0.5, 0.0)));
+    let is_right = |shape: &ShapeId| world.shape(*shape).unwrap().local().p.x > 0.0;
+    let right = shapes.find(is_right).unwrap();
+    drop(shapes);
+    world.remove_shapes(&[right]).unwrap();
+    let left = world.body(body).unwrap();
+    assert!((left.velocity() - before).length() < 1.0e-5, "{} {before}", left.velocity());
+    assert!((left.velocity() - Vec2::new(1.0, 2.0)).length() > 4.9);
+}
+
+#[test]
+fn a_wall_that_begins_to_collide_lets_out_what_sleeps_in_it() {
+    let mut world = world();
+    add_ground(&mut world);
+    let inside = add(&mut world, 0.0, 0.5, rect(0.5, 0.5));
+    let wall = RigidBody::fixed().position(Vec2::new(0.7, 2.0));
+    let wall = world.add_body(wall.shape(rect(0.5, 2.0).filter(Filter::NONE))).unwrap();
+    run(&mut world, 120);
+    assert!(!world.body(inside).unwrap().is_awake());
+    let shape = shape_of(&world, wall);
+    world.shape_mut(shape).unwrap().set_filter(Filter::default());
+    run(&mut world, 300);
+    assert!(world.body(inside).unwrap().position().x < -0.28);
 }

@@ -7,6 +7,7 @@ mod compounds;
 mod costs;
 mod events;
 mod forces;
+mod frames;
 mod handles;
 mod hooks;
 mod one_way;

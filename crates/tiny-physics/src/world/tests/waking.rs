@@ -232,3 +232,20 @@ fn steps_of_another_length_shake_nothing() {
         }
     }
 }
+
+/// A conveyor that carries something on one half, and something that rests on the other.
+#[test]
+fn what_lies_beside_a_belt_sleeps_with_what_it_lies_on() {
+    let mut world = world();
+    let belt = RigidBody::kinematic().shape(rect(20.0, 0.5).tangent_speed(0.2));
+    let belt = world.add_body(belt.shape(rect(20.0, 0.5).offset((41.0, 0.0)))).unwrap();
+    let carried = add(&mut world, -10.0, 1.0, rect(0.5, 0.5));
+    add(&mut world, 40.0, 1.0, rect(0.5, 0.5));
+    let lamp = add(&mut world, 30.0, -3.0, circle(0.3));
+    world.add_joint(belt, lamp, JointDef::distance(3.0)).unwrap();
+    for _ in 0..300 {
+        world.step(DT);
+        world.validate().unwrap();
+    }
+    assert!((world.body(carried).unwrap().velocity().x.abs() - 0.2).abs() < 0.01);
+}
