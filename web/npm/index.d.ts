@@ -109,7 +109,7 @@ export interface BodyDef {
   can_sleep?: boolean;
   awake?: boolean;
   sleep_speed?: number;
-  /** Is it swept against moving bodies too? */
+  /** Kept and given back; it changes nothing: whatever is fast is looked out for. */
   bullet?: boolean;
   enabled?: boolean;
   user_data?: number;

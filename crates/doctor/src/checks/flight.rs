@@ -356,7 +356,7 @@ fn report_passage(
         what: format!("{} went through {} of {partner} in one step of {step:.2} m", track.id, other.id()),
         advice: match (world.settings.continuous, moving) {
             (false, _) => "turn Settings::continuous on: without it fast bodies are not swept",
-            (true, true) => "shorten the step, make the bodies thicker or slower, or mark the fast one as RigidBody::bullet",
+            (true, true) => "shorten the step, make the bodies thicker or slower, or bring their masses nearer to each other",
             (true, false) => "shorten the step or make the wall thicker, and send us the scene: this should not happen",
         },
         bodies: vec![track.id, partner],

@@ -171,7 +171,7 @@ setters! {
         locks(locks: Locks): locks = locks;
         /// Keeps it from turning.
         lock_rotation(): locks.rotation = true;
-        /// Makes it a bullet: see [`RigidBody::bullet`].
+        /// Sets a flag that changes nothing: see [`RigidBody::bullet`].
         bullet(): bullet = true;
         /// Starts it asleep.
         asleep(): awake = false;

@@ -194,7 +194,7 @@ pub(crate) mod flags {
     pub(crate) const ROLLING: u8 = 2;
     /// Some lane has a moving surface.
     pub(crate) const TANGENT_SPEED: u8 = 4;
-    /// Some lane sends hit events.
+    /// Some lane's impulses are summed up in the step: for hit events, and for contacts that were predicted.
     pub(crate) const HIT: u8 = 8;
     /// Some point has a rest.
     pub(crate) const RESTS: u8 = 16;

@@ -1,4 +1,4 @@
-//! The stages of a step, in the order in which `World::step` runs them.
+//! The stages of a step, and what they share; `World::run_stages` has their order.
 //!
 //! Each stage is a function (or a few) over the two to four stores that it touches; none sees the
 //! world.

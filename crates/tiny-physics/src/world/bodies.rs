@@ -49,7 +49,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// A body of the world, to change. Every change wakes it and its island; numbers that are not finite,
+/// A body of the world, to change. What may move it wakes it and its island; numbers that are not finite,
 /// or so large that calculating with them would leave 32 bits, are refused by doing nothing.
 pub struct BodyMut<'a> {
     pub(super) world: &'a mut World,
@@ -232,7 +232,7 @@ impl BodyMut<'_> {
         }
     }
 
-    /// Sets whether it is swept against moving bodies too.
+    /// Sets a flag that is kept and given back, and changes nothing: see [`RigidBody::bullet`](crate::RigidBody::bullet).
     pub fn set_bullet(&mut self, bullet: bool) {
         self.info().bullet = bullet;
     }
