@@ -3,6 +3,7 @@
 use crate::hard::hard_rows;
 use crate::row::Row;
 use crate::rows::rows;
+use std::collections::BTreeSet;
 
 /// The rows of both suites.
 pub fn all_rows() -> impl Iterator<Item = &'static Row> {
@@ -14,8 +15,8 @@ pub fn find(name: &str) -> Option<&'static Row> {
     all_rows().find(|row| row.id.eq_ignore_ascii_case(name) || row.name == name)
 }
 
-/// The rows that the words of a command line stand for: numbers, names, `hard` for the hard suite, or the letter of one of
-/// its families. No words are the first suite.
+/// The rows that the words of a command line stand for, each once: numbers, names, or the letter of a family of the hard suite.
+/// `hard` alone is all of that; no words are the first suite.
 ///
 /// # Errors
 /// The first word that means nothing.
@@ -23,11 +24,13 @@ pub fn resolve(words: &[String]) -> Result<Vec<&'static Row>, &str> {
     if words.is_empty() {
         return Ok(rows().iter().collect());
     }
-    let mut found = Vec::new();
-    for word in words {
+    if words.iter().all(|word| word == "hard") {
+        return Ok(hard_rows().iter().collect());
+    }
+    let mut found: Vec<&Row> = Vec::new();
+    for word in words.iter().filter(|word| *word != "hard") {
         let before = found.len();
         match word.as_str() {
-            "hard" => found.extend(hard_rows()),
             letter if letter.len() == 1 && letter.as_bytes()[0].is_ascii_alphabetic() => found
                 .extend(hard_rows().iter().filter(|row| {
                     row.id.as_bytes()[0].eq_ignore_ascii_case(&letter.as_bytes()[0])
@@ -38,6 +41,8 @@ pub fn resolve(words: &[String]) -> Result<Vec<&'static Row>, &str> {
             return Err(word);
         }
     }
+    let mut seen = BTreeSet::new();
+    found.retain(|row| seen.insert(row.id));
     Ok(found)
 }
 
@@ -68,6 +73,7 @@ mod tests {
         assert_eq!(ids(&["hard"]).map(|ids| ids.len()), Some(hard_rows().len()));
         assert_eq!(ids(&["m1", "stack"]), Some(vec!["M1", "6"]));
         assert!(ids(&["J"]).is_some_and(|ids| ids.iter().all(|id| id.starts_with('J'))));
+        assert_eq!(ids(&["hard", "C8", "c8", "C2"]), Some(vec!["C8", "C2"]));
         assert_eq!(ids(&["stack", "piramid"]), None);
     }
 }
