@@ -64,10 +64,16 @@ function give(bytes) {
 }
 
 const giveText = (text) => give(encoder.encode(text));
-const giveData = (data) => giveText(JSON.stringify(data, finite));
+const giveData = (data) => giveText(write(data));
 
-/** JSON has no such numbers, and would write nothing instead. */
-function finite(name, value) {
+// Whole 64 bits do not go through JSON as numbers: they are marked, and BigInts here.
+const write = (data) => (JSON.stringify(data, writable) ?? "").replace(/"\\u0001(-?\d+)\\u0001"/g, "$1");
+const read = (text) => JSON.parse(text.replace(/"(category|mask)":(\d{16,})/g, '"$1":"\\u0001$2"'), readable);
+const readable = (_, value) => (typeof value === "string" && value[0] === "\u0001" ? BigInt(value.slice(1)) : value);
+
+/** JSON has no numbers that are not finite, and would write nothing instead. */
+function writable(name, value) {
+  if (typeof value === "bigint") return `\u0001${value}\u0001`;
   if (typeof value === "number" && !Number.isFinite(value)) throw new PhysicsError(`${name} is ${value}; it has to be finite`);
   return value;
 }
@@ -79,14 +85,12 @@ function giveQuestion(filter, shape, angle = 0) {
     const { category, mask, group, sensors, excludeBody } = filter;
     const kinds = Object.entries({ category, mask, group }).filter(([, value]) => value !== undefined);
     question.filter = { sensors: !!sensors };
-    // Whole 64 bits do not go through JSON as numbers.
     if (kinds.length) question.filter.filter = { category: ALL, mask: ALL, ...Object.fromEntries(kinds) };
     if (excludeBody !== undefined) question.filter.exclude_body = parts(excludeBody);
   }
   if (shape) Object.assign(question, { shape, angle });
-  const text = JSON.stringify(question, (_, value) => (typeof value === "bigint" ? `\u0001${value}\u0001` : value));
-  if (text === "{}") give(new Uint8Array());
-  else giveText(text.replace(/"\\u0001(\d+)\\u0001"/g, "$1"));
+  const text = write(question);
+  giveText(text === "{}" ? "" : text);
 }
 
 const ALL = 2n ** 64n - 1n;
@@ -142,7 +146,7 @@ export class World {
   }
 
   static loadScene(scene) {
-    giveText(typeof scene === "string" ? scene : JSON.stringify(scene));
+    giveText(typeof scene === "string" ? scene : write(scene));
     const session = wasm.tp_new_scene();
     return World.#of(session, session ? list() : []);
   }
@@ -180,9 +184,10 @@ export class World {
 
   // Time.
 
-  step(dt = 0) {
-    if (dt === 0) check(wasm.tp_step(this.session, 0));
-    else check(wasm.tp_step(this.session, Number.isFinite(dt) ? dt : NaN));
+  step(dt) {
+    // The module takes 0 for the scene's own step.
+    const given = Math.fround(dt) > 0 && Number.isFinite(dt) ? dt : NaN;
+    check(wasm.tp_step(this.session, dt === undefined ? 0 : given));
   }
 
   get dt() {
@@ -242,7 +247,7 @@ export class World {
 
   shape(id) {
     if (!wasm.tp_shape(this.session, id)) return undefined;
-    return { id, body: numbers()[0], ...JSON.parse(text()) };
+    return { id, body: numbers()[0], ...read(text()) };
   }
 
   shapeIds() {
@@ -265,7 +270,7 @@ export class World {
   joint(id) {
     if (!wasm.tp_joint(this.session, id)) return undefined;
     const [bodyA, bodyB, ax, ay, bx, by, fx, fy, torque] = numbers();
-    const def = JSON.parse(text());
+    const def = read(text());
     return { id, bodyA, bodyB, anchorA: point(ax, ay), anchorB: point(bx, by), force: point(fx, fy), torque, def };
   }
 

@@ -15,16 +15,15 @@ pub(crate) fn each<T>(name: &str, items: &[T], check: impl Fn(&T) -> Check) -> C
 }
 
 pub(crate) fn check_settings(settings: &Settings) -> Check {
-    at_least_one("substeps", settings.substeps)?;
-    at_least_one("iterations", settings.iterations)?;
-    positive("length_unit", settings.length_unit)?;
-    positive("contact_hertz", settings.contact_hertz)?;
-    not_negative("contact_damping_ratio", settings.contact_damping_ratio)?;
-    not_negative("push_speed", settings.push_speed)?;
-    not_negative("restitution_threshold", settings.restitution_threshold)?;
-    not_negative("hit_event_threshold", settings.hit_event_threshold)?;
-    positive("max_speed", settings.max_speed)?;
-    not_negative("time_to_sleep", settings.time_to_sleep)
+    settings.validate().map_err(of_number)
+}
+
+/// That of a number, named as the engine does.
+fn of_number(error: Error) -> SceneError {
+    match error {
+        Error::OutOfRange { name, .. } | Error::NotFinite { name, .. } => value(name, error),
+        _ => value("", error),
+    }
 }
 
 pub(crate) fn check_body(body: &RigidBody) -> Check {

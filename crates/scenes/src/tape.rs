@@ -150,7 +150,7 @@ impl Tape {
                 let _ = command.apply(world);
             }
             script.before_step(&mut *world);
-            world.step(self.dt);
+            world.step(self.history.recording().dt(step + 1).unwrap_or(self.dt));
         }
     }
 }

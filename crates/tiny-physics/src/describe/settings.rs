@@ -88,9 +88,9 @@ described! {
         pub time_to_sleep: f32 = 0.5,
         /// Are fast bodies swept against the motions of static and kinematic shapes?
         pub continuous: bool = true,
-        /// Friction of a pair from the frictions of its shapes.
+        /// Friction of a pair from the frictions of its shapes, for contacts that begin from now on.
         pub friction_mix: Mix = Mix::GeometricMean,
-        /// Restitution of a pair from the restitutions of its shapes.
+        /// Restitution of a pair from the restitutions of its shapes, for contacts that begin from now on.
         pub restitution_mix: Mix = Mix::Min,
     }
 }
@@ -105,7 +105,7 @@ impl Settings {
             Error::check(name, value, (1..=1000).contains(&value), "1 to 1000")?;
         }
         Error::check_positive("length_unit", self.length_unit)?;
-        Error::check_not_negative("contact_hertz", self.contact_hertz)?;
+        Error::check_positive("contact_hertz", self.contact_hertz)?;
         Error::check_not_negative("contact_damping_ratio", self.contact_damping_ratio)?;
         Error::check_not_negative("push_speed", self.push_speed)?;
         Error::check_not_negative("restitution_threshold", self.restitution_threshold)?;

@@ -177,7 +177,8 @@ impl TileGrid {
 
     /// The value of a cell; 0 outside of the grid.
     pub fn get(&self, x: u32, y: u32) -> u16 {
-        if x < self.width && y < self.height { self.cells[self.index(x, y)] } else { 0 }
+        let cell = self.cells.get(self.index(x, y)).filter(|_| x < self.width && y < self.height);
+        cell.copied().unwrap_or(0)
     }
 
     /// What stands in a cell.
@@ -190,13 +191,13 @@ impl TileGrid {
     /// # Errors
     /// The cell is outside of the grid, or the palette has no such entry.
     pub fn set(&mut self, x: u32, y: u32, value: u16) -> Result<(), Error> {
-        if x >= self.width || y >= self.height {
+        let index = self.index(x, y);
+        if x >= self.width || y >= self.height || index >= self.cells.len() {
             let reason = "the cell is outside of the tile grid";
             return Err(Error::Unsupported { reason });
         }
         let is_known = usize::from(value) <= self.palette.len();
         Error::check("tile", value, is_known, "0 to the length of the palette")?;
-        let index = self.index(x, y);
         self.cells[index] = value;
         Ok(())
     }
@@ -301,7 +302,8 @@ impl TileGrid {
         for y in bottom..top {
             for x in left..right {
                 let value = self.get(x, y);
-                if value == 0 || taken[(y - bottom) as usize] >> (x - left) & 1 != 0 {
+                if self.tile(x, y).is_none() || taken[(y - bottom) as usize] >> (x - left) & 1 != 0
+                {
                     continue;
                 }
                 let free = |x: u32, y: u32, taken: &[u32]| {

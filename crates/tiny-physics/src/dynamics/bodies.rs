@@ -364,7 +364,8 @@ impl Bodies {
         let dynamic = info.kind == BodyKind::Dynamic;
         let turns = dynamic && !info.locks.rotation && !info.never_turns && info.inertia > 0.0;
         let row = &mut self.rows[index as usize];
-        row[Slot::INV_MASS] = if dynamic && info.mass > 0.0 { 1.0 / info.mass } else { 0.0 };
+        let moves = dynamic && info.mass > 0.0 && (turns || !(info.locks.x && info.locks.y));
+        row[Slot::INV_MASS] = if moves { 1.0 / info.mass } else { 0.0 };
         row[Slot::INV_INERTIA] = if turns { 1.0 / info.inertia } else { 0.0 };
     }
 }

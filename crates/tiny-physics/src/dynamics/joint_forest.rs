@@ -266,7 +266,7 @@ pub(crate) fn is_rigid(def: &JointDef) -> bool {
 }
 
 /// Does nothing act along what a rigid joint leaves free?
-fn is_plain(def: &JointDef) -> bool {
+pub(super) fn is_plain(def: &JointDef) -> bool {
     use JointKind::{Distance, Gear, Prismatic, Revolute, Weld};
     matches!(
         def.kind,
@@ -481,9 +481,10 @@ fn plant(
     }
     let nodes = vec![NULL; component.bodies.len()];
     let in_tree = spanning.len() + anchors.len();
-    let mut all = component.bodies.iter().flat_map(|&body| {
+    let all = component.bodies.iter().flat_map(|&body| {
         joints.of_body(bodies.infos[body as usize].first_joint).map(|(joint, _)| joint)
     });
+    let mut all = all.filter(|&joint| joints.records[joint as usize].place != Place::Asleep);
     let alone = in_tree == component.joints.len()
         && all.all(|joint| component.joints.binary_search(&joint).is_ok());
     let tree = JointTree { alone, ..JointTree::default() };

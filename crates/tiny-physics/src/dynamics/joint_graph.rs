@@ -13,7 +13,7 @@ use super::joint_blocks::{
     DistanceBlock, DriveBlock, GearBlock, Impulses, JointClass, JointLanes, PulleyBlock,
     RevoluteBlock, SliderBlock, WeldBlock,
 };
-use super::joint_forest::{JointForest, JointTree, is_rigid};
+use super::joint_forest::{JointForest, JointTree, is_plain, is_rigid};
 use super::joints::{JointRecord, Joints};
 use super::pace::PLAIN;
 use crate::codec::{Data, Reader, Sink, clone_by_field, store};
@@ -322,11 +322,6 @@ impl JointGraph {
         self.colours.list_mut().iter_mut().for_each(|colour| colour.scale(factor));
     }
 
-    /// Joints that are awake and have something to solve.
-    pub(crate) fn count(&self) -> usize {
-        self.count
-    }
-
     /// Puts a joint into the graph with the impulses of its record. Does nothing where it is there
     /// already, has nothing to solve, or one of its bodies is not enabled.
     pub(crate) fn insert(&mut self, bodies: &mut Bodies, joints: &mut Joints, index: u32) {
@@ -439,6 +434,10 @@ impl JointGraph {
         let same = core::mem::discriminant(&record.def.kind) == core::mem::discriminant(&def.kind)
             && record.def.enabled == def.enabled;
         if same && is_rigid(&record.def) == is_rigid(def) {
+            if is_plain(&record.def) != is_plain(def) {
+                // Where joints close a loop, those are left out of a tree that are plain.
+                self.forest.note(record.body_a, record.body_b);
+            }
             joints.records[index as usize].def = *def;
             self.mark_stale(joints, index);
         } else {
@@ -528,7 +527,7 @@ mod tests {
         for index in 0..100 {
             graph.remove(&mut bodies, &mut joints, index);
         }
-        assert_eq!(graph.count(), 0);
+        assert_eq!(graph.count, 0);
         assert!(bodies.infos.iter().all(|info| info.joint_colours == 0));
         assert!(graph.colours.list().is_empty());
     }
@@ -556,7 +555,7 @@ mod tests {
                 used[end as usize] |= 1 << colour;
             }
         }
-        assert_eq!(placed, graph.count());
+        assert_eq!(placed, graph.count);
         for (used, info) in used.iter().zip(&bodies.infos) {
             assert_eq!(*used, info.joint_colours);
         }

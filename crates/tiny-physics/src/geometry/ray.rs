@@ -8,6 +8,11 @@ use super::edges::edge_normal;
 use super::{Core, Shape};
 use crate::math::Vec2;
 
+/// What a hit may be off by, as a part of the numbers that it is calculated from.
+const ROUNDING: f32 = 4.0 * f32::EPSILON;
+/// Rays are cut off so far out, metres: products with longer ones would not be finite.
+const FARTHEST: f32 = 1.0e12;
+
 /// A ray of finite length.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Ray {
@@ -67,8 +72,14 @@ impl Shape {
 impl Core {
     /// See [`Shape::ray_cast`].
     pub(crate) fn ray_cast(&self, ray: &Ray) -> Option<RayHit> {
+        let way = ray.translation.abs();
+        let length = if way.x < way.y { way.y } else { way.x };
         if !ray.can_hit() || self.contains(ray.origin) {
             None
+        } else if length > FARTHEST {
+            let part = FARTHEST / length;
+            let hit = self.ray_cast(&Ray::new(ray.origin, ray.translation * part))?;
+            Some(RayHit { fraction: hit.fraction * part, ..hit })
         } else if self.radius > 0.0 {
             self.cast_rounded(ray)
         } else if self.count >= 3 {
@@ -139,8 +150,12 @@ fn cross_edge(ray: &Ray, start: Vec2, end: Vec2, normal: Vec2) -> Option<RayHit>
         return None;
     }
     let fraction = height / speed;
-    let along = (ray.at(fraction) - start).dot(end - start);
-    let on_edge = along >= 0.0 && along <= (end - start).length_sq();
+    let (at, way) = (ray.at(fraction), end - start);
+    let along = (at - start).dot(way);
+    // Two edges that meet round where a ray hits their corner each for itself: none may slip through between.
+    let size = |v: Vec2| v.x.abs() + v.y.abs();
+    let slack = ROUNDING * (size(ray.origin) + size(ray.translation) + size(start)) * way.length();
+    let on_edge = along >= -slack && along <= way.length_sq() + slack;
     on_edge.then_some(RayHit { fraction, normal })
 }
 

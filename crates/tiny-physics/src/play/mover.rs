@@ -218,15 +218,17 @@ impl CharacterMover {
     /// Moves it on by `dt` seconds; call it after [`World::step`] with the same `dt`. Nothing happens where a
     /// number is not finite or `dt` not above 0.
     pub fn update(&mut self, world: &mut World, input: MoverInput, dt: f32) {
+        let gravity = world.gravity * self.gravity_scale;
         let numbers = [dt, input.walk, input.jump, self.height, self.radius, self.skin];
-        let finite = numbers.iter().all(|number| number.is_finite())
+        let limits =
+            [self.max_slope, self.step_height, self.snap_distance, self.push_force, self.mass];
+        let finite = numbers.iter().chain(&limits).all(|number| number.is_finite())
             && self.position.is_finite()
             && self.velocity.is_finite()
-            && world.gravity.is_finite();
+            && gravity.is_finite();
         if !finite || dt <= 0.0 || self.radius < MIN_EXTENT {
             return;
         }
-        let gravity = world.gravity * self.gravity_scale;
         let frame = Frame { gravity, dt, pushed: self.pushed.take(), ..Frame::of(world) };
         let Frame { up, right, .. } = frame;
         self.previous = self.position;
@@ -264,7 +266,9 @@ impl CharacterMover {
     /// Goes along with what it stands on.
     fn ride(&mut self, world: &mut World, frame: Frame) {
         let Some(ground) = self.ground else { return };
-        let Some(body) = world.body(ground.body) else {
+        let is_here = self.position.relative_to(ground.point).length() <= self.height;
+        let Some(body) = world.body(ground.body).filter(|_| is_here) else {
+            // That is gone, or it has been taken elsewhere.
             self.ground = None;
             self.velocity = Vec2::ZERO;
             return;

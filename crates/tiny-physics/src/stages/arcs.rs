@@ -163,8 +163,9 @@ impl Arc {
         let (constraint, known) = (&mut bucket.constraints[block], &mut bucket.manifolds[block]);
         self.waits &= constraint.points.iter().all(|point| point.normal_impulse[lane] == 0.0);
         let both = [known.body_a[lane], known.body_b[lane]];
-        // Trees take contacts out of their lanes.
-        if self.waits || [constraint.body_a[lane], constraint.body_b[lane]] != both {
+        // Trees take contacts out of their lanes, and hooks switch them off.
+        let is_off = constraint.points.iter().all(|point| point.normal_mass[lane] <= 0.0);
+        if self.waits || is_off || [constraint.body_a[lane], constraint.body_b[lane]] != both {
             return;
         }
         let course = Course::new(bodies, both, h);

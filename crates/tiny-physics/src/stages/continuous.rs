@@ -31,6 +31,8 @@ pub(crate) struct Rules<'a> {
     pub(crate) joints: &'a Joints,
     /// The user's word on a pair of shapes, if there is any.
     pub(crate) custom: Option<&'a dyn PairRule>,
+    /// Pairs of shapes whose contacts the user has switched off in this step, sorted.
+    pub(crate) off: &'a [[u32; 2]],
     /// See [`Settings::length_unit`](crate::Settings).
     pub(crate) length_unit: f32,
     /// Length of the step, seconds.
@@ -531,6 +533,7 @@ impl Search<'_> {
         other.body != record.body
             && !other.sensor
             && record.filter.collides(&other.filter)
+            && rules.off.binary_search(&[shape.min(index), shape.max(index)]).is_err()
             && rules.joints.may_collide(bodies, record.body, other.body)
             && rules.custom.is_none_or(|rule| rule.allows(bodies, shapes, shape, index))
     }

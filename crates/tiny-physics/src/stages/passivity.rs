@@ -21,7 +21,7 @@
 
 use super::islands::Stores;
 use crate::describe::{JointDef, JointKind, Motor};
-use crate::dynamics::{Bodies, DisjointSets, NULL, Slot, flags};
+use crate::dynamics::{Bodies, DisjointSets, NULL, Slot};
 use crate::math::DVec2;
 use crate::simd::BLOCK;
 
@@ -120,7 +120,7 @@ impl Memory {
         let touching = || {
             graph.of_pace(pace).iter().flat_map(|bucket| {
                 (0..bucket.contacts.len()).map(move |slot| {
-                    let belt = bucket.heads[slot / BLOCK].flags & flags::TANGENT_SPEED != 0;
+                    let belt = bucket.surfaces[slot / BLOCK].tangent_speed[slot % BLOCK] != 0.0;
                     (bucket.bodies(slot), belt)
                 })
             })

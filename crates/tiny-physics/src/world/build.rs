@@ -60,9 +60,9 @@ impl World {
         self.wake_index(index);
         self.destroy_joints_of(index);
         self.destroy_contacts_of(index, |_, _| true);
-        while self.state.bodies.infos[index as usize].first_shape != NULL {
-            self.unlink_shape(self.state.bodies.infos[index as usize].first_shape);
-        }
+        let shapes = self.shapes_of(index);
+        self.unlink_shapes(index, |_| true);
+        shapes.into_iter().for_each(|shape| self.forget_shape(shape));
         self.state.bodies.remove_awake(index);
         self.state.bodies.remove(index);
         Ok(())
@@ -155,7 +155,8 @@ impl World {
             self.wake_index(body);
             self.destroy_contacts_of(body, |_, c| goes(c.shape_a) || goes(c.shape_b));
         }
-        shapes.iter().for_each(|&shape| self.unlink_shape(shape));
+        bodies.iter().for_each(|&body| self.unlink_shapes(body, goes));
+        shapes.iter().for_each(|&shape| self.forget_shape(shape));
         bodies.into_iter().for_each(|body| self.update_mass(body));
         Ok(())
     }
@@ -199,21 +200,20 @@ impl World {
         index
     }
 
-    /// Takes a shape without contacts out of its body's list and out of the world.
-    fn unlink_shape(&mut self, shape: u32) {
-        let ShapeRecord { body, next, .. } = self.state.shapes.records[shape as usize];
+    /// Takes shapes out of their body's list.
+    fn unlink_shapes(&mut self, body: u32, goes: impl Fn(u32) -> bool) {
+        let mut stay = self.shapes_of(body);
+        stay.retain(|&shape| !goes(shape));
         let info = &mut self.state.bodies.infos[body as usize];
-        info.shape_count -= 1;
-        if info.first_shape == shape {
-            info.first_shape = next;
-        } else {
-            let shapes = &mut self.state.shapes;
-            let mut all = shapes.of_body(info.first_shape);
-            if let Some(previous) = all.find(|&i| shapes.records[i as usize].next == shape) {
-                drop(all);
-                shapes.records[previous as usize].next = next;
-            }
+        (info.shape_count, info.first_shape) = (stay.len() as u32, NULL);
+        for shape in stay.into_iter().rev() {
+            self.state.shapes.records[shape as usize].next = info.first_shape;
+            info.first_shape = shape;
         }
+    }
+
+    /// Takes a shape out of the world that has no contacts and is in no body's list.
+    fn forget_shape(&mut self, shape: u32) {
         self.note_ground(shape);
         self.end_overlaps_of(shape);
         self.state.broad_phase.destroy_proxy(self.state.shapes.proxy(shape));

@@ -171,6 +171,7 @@ impl World {
 
     /// Asks the user about all contacts that touch.
     pub(super) fn call_pre_solve(&mut self, team: &Team) {
+        self.scratch.switched_off.clear();
         let Some(hook) = self.hooks.pre_solve.clone() else { return };
         let mut places = core::mem::take(&mut self.scratch.touching);
         let mut answers = core::mem::take(&mut self.scratch.answers);
@@ -188,6 +189,7 @@ impl World {
         for (&at, rules) in places.iter().zip(chunks.iter().flatten()) {
             self.apply_rules(at, rules);
         }
+        self.scratch.switched_off.sort_unstable();
         self.scratch.touching = places;
         self.scratch.answers = answers;
     }
@@ -233,6 +235,9 @@ impl World {
         head.flags |= if restitution > 0.0 { flags::RESTITUTION } else { 0 };
         head.flags |= if speed != 0.0 { flags::TANGENT_SPEED } else { 0 };
         if !rules.enabled {
+            let lanes = &bucket.manifolds[block];
+            let (a, b) = (lanes.shape_a[lane], lanes.shape_b[lane]);
+            self.scratch.switched_off.push([a.min(b), a.max(b)]);
             surface.rolling_impulse[lane] = 0.0;
             for point in &mut constraint.points {
                 point.normal_mass[lane] = 0.0;

@@ -25,7 +25,8 @@ footprint!(Scratch {
     solver,
     sway,
     overlaps,
-    touching
+    touching,
+    switched_off
 } each { found_changes, findings, found_overlaps, answers });
 
 /// Memory that a world holds on the heap, by what it is for. What is left out: closures given as hooks, threads and

@@ -126,6 +126,7 @@ struct Scratch {
     found_overlaps: Vec<Vec<Overlap>>,
     touching: Vec<hooks::At>,
     answers: Vec<Vec<ContactRules>>,
+    switched_off: Vec<[u32; 2]>,
 }
 
 impl World {
@@ -277,8 +278,8 @@ impl World {
         let anything_fast = !self.scratch.ways.of_shapes.is_empty();
         let step = (lengths.dt, anything_fast, naming);
         let settings = (self.level, self.contact_reach(), self.settings.length_unit);
-        let State { bodies, shapes, broad_phase, joint_graph, graph, .. } = &mut self.state;
-        let jointed = joint_graph.count() > 0;
+        let State { bodies, shapes, broad_phase, joints, graph, .. } = &mut self.state;
+        let jointed = joints.count > 0;
         let context =
             narrow_context::Context::new(bodies, shapes, broad_phase, settings, jointed, step);
         let Scratch { schedule, predictions, .. } = &self.scratch;
@@ -459,13 +460,14 @@ impl World {
     /// Stops fast bodies where they would have gone through something.
     fn sweep_fast_bodies(&mut self, team: &Team, lengths: Lengths) {
         let State { bodies, shapes, broad_phase, joints, .. } = &mut self.state;
+        let Scratch { fast, carriers, moved, switched_off, .. } = &mut self.scratch;
         let rules = continuous::Rules {
             joints,
             custom: self.hooks.pair_filter(),
+            off: switched_off,
             length_unit: self.settings.length_unit,
             dt: lengths.dt,
         };
-        let Scratch { fast, carriers, moved, .. } = &mut self.scratch;
         continuous::run(team, (fast, carriers), bodies, shapes, broad_phase, rules, moved);
     }
 

@@ -187,7 +187,7 @@ told_by_both! {
         gravity_scale: f32 = body.info().gravity_scale;
         /// Linear and angular damping, 1/s.
         damping: (f32, f32) = (body.info().linear_damping, body.info().angular_damping);
-        /// Is it swept against moving bodies too?
+        /// A flag that changes nothing: see [`RigidBody::bullet`](crate::RigidBody::bullet).
         is_bullet: bool = body.info().bullet;
         /// Does it take part?
         is_enabled: bool = body.info().enabled;

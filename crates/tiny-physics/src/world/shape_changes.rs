@@ -83,7 +83,7 @@ impl ShapeMut<'_> {
         self.world.state.shapes.records[self.index as usize].material = material;
         self.world.wake_index(body);
         self.world.wake_neighbours(body);
-        if density != material.density {
+        if density != material.density && self.world.state.bodies.is_dynamic(body) {
             self.world.update_mass(body);
         }
         self.world.refresh_contacts_of(self.index);

@@ -184,6 +184,11 @@ impl World {
         let index = (y * grid.blocks().0 + x) as usize;
         let pieces = grid.pieces(x, y);
         let mut block = placed.blocks[index].clone();
+        let alive = block.body.filter(|body| self.body(*body).is_some());
+        if alive.is_none() {
+            // The user has removed it, with all that it had.
+            block.shapes.clear();
+        }
         let new: Vec<Piece> = pieces
             .iter()
             .filter(|piece| !block.shapes.iter().any(|(old, _)| old == *piece))
@@ -200,7 +205,6 @@ impl World {
                 let _ = self.remove_shape(shape);
             }
         }
-        let alive = block.body.filter(|body| self.body(*body).is_some());
         if !shapes.is_empty() {
             let body = match alive {
                 Some(body) => body,

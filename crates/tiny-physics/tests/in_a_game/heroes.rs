@@ -250,3 +250,24 @@ fn a_ledge_goes_as_one_or_not_at_all() {
     assert!(world.body(load).unwrap().position().y < -1.0, "it woke and fell");
     world.remove_shapes(&[]).unwrap();
 }
+
+#[test]
+fn a_hero_who_is_taken_elsewhere_does_not_jump_from_the_air() {
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let mut hero = CharacterMover::new((0.0, 0.95), 1.8, 0.3);
+    let stand = |world: &mut World, hero: &mut CharacterMover, jump: f32| {
+        world.step(DT);
+        hero.update(world, MoverInput { jump, ..MoverInput::default() }, DT);
+    };
+    (0..60).for_each(|_| stand(&mut world, &mut hero, 0.0));
+    assert!(hero.ground().is_some());
+    hero.position.y += 10.0;
+    stand(&mut world, &mut hero, 5.0);
+    assert!(hero.velocity.y <= 0.0 && hero.position.y < 11.0, "{hero:?}");
+    hero.gravity_scale = f32::NAN;
+    stand(&mut world, &mut hero, 0.0);
+    hero.gravity_scale = 1.0;
+    (0..200).for_each(|_| stand(&mut world, &mut hero, 0.0));
+    assert!(hero.ground().is_some() && hero.position.is_finite());
+}

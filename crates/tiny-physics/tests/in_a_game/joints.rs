@@ -183,3 +183,48 @@ fn joints_are_switched_off_and_on() {
         world.validate().unwrap();
     }
 }
+
+/// A joint that only keeps bodies apart changes nothing of how they lie.
+#[test]
+fn a_filter_joint_leaves_weights_as_they_are() {
+    let mut world = World::new((0.0, -10.0));
+    world.settings.sleep = false;
+    world.add_body(RigidBody::fixed().position((0.0, -1.0)).shape(square(1.0))).unwrap();
+    let body = |x: f64| RigidBody::dynamic().position((x, 0.5)).shape(square(0.5)).mass(2.0);
+    let lies = world.add_body(body(0.0)).unwrap();
+    let other = world.add_body(body(20.0)).unwrap();
+    world.add_joint(lies, other, JointDef::filter()).unwrap();
+    steps(&mut world, 120);
+    let contact = world.body(lies).unwrap().contacts().next().unwrap();
+    assert!((contact.force().length() - 20.0).abs() < 0.2, "{}", contact.force());
+}
+
+/// Nothing is nearer than 0: what a rope holds passes by its anchor unbraked.
+#[test]
+fn a_rope_does_not_brake_what_passes_its_anchor() {
+    for start in [-3.0, -3.01, -3.02, -3.03] {
+        let mut world = World::new((0.0, 0.0));
+        let hook = world.add_body(RigidBody::fixed()).unwrap();
+        let ball = RigidBody::dynamic().position((start, 1.0e-3)).velocity((10.0, 0.0));
+        let ball = world.add_body(ball.shape(square(0.1))).unwrap();
+        world.add_joint(hook, ball, JointDef::rope(5.0)).unwrap();
+        steps(&mut world, 30);
+        let velocity = world.body(ball).unwrap().velocity();
+        assert!((velocity.x - 10.0).abs() < 1.0e-3, "from {start}: {velocity}");
+    }
+}
+
+/// What is locked in all ways is a wall for what hits it.
+#[test]
+fn what_is_locked_reflects_as_a_wall_does() {
+    let mut world = World::new((0.0, 0.0));
+    let locks = Locks { x: true, y: true, rotation: true };
+    let bouncy = || ShapeDef::new(square(0.5)).restitution(1.0).friction(0.0);
+    let block = RigidBody::dynamic().position((3.0, 0.0)).locks(locks).shape(bouncy());
+    let block = world.add_body(block).unwrap();
+    let ball = RigidBody::dynamic().velocity((5.0, 0.0)).shape(bouncy());
+    let ball = world.add_body(ball).unwrap();
+    steps(&mut world, 60);
+    assert!((world.body(ball).unwrap().velocity().x + 5.0).abs() < 0.02);
+    assert_eq!(world.body(block).unwrap().velocity(), Vec2::ZERO);
+}

@@ -88,3 +88,37 @@ fn distances_between_shapes_and_bodies_of_overlaps() {
     world.remove_body(a).unwrap();
     assert_eq!(world.shape_distance(stale, shape(&world, b)), None);
 }
+
+/// Trees are put on hills by rays straight down, and these hit the joints of a chain as often as not.
+#[test]
+fn rays_at_the_joints_of_a_chain_do_not_slip_through() {
+    let mut world = World::new((0.0, 0.0));
+    let heights: Vec<f32> = (0..400).map(|i| (0.3 * i as f32).sin()).collect();
+    let ground = world.add_body(RigidBody::fixed()).unwrap();
+    world.add_chain(ground, &ChainDef::heights(1.0, &heights)).unwrap();
+    for i in 1..399 {
+        let slant = 0.37 * (i % 5) as f32;
+        for (from, way) in [
+            (DVec2::new(f64::from(i), 10.0), Vec2::new(0.0, -20.0)),
+            (
+                DVec2::new(f64::from(i) - f64::from(slant), 10.0),
+                Vec2::new(slant, heights[i as usize] - 10.0) * 2.0,
+            ),
+        ] {
+            assert!(world.ray_cast(from, way, &QueryFilter::new()).is_some(), "{i} {way}");
+        }
+    }
+}
+
+#[test]
+fn questions_of_any_size_have_answers() {
+    let mut world = World::new((0.0, 0.0));
+    world.settings.length_unit = 0.0;
+    world.add_body(RigidBody::fixed().shape(square(1.0))).unwrap();
+    let all = QueryFilter::new();
+    assert!(world.closest_point((5.0, 5.0), 10.0, &all).is_some());
+    let everything = Aabb::new(Vec2::splat(f32::MIN), Vec2::splat(f32::MAX));
+    assert_eq!(world.overlap_aabb(everything, &all).len(), 1);
+    let hit = world.ray_cast((-5.0, 0.0), (f32::MAX, 0.0), &all).unwrap();
+    assert!((hit.point.x + 1.0).abs() < 0.01 && hit.normal == -Vec2::X, "{hit:?}");
+}

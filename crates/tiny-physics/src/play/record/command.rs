@@ -77,9 +77,15 @@ commands! {
             Ok(Made::Character(character))
         },
         /// [`World::gravity`].
-        SetGravity(gravity: Vec2) = 18: world.gravity = *gravity,
+        SetGravity(gravity: Vec2) = 18: {
+            Error::check_finite_vec("gravity", *gravity)?;
+            world.gravity = *gravity;
+        },
         /// [`World::settings`].
-        SetSettings(settings: Settings) = 19: world.settings = *settings,
+        SetSettings(settings: Settings) = 19: {
+            settings.validate()?;
+            world.settings = *settings;
+        },
         /// [`World::restore_bytes`], or `clone_from` with the world that gave the bytes: goes back to a frame.
         RestoreBytes(bytes: Vec<u8>) = 20: world.restore_bytes(bytes),
     }

@@ -11,7 +11,7 @@ use super::axis::{AxisDef, Coordinate, Give};
 use super::parts::{Pair, Row, Soft, Stride, cross, dot, scale, slow_turn};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
-use crate::dynamics::{AxisLanes, DistanceBlock, TreeLink};
+use crate::dynamics::{AxisLanes, DistanceBlock, TreeLink, UNLIMITED};
 use crate::math::Vec2;
 use crate::simd::{BLOCK, Lanes};
 
@@ -71,6 +71,10 @@ impl JointKernel for DistanceBlock {
         }
         self.length.length[lane] = length;
         AxisDef { spring, target: length, limits, motor }.write(&mut self.axis, lane, rates);
+        if limits.is_some_and(|limits| limits.lower <= 0.0) {
+            // Nothing is nearer than that: a limit would brake what passes by.
+            (self.axis.lower[lane], self.axis.lower_impulse[lane]) = (-UNLIMITED, 0.0);
+        }
     }
 
     #[inline(always)]

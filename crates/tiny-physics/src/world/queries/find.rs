@@ -1,7 +1,7 @@
 //! The searches behind the queries: the broad phase offers shapes, the filter and the geometry decide.
 
 use super::{ClosestPoint, QueryFilter, RayCastHit, ShapeCastHit, ShapeDistance};
-use crate::broad_phase::BoxCast;
+use crate::broad_phase::{BoxCast, clamped};
 use crate::dynamics::ShapeRecord;
 use crate::geometry::{
     Ray, RayHit, Shape, Sweep, ToiState, distance, shape_cast, time_of_impact_to,
@@ -279,6 +279,7 @@ impl Finder<'_> {
         if !aabb.is_valid() {
             return Vec::new();
         }
+        let aabb = clamped(aabb);
         let center = (DVec2::from(aabb.min) + DVec2::from(aabb.max)) * 0.5;
         let half_extents = aabb.half_extents();
         // Not validated: a box without width or height is a fine question.
@@ -316,7 +317,8 @@ impl Finder<'_> {
             return None;
         }
         let last = if max_distance < LAST_RADIUS { max_distance } else { LAST_RADIUS };
-        let mut radius = FIRST_RADIUS * self.world.settings.length_unit;
+        let unit = self.world.settings.length_unit;
+        let mut radius = FIRST_RADIUS * if unit > 0.0 { unit } else { 1.0 };
         loop {
             let reach = if radius < last { radius } else { last };
             let best = self.closest_within(point, reach);

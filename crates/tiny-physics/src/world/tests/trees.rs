@@ -355,3 +355,67 @@ fn a_plank_pinned_at_points_too_far_apart_stays_calm() {
     let body = world.body(plank).unwrap();
     assert!(body.position().length() < 1e-3 && body.velocity().length() < 1e-3);
 }
+
+/// A motor that may push no more lets go of what it pushed with.
+#[test]
+fn a_motor_without_force_does_nothing() {
+    let mut world = World::new(Vec2::ZERO);
+    let (bars, _) = add_hung_chain(&mut world, 0.0, 4);
+    let last = add_bar(&mut world, 4.5, 0.0, 0.0);
+    let motor = world.add_joint(bars[3], last, hinge().motor(2.0, 50.0)).unwrap();
+    run(&mut world, 5);
+    assert!(in_trees(&world) > 0);
+    world.joint_mut(motor).unwrap().set_max_force(0.0);
+    run(&mut world, 2);
+    assert_eq!(world.joint(motor).unwrap().motor_load(), 0.0);
+}
+
+/// The joint that closes a ring gets limits while the ring turns; a world from its frame goes the same way.
+#[test]
+fn a_ring_takes_limits_where_it_closes() {
+    let mut world = sleepless();
+    world.gravity = Vec2::ZERO;
+    let count = 10;
+    let turn = core::f32::consts::TAU / count as f32;
+    let radius = 0.5 / (turn / 2.0).tan();
+    let bars: Vec<BodyId> = (0..count)
+        .map(|i| {
+            let at = Vec2::new((turn * i as f32).cos(), (turn * i as f32).sin()) * radius;
+            add_bar(&mut world, at.x, at.y, turn * i as f32 + core::f32::consts::FRAC_PI_2)
+        })
+        .collect();
+    let joints: Vec<JointId> = (0..count)
+        .map(|i| world.add_joint(bars[i], bars[(i + 1) % count], hinge()).unwrap())
+        .collect();
+    run(&mut world, 2);
+    for limits in [Some((turn - 0.05, turn + 0.05)), None] {
+        let limits = limits.map(|(lower, upper)| crate::Limits { lower, upper });
+        for &joint in &joints {
+            world.joint_mut(joint).unwrap().set_limits(limits).unwrap();
+        }
+        world.body_mut(bars[0]).unwrap().apply_impulse_to_center((5.0, 0.0));
+        let mut again = World::from_bytes(&world.to_bytes()).unwrap();
+        for _ in 0..30 {
+            world.step(DT);
+            again.step(DT);
+            assert_eq!(again.state_hash(), world.state_hash());
+        }
+    }
+}
+
+/// Joints that solve nothing change nothing of how trees are solved, whether they were there before or not.
+#[test]
+fn idle_joints_change_no_tree() {
+    let mut world = sleepless();
+    add_ground(&mut world);
+    let (bars, _) = add_chain(&mut world, 0.2, 8);
+    run(&mut world, 20);
+    let far = add(&mut world, 30.0, 5.0, circle(0.2));
+    world.add_joint(far, bars[3], JointDef::filter()).unwrap();
+    let mut again = World::from_bytes(&world.to_bytes()).unwrap();
+    for _ in 0..60 {
+        world.step(DT);
+        again.step(DT);
+        assert_eq!(again.state_hash(), world.state_hash());
+    }
+}

@@ -223,7 +223,9 @@ fn drive<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
             let change = impulse - core::mem::replace(&mut motor[2], impulse);
             turn(nodes, [link.a, link.b], change);
         }
-        if axis.axis.push != 0.0 || axis.axis.motor_max != 0.0 {
+        // A motor without force still lets go of what it has pushed with.
+        let drives = axis.axis.motor != 0.0 || axis.axis.spring != 0.0;
+        if drives || axis.axis.push != 0.0 || axis.axis.motor_max != 0.0 {
             drive_axis(simd, link, axis, nodes, rates);
         }
     }

@@ -172,7 +172,7 @@ pub(super) fn refresh<S: Simd>(
     rows: SharedRows<'_>,
     substep: Substep,
 ) {
-    let JointTree { nodes, links, axes, pace, begun, fresh, factored, .. } = tree;
+    let JointTree { nodes, dynamic, links, axes, pace, begun, fresh, factored, .. } = tree;
     for node in nodes.iter_mut() {
         let row = rows.read(node.body);
         if !*begun {
@@ -209,14 +209,16 @@ pub(super) fn refresh<S: Simd>(
     }
     (*begun, *fresh, *factored) = (true, true, false);
     if is_jointed(*pace) {
-        nodes.iter().for_each(|node| give_inertia(rows, node.body, node.inv[2]));
+        // Not to anchors, which trees share.
+        nodes[..*dynamic].iter().for_each(|node| give_inertia(rows, node.body, node.inv[2]));
     }
 }
 
 /// Gives the bodies their own moments of inertia back.
 pub(super) fn restore(tree: &JointTree, rows: SharedRows<'_>) {
     if tree.begun {
-        tree.nodes.iter().for_each(|node| give_inertia(rows, node.body, node.own_inv_inertia));
+        let nodes = &tree.nodes[..tree.dynamic];
+        nodes.iter().for_each(|node| give_inertia(rows, node.body, node.own_inv_inertia));
     }
 }
 
