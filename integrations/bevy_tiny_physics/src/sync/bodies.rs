@@ -179,6 +179,9 @@ fn teleport(
     if !before.is_some_and(|before| before.is_scaled_like(&now)) {
         scene.colliders_below(entity, &mut physics.notes.colliders);
     }
+    if before.is_some_and(|before| before.is_placed_like(&now, role)) {
+        return Ok(());
+    }
     let Some(frame) = scene.frame(entity) else { return Ok(()) };
     check_frame(&frame)?;
     if role == Role::Character {

@@ -1,6 +1,6 @@
 //! A copy of the world that has come in, as rollback does it: components follow it.
 
-use super::write::Places;
+use super::write::{Places, Which};
 use crate::components::Velocity;
 use crate::world::PhysicsWorld;
 use bevy_ecs::prelude::*;
@@ -18,7 +18,7 @@ pub(crate) fn take_over(
     let physics = &mut *physics;
     let bodies = physics.world.body_ids().collect::<Vec<_>>();
     places.write(physics, bodies.iter().copied(), |body| body.pose());
-    places.write_characters(physics, |mover| mover.position);
+    places.write_characters(physics, Which::All, |mover| mover.position);
     for body in bodies.iter().filter_map(|id| physics.world.body(*id)) {
         let Some(entity) = physics.maps.body_entities.get(body.id().to_bits()) else { continue };
         if let Ok(mut velocity) = velocities.get_mut(entity) {

@@ -10,6 +10,14 @@ use bevy_time::{Fixed, Time};
 use bevy_transform::prelude::Transform;
 use tiny_physics::{Body, BodyId, CharacterMover, DVec2, Pose};
 
+/// Whose places are written.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Which {
+    All,
+    /// But for what somebody else has moved since.
+    Untouched,
+}
+
 /// Writes places to transforms, through parents.
 #[derive(SystemParam)]
 pub(crate) struct Places<'w, 's> {
@@ -53,11 +61,15 @@ impl Places<'_, '_> {
     pub fn write_characters(
         &mut self,
         physics: &mut PhysicsWorld,
+        which: Which,
         position: impl Fn(&CharacterMover) -> DVec2,
     ) {
         let maps = &mut physics.maps;
         for (entity, mover) in &maps.characters {
             let Some(record) = maps.bodies.get_mut(entity) else { continue };
+            if which == Which::Untouched && !self.is_ours(*entity, record) {
+                continue;
+            }
             let Ok(transform) = self.transforms.get(*entity) else { continue };
             let turned = Frame::of(transform).q;
             self.place(
@@ -86,14 +98,16 @@ impl Places<'_, '_> {
         if *transform != wanted {
             *transform = wanted;
         }
-        record.written = Some(Written::of(&wanted));
+        let (now, before) = (Written::of(&wanted), record.written);
+        record.written = Some(before.map_or(now, |before| now.scaled_like(&before)));
     }
 
-    /// Is a transform as we left it?
+    /// Is a transform where we left it?
     fn is_ours(&self, entity: Entity, record: &BodyRecord) -> bool {
-        self.transforms
-            .get(entity)
-            .is_ok_and(|transform| record.written == Some(Written::of(transform)))
+        let (Ok(transform), Some(written)) = (self.transforms.get(entity), record.written) else {
+            return false;
+        };
+        written.is_placed_like(&Written::of(transform), record.role)
     }
 }
 
@@ -144,5 +158,5 @@ fn write_untouched(physics: &mut PhysicsWorld, places: &mut Places, alpha: f32) 
         record.is_some_and(|(entity, record)| places.is_ours(entity, record))
     });
     places.write(physics, moved.into_iter(), |body| body.interpolated_pose(alpha));
-    places.write_characters(physics, |mover| mover.interpolated_position(alpha));
+    places.write_characters(physics, Which::Untouched, |mover| mover.interpolated_position(alpha));
 }

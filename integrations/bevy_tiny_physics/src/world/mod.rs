@@ -95,6 +95,17 @@ impl Written {
     pub fn is_scaled_like(&self, other: &Self) -> bool {
         self.scale == other.scale
     }
+
+    /// Is that the same place? How characters are turned is not physics' business.
+    pub fn is_placed_like(&self, other: &Self, role: Role) -> bool {
+        self.position == other.position
+            && (role == Role::Character || self.rotation == other.rotation)
+    }
+
+    /// With the scale of what was read: who changed that has yet to be heard.
+    pub fn scaled_like(self, other: &Self) -> Self {
+        Self { scale: other.scale, ..self }
+    }
 }
 
 /// What made an entity a body.
