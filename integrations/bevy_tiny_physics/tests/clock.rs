@@ -121,3 +121,16 @@ fn scaling_between_frames_scales_shapes() {
     let mass = physics(&app).body(ball).unwrap().mass();
     assert!((mass - core::f32::consts::PI).abs() < 1e-3, "{mass} kg");
 }
+
+#[test]
+fn a_body_below_something_teleports_between_frames() {
+    let (mut app, ball) = app(0.007);
+    let level = app.world_mut().spawn(Transform::from_xyz(10.0, 0.0, 0.0)).id();
+    app.world_mut().entity_mut(ball).insert(ChildOf(level));
+    (0..20).for_each(|_| app.update());
+    app.world_mut().get_mut::<Transform>(ball).unwrap().translation.x = 50.0;
+    (0..6).for_each(|_| app.update());
+    let x = physics(&app).body(ball).unwrap().position().x;
+    assert!((60.0..61.0).contains(&x), "{x}");
+    assert!((place(&app, ball).x - x + 10.0).abs() < 0.2);
+}

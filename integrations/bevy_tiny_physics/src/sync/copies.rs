@@ -17,7 +17,7 @@ pub(crate) fn take_over(
     }
     let physics = &mut *physics;
     let bodies = physics.world.body_ids().collect::<Vec<_>>();
-    places.write(physics, bodies.iter().copied(), |body| body.pose());
+    places.write(physics, bodies.iter().copied(), Which::All, |body| body.pose());
     places.write_characters(physics, Which::All, |mover| mover.position);
     for body in bodies.iter().filter_map(|id| physics.world.body(*id)) {
         let Some(entity) = physics.maps.body_entities.get(body.id().to_bits()) else { continue };

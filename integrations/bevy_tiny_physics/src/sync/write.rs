@@ -32,6 +32,7 @@ impl Places<'_, '_> {
         &mut self,
         physics: &mut PhysicsWorld,
         bodies: impl Iterator<Item = BodyId>,
+        which: Which,
         pose: impl Fn(Body<'_>) -> Pose,
     ) {
         let PhysicsWorld { world, maps, .. } = physics;
@@ -40,9 +41,8 @@ impl Places<'_, '_> {
             let Some(record) = maps.bodies.get_mut(&entity).filter(|record| record.id == id) else {
                 continue;
             };
-            if let Some(body) = world
-                .body(id)
-                .filter(|_| record.role != Role::Character && !self.parents.contains(entity))
+            let asked = record.role != Role::Character && !self.parents.contains(entity);
+            if let Some(body) = world.body(id).filter(|_| asked && self.may(which, entity, record))
             {
                 self.place(entity, record, Frame::of_pose(pose(body)));
             }
@@ -51,7 +51,7 @@ impl Places<'_, '_> {
         nested.sort_by_cached_key(|entity| self.parents.iter_ancestors(*entity).count());
         for entity in nested {
             let Some(record) = maps.bodies.get_mut(&entity) else { continue };
-            if let Some(body) = world.body(record.id) {
+            if let Some(body) = world.body(record.id).filter(|_| self.may(which, entity, record)) {
                 self.place(entity, record, Frame::of_pose(pose(body)));
             }
         }
@@ -67,7 +67,7 @@ impl Places<'_, '_> {
         let maps = &mut physics.maps;
         for (entity, mover) in &maps.characters {
             let Some(record) = maps.bodies.get_mut(entity) else { continue };
-            if which == Which::Untouched && !self.is_ours(*entity, record) {
+            if !self.may(which, *entity, record) {
                 continue;
             }
             let Ok(transform) = self.transforms.get(*entity) else { continue };
@@ -102,19 +102,21 @@ impl Places<'_, '_> {
         record.written = Some(before.map_or(now, |before| now.scaled_like(&before)));
     }
 
-    /// Is a transform where we left it?
-    fn is_ours(&self, entity: Entity, record: &BodyRecord) -> bool {
-        let (Ok(transform), Some(written)) = (self.transforms.get(entity), record.written) else {
-            return false;
-        };
-        written.is_placed_like(&Written::of(transform), record.role)
+    /// Is a transform to be written? If only ours are, it stands where we left it.
+    fn may(&self, which: Which, entity: Entity, record: &BodyRecord) -> bool {
+        let here = self.transforms.get(entity).map(Written::of);
+        which == Which::All
+            || record
+                .written
+                .zip(here.ok())
+                .is_some_and(|(written, here)| written.is_placed_like(&here, record.role))
     }
 }
 
 /// Writes what the step moved.
 pub(crate) fn transforms(mut physics: ResMut<PhysicsWorld>, mut places: Places) {
     let moved = physics.world.moved_bodies().to_vec();
-    places.write(&mut physics, moved.into_iter(), |body| body.pose());
+    places.write(&mut physics, moved.into_iter(), Which::All, |body| body.pose());
 }
 
 /// Writes velocities.
@@ -151,12 +153,8 @@ fn write_untouched(physics: &mut PhysicsWorld, places: &mut Places, alpha: f32) 
     if physics.fresh {
         return;
     }
-    let mut moved = physics.world.moved_bodies().to_vec();
-    moved.retain(|id| {
-        let entity = physics.maps.body_entities.get(id.to_bits());
-        let record = entity.and_then(|entity| Some((entity, physics.maps.bodies.get(&entity)?)));
-        record.is_some_and(|(entity, record)| places.is_ours(entity, record))
-    });
-    places.write(physics, moved.into_iter(), |body| body.interpolated_pose(alpha));
+    let moved = physics.world.moved_bodies().to_vec();
+    places
+        .write(physics, moved.into_iter(), Which::Untouched, |body| body.interpolated_pose(alpha));
     places.write_characters(physics, Which::Untouched, |mover| mover.interpolated_position(alpha));
 }
