@@ -42,7 +42,7 @@ pub(crate) fn add(
         mover.body = Some(id);
         let written = scene.transform(entity).map(Written::of);
         physics.maps.characters.insert(entity, mover);
-        physics.enter_body(entity, BodyRecord { id, role: Role::Character, written });
+        physics.enter_body(entity, BodyRecord { id, role: Role::Character, written, told: None });
     }
 }
 

@@ -93,7 +93,7 @@ fn add_lone(
     let ids: Vec<ShapeId> =
         physics.world.body(id).into_iter().flat_map(|body| body.shapes()).collect();
     let written = scene.transform(entity).map(Written::of);
-    physics.enter_body(entity, BodyRecord { id, role: Role::Lone, written });
+    physics.enter_body(entity, BodyRecord { id, role: Role::Lone, written, told: None });
     physics.enter_shapes(
         entity,
         ShapesRecord { body: id, shapes: ids.into_iter().zip(shapes).collect() },

@@ -121,15 +121,17 @@ pub(crate) fn transforms(mut physics: ResMut<PhysicsWorld>, mut places: Places) 
 
 /// Writes velocities.
 pub(crate) fn velocities(
-    physics: Res<PhysicsWorld>,
+    mut physics: ResMut<PhysicsWorld>,
     mut velocities: Query<(Entity, &mut Velocity)>,
 ) {
+    let PhysicsWorld { world, maps, .. } = &mut *physics;
     for (entity, mut velocity) in &mut velocities {
-        let Some(body) = physics.own_body(entity).and_then(|id| physics.world.body(id)) else {
-            continue;
-        };
+        let Some(record) = maps.bodies.get_mut(&entity) else { continue };
+        let Some(body) = world.body(record.id) else { continue };
         let linear = Vec2::new(body.velocity().x, body.velocity().y);
-        velocity.set_if_neq(Velocity { linear, angular: body.angular_velocity() });
+        let now = Velocity { linear, angular: body.angular_velocity() };
+        record.told = Some(now);
+        velocity.set_if_neq(now);
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod tables;
 
+use crate::components::Velocity;
 use bevy_ecs::entity::{EntityHashMap, EntityMapper, MapEntities};
 use bevy_ecs::prelude::*;
 use bevy_math::{Quat, Vec2};
@@ -73,6 +74,8 @@ pub(crate) struct BodyRecord {
     pub role: Role,
     /// What stands in the entity's transform by our doing, or has been read there.
     pub written: Option<Written>,
+    /// What stands in the entity's velocity, likewise.
+    pub told: Option<Velocity>,
 }
 
 /// What counts of a transform.
