@@ -119,3 +119,16 @@ fn a_body_below_a_body_moves_by_itself() {
     assert!((place(&app, wheel).x + 1.0).abs() < 1e-3, "it stays at 1 in the world");
     assert!((physics(&app).body(wheel).unwrap().position().x - 1.0).abs() < 1e-3);
 }
+
+#[test]
+fn lone_colliders_follow_what_they_are_below() {
+    let mut app = app();
+    let level = app.world_mut().spawn(Transform::default()).id();
+    let wall = (Collider::rect(1.0, 1.0), Transform::from_xyz(3.0, 0.0, 0.0), ChildOf(level));
+    let wall = app.world_mut().spawn(wall).id();
+    steps(&mut app, 2);
+    app.world_mut().get_mut::<Transform>(level).unwrap().translation.y = 7.0;
+    steps(&mut app, 1);
+    let at = physics(&app).body(wall).unwrap().position();
+    assert_eq!((at.x, at.y), (3.0, 7.0));
+}

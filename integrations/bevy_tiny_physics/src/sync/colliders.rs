@@ -23,8 +23,12 @@ type ColliderChange = Or<(
     Changed<HitEvents>,
 )>;
 
-/// Entities below something that moved against its parent, or got another one.
-type Shifted = (Without<RigidBody>, With<ChildOf>, Or<(Changed<Transform>, Changed<ChildOf>)>);
+/// Entities that moved against their parent, or got another one, or moved with all that lies below them.
+type Shifted = (
+    Without<RigidBody>,
+    Or<(With<ChildOf>, With<Children>)>,
+    Or<(Changed<Transform>, Changed<ChildOf>)>,
+);
 
 /// Makes the world's shapes what colliders say.
 pub(crate) fn read(
