@@ -135,6 +135,10 @@ pub(crate) fn velocities(
     }
 }
 
+/// Is in the app where bodies are shown between steps.
+#[derive(Resource, Default)]
+pub(crate) struct Interpolated;
+
 /// Shows bodies between the last two steps, where the clock stands.
 pub(crate) fn interpolate(
     mut physics: ResMut<PhysicsWorld>,
