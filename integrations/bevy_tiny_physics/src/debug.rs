@@ -1,6 +1,7 @@
 //! Seeing physics through Bevy's gizmos.
 
 use crate::PhysicsWorld;
+use crate::sync::write::Interpolated;
 use bevy_app::prelude::*;
 use bevy_color::Color;
 use bevy_ecs::prelude::*;
@@ -13,7 +14,7 @@ use tiny_physics::{DebugDraw, DebugDrawOptions, Transform};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PhysicsDebugPlugin;
 
-/// What is drawn. `options.alpha` follows the clock; text is not drawn.
+/// What is drawn. `options.alpha` is set to where bodies are shown; text is not drawn.
 #[derive(Resource, Clone, Debug)]
 pub struct PhysicsDebug {
     /// Draws at all.
@@ -32,22 +33,25 @@ impl Default for PhysicsDebug {
 
 impl Plugin for PhysicsDebugPlugin {
     fn build(&self, app: &mut App) {
-        app.init_resource::<PhysicsDebug>().add_systems(PostUpdate, draw);
+        app.init_resource::<PhysicsDebug>().add_systems(PostUpdate, (follow, draw).chain());
     }
 }
 
-fn draw(
-    physics: Res<PhysicsWorld>,
-    debug: Res<PhysicsDebug>,
+/// Draws between steps only where sprites are there, too.
+fn follow(
+    mut debug: ResMut<PhysicsDebug>,
     clock: Option<Res<Time<Fixed>>>,
-    gizmos: Gizmos,
+    interpolated: Option<Res<Interpolated>>,
 ) {
-    if !debug.enabled {
-        return;
+    let clock = clock.filter(|_| interpolated.is_some());
+    debug.options.alpha = clock.map_or(1.0, |clock| clock.overstep_fraction());
+}
+
+fn draw(physics: Res<PhysicsWorld>, debug: Res<PhysicsDebug>, gizmos: Gizmos) {
+    if debug.enabled {
+        let mut pen = Pen { gizmos, point_radius: debug.point_radius };
+        physics.world.debug_draw(&mut pen, &debug.options);
     }
-    let alpha = clock.map_or(1.0, |clock| clock.overstep_fraction());
-    let options = DebugDrawOptions { alpha, ..debug.options };
-    physics.world.debug_draw(&mut Pen { gizmos, point_radius: debug.point_radius }, &options);
 }
 
 struct Pen<'w, 's> {

@@ -28,7 +28,7 @@ impl Frame {
         let scaled = tiny_physics::Vec2::new(self.scale.x * inner.p.x, self.scale.y * inner.p.y);
         Self {
             p: self.p + self.q.rotate(scaled),
-            q: self.q.compose(inner.q),
+            q: self.q.compose(self.turned(inner.q)),
             scale: self.scale * inner.scale,
         }
     }
@@ -39,7 +39,16 @@ impl Frame {
         let part = |a: f32, scale: f32| if scale == 0.0 { a } else { a / scale };
         let p = tiny_physics::Vec2::new(part(p.x, self.scale.x), part(p.y, self.scale.y));
         let scale = Vec2::new(part(outer.scale.x, self.scale.x), part(outer.scale.y, self.scale.y));
-        Self { p, q: outer.q.relative_to(self.q), scale }
+        Self { p, q: self.turned(outer.q.relative_to(self.q)), scale }
+    }
+
+    /// Do things in here turn the other way?
+    pub fn is_mirrored(&self) -> bool {
+        self.scale.x * self.scale.y < 0.0
+    }
+
+    fn turned(&self, q: Rot) -> Rot {
+        if self.is_mirrored() { q.inverse() } else { q }
     }
 
     pub fn pose(&self) -> Pose {

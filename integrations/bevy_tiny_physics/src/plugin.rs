@@ -122,6 +122,7 @@ impl Plugin for PhysicsPlugin {
         );
         app.add_systems(self.schedule, write.chain().in_set(PhysicsSystems::Write));
         if self.interpolate {
+            app.init_resource::<write::Interpolated>();
             app.add_systems(FixedFirst, write::exact_places);
             let after = RunFixedMainLoopSystems::AfterFixedMainLoop;
             app.add_systems(RunFixedMainLoop, write::interpolate.in_set(after));

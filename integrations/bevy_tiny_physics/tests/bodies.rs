@@ -149,3 +149,31 @@ fn a_scaled_entity_has_scaled_shapes() {
     steps(&mut app, 2);
     assert!((physics(&app).body(block).unwrap().mass() - 3.0).abs() < 1e-3);
 }
+
+#[test]
+fn pushes_through_the_world_are_kept_where_velocity_is_told() {
+    let mut app = app();
+    let ball = ball(&mut app, 0.0, 0.0);
+    app.world_mut().entity_mut(ball).insert((Velocity::default(), Mass(2.0)));
+    steps(&mut app, 5);
+    let mut physics = app.world_mut().resource_mut::<PhysicsWorld>();
+    physics.body_mut(ball).unwrap().apply_impulse_to_center(tiny_physics::Vec2::new(6.0, 0.0));
+    steps(&mut app, 1);
+    assert_eq!(app.world().get::<Velocity>(ball).unwrap().linear.x, 3.0);
+    let frame = common::physics(&app).clone();
+    app.world_mut().get_mut::<Velocity>(ball).unwrap().linear = Vec2::ZERO;
+    steps(&mut app, 1);
+    assert_eq!(common::physics(&app).body(ball).unwrap().velocity().x, 0.0, "what is said counts");
+    let mut physics = app.world_mut().resource_mut::<PhysicsWorld>();
+    physics.clone_from(&frame);
+    physics.body_mut(ball).unwrap().apply_impulse_to_center(tiny_physics::Vec2::new(6.0, 0.0));
+    steps(&mut app, 1);
+    assert_eq!(app.world().get::<Velocity>(ball).unwrap().linear.x, 6.0, "in a copy, too");
+    let told = *app.world().get::<Velocity>(ball).unwrap();
+    app.world_mut().entity_mut(ball).remove::<Velocity>();
+    steps(&mut app, 1);
+    app.world_mut().entity_mut(ball).insert(told);
+    steps(&mut app, 1);
+    let fall = app.world().get::<Velocity>(ball).unwrap().linear.y - told.linear.y;
+    assert!((fall + 10.0 / 60.0).abs() < 1e-4, "what comes again is heard");
+}

@@ -60,3 +60,77 @@ fn a_teleport_between_frames_is_not_overwritten() {
     let x = physics(&app).body(ball).unwrap().position().x;
     assert!((50.0..51.0).contains(&x), "{x}");
 }
+
+#[test]
+fn a_character_teleports_between_frames_however_it_is_turned() {
+    let (mut app, _) = app(0.007);
+    let hero =
+        app.world_mut().spawn((Character::new(1.8, 0.3), Transform::from_xyz(0.0, 9.0, 0.0))).id();
+    (0..20).for_each(|_| app.update());
+    let mut transform = app.world_mut().get_mut::<Transform>(hero).unwrap();
+    transform.translation.x = -9.0;
+    (0..6).for_each(|_| app.update());
+    assert_eq!(
+        (place(&app, hero).x, physics(&app).character(hero).unwrap().position.x),
+        (-9.0, -9.0)
+    );
+    app.world_mut().get_mut::<CharacterInput>(hero).unwrap().walk = 4.0;
+    let walk = |app: &mut App, mirror: bool| {
+        for frame in 0..40 {
+            app.update();
+            let mut transform = app.world_mut().get_mut::<Transform>(hero).unwrap();
+            if mirror {
+                transform.rotate_z(0.1);
+                transform.scale.x = if frame % 2 == 0 { -1.0 } else { 1.0 };
+            }
+        }
+        physics(app).character(hero).unwrap().position.x
+    };
+    let (start, half) = (walk(&mut app, false), walk(&mut app, true));
+    let end = walk(&mut app, false);
+    assert!((end - half - (half - start)).abs() < 1e-3, "{start} {half} {end}");
+}
+
+#[test]
+fn mirroring_a_body_between_frames_does_not_throw_it_back() {
+    let (mut app, ball) = app(0.007);
+    let places: Vec<f32> = (0..100)
+        .map(|_| {
+            app.update();
+            let mut transform = app.world_mut().get_mut::<Transform>(ball).unwrap();
+            transform.scale.x *= -1.0;
+            transform.translation.x
+        })
+        .collect();
+    for pair in places.windows(2).skip(10) {
+        assert!((pair[1] - pair[0] - 0.035).abs() < 1e-3, "{} m in a frame", pair[1] - pair[0]);
+    }
+    let seen = &app.world().resource::<Seen>().0;
+    for (step, x) in seen.iter().enumerate() {
+        assert!((x - 0.1 * step as f32).abs() < 1e-4, "step {step} saw it at {x}");
+    }
+}
+
+#[test]
+fn scaling_between_frames_scales_shapes() {
+    let (mut app, ball) = app(0.007);
+    app.world_mut().entity_mut(ball).insert(Density(1.0));
+    (0..20).for_each(|_| app.update());
+    app.world_mut().get_mut::<Transform>(ball).unwrap().scale = bevy_math::Vec3::splat(2.0);
+    (0..6).for_each(|_| app.update());
+    let mass = physics(&app).body(ball).unwrap().mass();
+    assert!((mass - core::f32::consts::PI).abs() < 1e-3, "{mass} kg");
+}
+
+#[test]
+fn a_body_below_something_teleports_between_frames() {
+    let (mut app, ball) = app(0.007);
+    let level = app.world_mut().spawn(Transform::from_xyz(10.0, 0.0, 0.0)).id();
+    app.world_mut().entity_mut(ball).insert(ChildOf(level));
+    (0..20).for_each(|_| app.update());
+    app.world_mut().get_mut::<Transform>(ball).unwrap().translation.x = 50.0;
+    (0..6).for_each(|_| app.update());
+    let x = physics(&app).body(ball).unwrap().position().x;
+    assert!((60.0..61.0).contains(&x), "{x}");
+    assert!((place(&app, ball).x - x + 10.0).abs() < 0.2);
+}

@@ -2,7 +2,7 @@
 
 mod common;
 use bevy_ecs::prelude::*;
-use bevy_math::{Quat, Vec2};
+use bevy_math::{Quat, Vec2, Vec3};
 use bevy_tiny_physics::prelude::*;
 use bevy_transform::prelude::Transform;
 use common::*;
@@ -118,4 +118,67 @@ fn a_body_below_a_body_moves_by_itself() {
     assert!((place(&app, car).x - 2.0).abs() < 1e-4);
     assert!((place(&app, wheel).x + 1.0).abs() < 1e-3, "it stays at 1 in the world");
     assert!((physics(&app).body(wheel).unwrap().position().x - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn lone_colliders_follow_what_they_are_below() {
+    let mut app = app();
+    let level = app.world_mut().spawn(Transform::default()).id();
+    let wall = (Collider::rect(1.0, 1.0), Transform::from_xyz(3.0, 0.0, 0.0), ChildOf(level));
+    let wall = app.world_mut().spawn(wall).id();
+    steps(&mut app, 2);
+    app.world_mut().get_mut::<Transform>(level).unwrap().translation.y = 7.0;
+    steps(&mut app, 1);
+    let at = physics(&app).body(wall).unwrap().position();
+    assert_eq!((at.x, at.y), (3.0, 7.0));
+}
+
+/// Where a ray straight down meets something.
+fn height(app: &bevy_app::App, x: f32) -> f32 {
+    let filter = tiny_physics::QueryFilter::new();
+    physics(app).world.ray_cast((f64::from(x), 5.0), (0.0, -10.0), &filter).unwrap().point.y as f32
+}
+
+#[test]
+fn below_what_is_mirrored_colliders_turn_the_other_way() {
+    let mut app = app();
+    let mirror = Transform::from_scale(Vec3::new(-1.0, 1.0, 1.0));
+    let turned = Transform::from_rotation(Quat::from_rotation_z(0.5));
+    let body = app.world_mut().spawn((RigidBody::Static, mirror)).id();
+    let plank = app.world_mut().spawn((Collider::rect(1.0, 0.1), turned, ChildOf(body))).id();
+    steps(&mut app, 1);
+    let tilted = |x: f32| (0.1 / 0.5_f32.cos()) - x * 0.5_f32.tan();
+    assert!((height(&app, 0.5) - tilted(0.5)).abs() < 1e-4, "{}", height(&app, 0.5));
+    // Likewise where it stands alone, and where the shape itself is turned.
+    app.world_mut().entity_mut(body).remove::<RigidBody>();
+    steps(&mut app, 1);
+    assert!((height(&app, 0.5) - tilted(0.5)).abs() < 1e-4, "{}", height(&app, 0.5));
+    app.world_mut().despawn(plank);
+    let shape =
+        tiny_physics::ShapeDef { angle: 0.5, ..Collider::rect(1.0, 0.1).shapes()[0].clone() };
+    let plank = (RigidBody::Static, Collider::from(shape), OneWay(Vec2::new(1.0, 0.5)), mirror);
+    let plank = app.world_mut().spawn(plank).id();
+    steps(&mut app, 1);
+    assert!((height(&app, 0.5) - tilted(0.5)).abs() < 1e-4, "{}", height(&app, 0.5));
+    let id = physics(&app).shape_ids(plank).next().unwrap();
+    let way = physics(&app).world.shape(id).unwrap().one_way().unwrap();
+    assert!(way.x < -0.4 && way.y > 0.2, "{way:?}");
+}
+
+#[test]
+fn bodies_below_what_is_mirrored_keep_their_place_in_the_world() {
+    let mut app = app();
+    let mirror = Transform::from_xyz(2.0, 0.0, 0.0).with_scale(Vec3::new(-1.0, 1.0, 1.0));
+    let level = app.world_mut().spawn(mirror).id();
+    let turned = Transform::from_xyz(3.0, 0.0, 0.0).with_rotation(Quat::from_rotation_z(0.5));
+    let body = (RigidBody::Kinematic, Velocity { linear: Vec2::X, angular: 1.0 }, turned);
+    let body = app.world_mut().spawn((body, ChildOf(level))).id();
+    steps(&mut app, 1);
+    let is = physics(&app).body(body).unwrap();
+    assert!((is.position().x + 1.0 - 1.0 / 60.0).abs() < 1e-4, "{:?}", is.position());
+    assert!((is.angle() + 0.5 - 1.0 / 60.0).abs() < 1e-4, "{}", is.angle());
+    steps(&mut app, 29);
+    let shown = app.world().get::<Transform>(body).unwrap();
+    assert!((shown.translation.x - 2.5).abs() < 1e-3, "{}", shown.translation);
+    assert!(shown.rotation.angle_between(Quat::IDENTITY) < 1e-3, "{}", shown.rotation);
 }

@@ -96,7 +96,7 @@ fn add_one(physics: &mut PhysicsWorld, scene: &Scene, new: New, problems: &mut P
         }
     };
     let written = scene.transform(entity).map(Written::of);
-    physics.enter_body(entity, BodyRecord { id, role: Role::Body, written });
+    physics.enter_body(entity, BodyRecord { id, role: Role::Body, written, told: None });
 }
 
 /// Bodies of which some component changed.
@@ -116,7 +116,7 @@ pub(crate) fn read(
     scene: Scene,
     changed: Query<Entity, BodyChange>,
     moved: Query<(Entity, &Transform), Changed<Transform>>,
-    velocities: Query<(Entity, &Velocity), Changed<Velocity>>,
+    velocities: Query<(Entity, Ref<Velocity>), Changed<Velocity>>,
     mut problems: Problems,
 ) {
     let physics = &mut *physics;
@@ -131,7 +131,7 @@ pub(crate) fn read(
         problems.check(entity, "transform", result);
     }
     for (entity, velocity) in &velocities {
-        let result = drive(physics, entity, velocity);
+        let result = drive(physics, entity, &velocity);
         problems.check(entity, "velocity", result);
     }
 }
@@ -179,6 +179,9 @@ fn teleport(
     if !before.is_some_and(|before| before.is_scaled_like(&now)) {
         scene.colliders_below(entity, &mut physics.notes.colliders);
     }
+    if before.is_some_and(|before| before.is_placed_like(&now, role)) {
+        return Ok(());
+    }
     let Some(frame) = scene.frame(entity) else { return Ok(()) };
     check_frame(&frame)?;
     if role == Role::Character {
@@ -191,7 +194,16 @@ fn teleport(
     Ok(())
 }
 
-fn drive(physics: &mut PhysicsWorld, entity: Entity, velocity: &Velocity) -> Result<(), Error> {
+/// Sets a body's velocity, if somebody else than us said one. What pushed the body since stays where nobody did.
+fn drive(
+    physics: &mut PhysicsWorld,
+    entity: Entity,
+    velocity: &Ref<Velocity>,
+) -> Result<(), Error> {
+    let Some(record) = physics.maps.bodies.get_mut(&entity) else { return Ok(()) };
+    if record.told.replace(**velocity) == Some(**velocity) && !velocity.is_added() {
+        return Ok(());
+    }
     let Some(mut body) = physics.own_body_mut(entity) else { return Ok(()) };
     let linear = engine(velocity.linear);
     finite("velocity", linear.x + linear.y)?;

@@ -3,7 +3,7 @@
 use super::problems::Problems;
 use super::scene::Scene;
 use super::step::Clock;
-use super::write::Places;
+use super::write::{Places, Which};
 use crate::components::*;
 use crate::order;
 use crate::world::{BodyRecord, PhysicsWorld, Role, Written};
@@ -42,7 +42,7 @@ pub(crate) fn add(
         mover.body = Some(id);
         let written = scene.transform(entity).map(Written::of);
         physics.maps.characters.insert(entity, mover);
-        physics.enter_body(entity, BodyRecord { id, role: Role::Character, written });
+        physics.enter_body(entity, BodyRecord { id, role: Role::Character, written, told: None });
     }
 }
 
@@ -106,7 +106,7 @@ pub(crate) fn tell(
     mut places: Places,
 ) {
     let physics = &mut *physics;
-    places.write_characters(physics, |mover| mover.position);
+    places.write_characters(physics, Which::All, |mover| mover.position);
     for (entity, mover) in &physics.maps.characters {
         let Ok(mut state) = states.get_mut(*entity) else { continue };
         let ground = mover.ground();

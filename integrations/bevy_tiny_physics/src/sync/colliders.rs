@@ -23,8 +23,12 @@ type ColliderChange = Or<(
     Changed<HitEvents>,
 )>;
 
-/// Entities below something that moved against its parent, or got another one.
-type Shifted = (Without<RigidBody>, With<ChildOf>, Or<(Changed<Transform>, Changed<ChildOf>)>);
+/// Entities that moved against their parent, or got another one, or moved with all that lies below them.
+type Shifted = (
+    Without<RigidBody>,
+    Or<(With<ChildOf>, With<Children>)>,
+    Or<(Changed<Transform>, Changed<ChildOf>)>,
+);
 
 /// Makes the world's shapes what colliders say.
 pub(crate) fn read(
@@ -93,7 +97,7 @@ fn add_lone(
     let ids: Vec<ShapeId> =
         physics.world.body(id).into_iter().flat_map(|body| body.shapes()).collect();
     let written = scene.transform(entity).map(Written::of);
-    physics.enter_body(entity, BodyRecord { id, role: Role::Lone, written });
+    physics.enter_body(entity, BodyRecord { id, role: Role::Lone, written, told: None });
     physics.enter_shapes(
         entity,
         ShapesRecord { body: id, shapes: ids.into_iter().zip(shapes).collect() },

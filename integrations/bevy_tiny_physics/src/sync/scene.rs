@@ -131,9 +131,13 @@ impl ColliderPartsItem<'_, '_> {
         let offset =
             tiny_physics::Vec2::new(def.offset.x * local.scale.x, def.offset.y * local.scale.y);
         def.offset = local.p + local.q.rotate(offset);
-        def.angle += local.q.angle();
-        def.one_way =
-            self.one_way.map(|way| engine(way.0)).or(def.one_way).map(|way| local.q.rotate(way));
+        def.angle = local.q.angle() + if local.is_mirrored() { -def.angle } else { def.angle };
+        let sign = local.scale.signum();
+        def.one_way = self
+            .one_way
+            .map(|way| engine(way.0))
+            .or(def.one_way)
+            .map(|way| local.q.rotate(tiny_physics::Vec2::new(way.x * sign.x, way.y * sign.y)));
         if local.scale != bevy_math::Vec2::ONE && def.link.is_some() {
             return Err(Error::Unsupported { reason: "a chain does not scale; scale its points" });
         }

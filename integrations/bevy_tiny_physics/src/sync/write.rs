@@ -10,6 +10,14 @@ use bevy_time::{Fixed, Time};
 use bevy_transform::prelude::Transform;
 use tiny_physics::{Body, BodyId, CharacterMover, DVec2, Pose};
 
+/// Whose places are written.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Which {
+    All,
+    /// But for what somebody else has moved since.
+    Untouched,
+}
+
 /// Writes places to transforms, through parents.
 #[derive(SystemParam)]
 pub(crate) struct Places<'w, 's> {
@@ -24,6 +32,7 @@ impl Places<'_, '_> {
         &mut self,
         physics: &mut PhysicsWorld,
         bodies: impl Iterator<Item = BodyId>,
+        which: Which,
         pose: impl Fn(Body<'_>) -> Pose,
     ) {
         let PhysicsWorld { world, maps, .. } = physics;
@@ -32,9 +41,8 @@ impl Places<'_, '_> {
             let Some(record) = maps.bodies.get_mut(&entity).filter(|record| record.id == id) else {
                 continue;
             };
-            if let Some(body) = world
-                .body(id)
-                .filter(|_| record.role != Role::Character && !self.parents.contains(entity))
+            let asked = record.role != Role::Character && !self.parents.contains(entity);
+            if let Some(body) = world.body(id).filter(|_| asked && self.may(which, entity, record))
             {
                 self.place(entity, record, Frame::of_pose(pose(body)));
             }
@@ -43,7 +51,7 @@ impl Places<'_, '_> {
         nested.sort_by_cached_key(|entity| self.parents.iter_ancestors(*entity).count());
         for entity in nested {
             let Some(record) = maps.bodies.get_mut(&entity) else { continue };
-            if let Some(body) = world.body(record.id) {
+            if let Some(body) = world.body(record.id).filter(|_| self.may(which, entity, record)) {
                 self.place(entity, record, Frame::of_pose(pose(body)));
             }
         }
@@ -53,11 +61,15 @@ impl Places<'_, '_> {
     pub fn write_characters(
         &mut self,
         physics: &mut PhysicsWorld,
+        which: Which,
         position: impl Fn(&CharacterMover) -> DVec2,
     ) {
         let maps = &mut physics.maps;
         for (entity, mover) in &maps.characters {
             let Some(record) = maps.bodies.get_mut(entity) else { continue };
+            if !self.may(which, *entity, record) {
+                continue;
+            }
             let Ok(transform) = self.transforms.get(*entity) else { continue };
             let turned = Frame::of(transform).q;
             self.place(
@@ -86,36 +98,46 @@ impl Places<'_, '_> {
         if *transform != wanted {
             *transform = wanted;
         }
-        record.written = Some(Written::of(&wanted));
+        let (now, before) = (Written::of(&wanted), record.written);
+        record.written = Some(before.map_or(now, |before| now.scaled_like(&before)));
     }
 
-    /// Is a transform as we left it?
-    fn is_ours(&self, entity: Entity, record: &BodyRecord) -> bool {
-        self.transforms
-            .get(entity)
-            .is_ok_and(|transform| record.written == Some(Written::of(transform)))
+    /// Is a transform to be written? If only ours are, it stands where we left it.
+    fn may(&self, which: Which, entity: Entity, record: &BodyRecord) -> bool {
+        let here = self.transforms.get(entity).map(Written::of);
+        which == Which::All
+            || record
+                .written
+                .zip(here.ok())
+                .is_some_and(|(written, here)| written.is_placed_like(&here, record.role))
     }
 }
 
 /// Writes what the step moved.
 pub(crate) fn transforms(mut physics: ResMut<PhysicsWorld>, mut places: Places) {
     let moved = physics.world.moved_bodies().to_vec();
-    places.write(&mut physics, moved.into_iter(), |body| body.pose());
+    places.write(&mut physics, moved.into_iter(), Which::All, |body| body.pose());
 }
 
 /// Writes velocities.
 pub(crate) fn velocities(
-    physics: Res<PhysicsWorld>,
+    mut physics: ResMut<PhysicsWorld>,
     mut velocities: Query<(Entity, &mut Velocity)>,
 ) {
+    let PhysicsWorld { world, maps, .. } = &mut *physics;
     for (entity, mut velocity) in &mut velocities {
-        let Some(body) = physics.own_body(entity).and_then(|id| physics.world.body(id)) else {
-            continue;
-        };
+        let Some(record) = maps.bodies.get_mut(&entity) else { continue };
+        let Some(body) = world.body(record.id) else { continue };
         let linear = Vec2::new(body.velocity().x, body.velocity().y);
-        velocity.set_if_neq(Velocity { linear, angular: body.angular_velocity() });
+        let now = Velocity { linear, angular: body.angular_velocity() };
+        record.told = Some(now);
+        velocity.set_if_neq(now);
     }
 }
+
+/// Is in the app where bodies are shown between steps.
+#[derive(Resource, Default)]
+pub(crate) struct Interpolated;
 
 /// Shows bodies between the last two steps, where the clock stands.
 pub(crate) fn interpolate(
@@ -137,12 +159,8 @@ fn write_untouched(physics: &mut PhysicsWorld, places: &mut Places, alpha: f32) 
     if physics.fresh {
         return;
     }
-    let mut moved = physics.world.moved_bodies().to_vec();
-    moved.retain(|id| {
-        let entity = physics.maps.body_entities.get(id.to_bits());
-        let record = entity.and_then(|entity| Some((entity, physics.maps.bodies.get(&entity)?)));
-        record.is_some_and(|(entity, record)| places.is_ours(entity, record))
-    });
-    places.write(physics, moved.into_iter(), |body| body.interpolated_pose(alpha));
-    places.write_characters(physics, |mover| mover.interpolated_position(alpha));
+    let moved = physics.world.moved_bodies().to_vec();
+    places
+        .write(physics, moved.into_iter(), Which::Untouched, |body| body.interpolated_pose(alpha));
+    places.write_characters(physics, Which::Untouched, |mover| mover.interpolated_position(alpha));
 }

@@ -2,6 +2,7 @@
 
 mod tables;
 
+use crate::components::Velocity;
 use bevy_ecs::entity::{EntityHashMap, EntityMapper, MapEntities};
 use bevy_ecs::prelude::*;
 use bevy_math::{Quat, Vec2};
@@ -73,6 +74,8 @@ pub(crate) struct BodyRecord {
     pub role: Role,
     /// What stands in the entity's transform by our doing, or has been read there.
     pub written: Option<Written>,
+    /// What stands in the entity's velocity, likewise.
+    pub told: Option<Velocity>,
 }
 
 /// What counts of a transform.
@@ -94,6 +97,17 @@ impl Written {
 
     pub fn is_scaled_like(&self, other: &Self) -> bool {
         self.scale == other.scale
+    }
+
+    /// Is that the same place? How characters are turned is not physics' business.
+    pub fn is_placed_like(&self, other: &Self, role: Role) -> bool {
+        self.position == other.position
+            && (role == Role::Character || self.rotation == other.rotation)
+    }
+
+    /// With the scale of what was read: who changed that has yet to be heard.
+    pub fn scaled_like(self, other: &Self) -> Self {
+        Self { scale: other.scale, ..self }
     }
 }
 
