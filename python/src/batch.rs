@@ -1,6 +1,6 @@
 //! Batches of worlds.
 
-use crate::convert::{Pair, batch_error};
+use crate::convert::{Pair, batch_error, locked};
 use crate::handles::Body;
 use crate::handles::Joint;
 use crate::handles::World;
@@ -170,11 +170,12 @@ impl WorldBatch {
         dt: f32,
         steps: u32,
     ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let actions = actions.as_ref().map(|actions| actions.as_slice()).transpose()?;
+        // A copy: they may be the array that is written afterwards.
+        let actions = actions.map(|actions| actions.as_slice().map(<[f32]>::to_vec)).transpose()?;
         let Self { inner, actuators, .. } = self;
         py.detach(|| {
             for _ in 0..steps {
-                if let Some(actions) = actions {
+                if let Some(actions) = &actions {
                     inner.apply(actuators, actions)?;
                 }
                 inner.step(dt)?;
@@ -311,7 +312,7 @@ impl WorldBatch {
 
     /// Reads all worlds into the array that Python sees.
     fn observe(&mut self, py: Python<'_>) -> PyResult<()> {
-        let mut out = self.observations.bind(py).readwrite();
+        let mut out = self.observations.bind(py).try_readwrite().map_err(locked)?;
         let (out, inner, readings) = (out.as_slice_mut()?, &mut self.inner, &self.readings);
         py.detach(|| inner.read(readings, out)).map_err(batch_error)
     }

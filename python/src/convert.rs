@@ -26,6 +26,11 @@ pub fn error(error: Error) -> PyErr {
     }
 }
 
+/// That of an array that cannot be written, or is borrowed elsewhere.
+pub fn locked(error: numpy::BorrowError) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
 /// The batch's error as Python's.
 pub fn batch_error(error: BatchError) -> PyErr {
     match error {

@@ -66,21 +66,24 @@ fn whole(world: &World) -> View {
     for id in world.shape_ids() {
         let Some(shape) = world.shape(id) else { continue };
         let pose = shape.pose();
-        corners(shape.shape()).into_iter().map(|corner| pose.apply(corner)).for_each(|p| {
-            view.min = DVec2::new(view.min.x.min(p.x), view.min.y.min(p.y));
-            view.max = DVec2::new(view.max.x.max(p.x), view.max.y.max(p.y));
+        let (points, radius) = core(shape.shape());
+        let radius = f64::from(radius);
+        points.into_iter().map(|point| pose.apply(point)).for_each(|p| {
+            view.min = DVec2::new(view.min.x.min(p.x - radius), view.min.y.min(p.y - radius));
+            view.max = DVec2::new(view.max.x.max(p.x + radius), view.max.y.max(p.y + radius));
         });
     }
     view
 }
 
-/// Points that a shape reaches to.
-fn corners(shape: &Shape) -> Vec<Vec2> {
+/// Points of a shape, and how far it reaches around them.
+fn core(shape: &Shape) -> (Vec<Vec2>, f32) {
     match *shape {
-        Shape::Circle { radius } => vec![Vec2::splat(-radius), Vec2::splat(radius)],
-        Shape::Aabb { half_extents } => vec![-half_extents, half_extents],
-        Shape::Capsule { a, b, .. } | Shape::Segment { a, b } => vec![a, b],
-        Shape::Polygon(polygon) => polygon.vertices().to_vec(),
+        Shape::Circle { radius } => (vec![Vec2::ZERO], radius),
+        Shape::Aabb { half_extents } => (vec![-half_extents, half_extents], 0.0),
+        Shape::Capsule { a, b, radius } => (vec![a, b], radius),
+        Shape::Segment { a, b } => (vec![a, b], 0.0),
+        Shape::Polygon(polygon) => (polygon.vertices().to_vec(), polygon.radius()),
     }
 }
 

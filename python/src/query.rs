@@ -53,7 +53,7 @@ impl World {
         sensors: bool,
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
         let filter = filter(mask, exclude, sensors);
-        let world = slf.borrow();
+        let world = slf.try_borrow()?;
         let found = world.inner.ray_cast(DVec2::from(origin), Vec2::from(translation), &filter);
         found.map(|h| hit(slf, (h.shape, h.body), (h.point, h.normal, h.fraction))).transpose()
     }
@@ -69,7 +69,7 @@ impl World {
         sensors: bool,
     ) -> PyResult<Vec<Bound<'py, PyDict>>> {
         let filter = filter(mask, exclude, sensors);
-        let world = slf.borrow();
+        let world = slf.try_borrow()?;
         let found = world.inner.ray_cast_all(DVec2::from(origin), Vec2::from(translation), &filter);
         found
             .into_iter()
@@ -114,7 +114,7 @@ impl World {
         let geometry: engine::Shape = read(geometry)?;
         let pose = Pose::new(DVec2::from(position), Rot::from_angle(angle));
         let filter = filter(mask, exclude, false);
-        let world = slf.borrow();
+        let world = slf.try_borrow()?;
         let found = world.inner.cast_shape(&geometry, pose, Vec2::from(translation), &filter);
         found.map(|h| hit(slf, (h.shape, h.body), (h.point, h.normal, h.fraction))).transpose()
     }
@@ -133,7 +133,7 @@ impl World {
         let geometry: engine::Shape = read(geometry)?;
         let pose = Pose::new(DVec2::from(position), Rot::from_angle(angle));
         let filter = filter(mask, exclude, sensors);
-        let found = slf.borrow().inner.overlap_shape(&geometry, pose, &filter);
+        let found = slf.try_borrow()?.inner.overlap_shape(&geometry, pose, &filter);
         Ok(shapes(slf, found))
     }
 
@@ -146,11 +146,11 @@ impl World {
         mask: u64,
         exclude: Option<&Body>,
         sensors: bool,
-    ) -> Vec<Shape> {
+    ) -> PyResult<Vec<Shape>> {
         let filter = filter(mask, exclude, sensors);
         let area = Aabb::new(Vec2::from(lower), Vec2::from(upper));
-        let found = slf.borrow().inner.overlap_aabb(area, &filter);
-        shapes(slf, found)
+        let found = slf.try_borrow()?.inner.overlap_aabb(area, &filter);
+        Ok(shapes(slf, found))
     }
 
     /// The shapes that hold a point: world, metres.
@@ -161,10 +161,10 @@ impl World {
         mask: u64,
         exclude: Option<&Body>,
         sensors: bool,
-    ) -> Vec<Shape> {
+    ) -> PyResult<Vec<Shape>> {
         let filter = filter(mask, exclude, sensors);
-        let found = slf.borrow().inner.overlap_point(DVec2::from(point), &filter);
-        shapes(slf, found)
+        let found = slf.try_borrow()?.inner.overlap_point(DVec2::from(point), &filter);
+        Ok(shapes(slf, found))
     }
 
     /// The point of any shape that is closest to `point`, within `distance` metres: a dictionary with "shape", "body",
@@ -178,7 +178,7 @@ impl World {
         exclude: Option<&Body>,
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
         let filter = filter(mask, exclude, false);
-        let world = slf.borrow();
+        let world = slf.try_borrow()?;
         let Some(found) = world.inner.closest_point(DVec2::from(point), distance, &filter) else {
             return Ok(None);
         };

@@ -1,6 +1,6 @@
 //! Tasks for agents.
 
-use crate::convert::batch_error;
+use crate::convert::{batch_error, locked};
 use crate::draw::{Picture, View};
 use crate::handles::World;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1};
@@ -158,8 +158,10 @@ impl TaskBatch {
         py: Python<'py>,
         actions: PyReadonlyArray1<'py, f32>,
     ) -> PyResult<Results<'py>> {
-        let (actions, inner) = (actions.as_slice()?, &mut self.inner);
-        py.detach(|| inner.step(actions)).map_err(batch_error)?;
+        // A copy: they may be part of what is written afterwards.
+        let (copy, inner) = (actions.as_slice()?.to_vec(), &mut self.inner);
+        drop(actions);
+        py.detach(|| inner.step(&copy)).map_err(batch_error)?;
         self.show(py)?;
         let outcomes = || (0..self.inner.len()).filter_map(|i| self.inner.outcome(i));
         let rewards: Vec<f64> = outcomes().map(|(outcome, _)| outcome.reward.into()).collect();
@@ -228,7 +230,7 @@ impl TaskBatch {
 impl TaskBatch {
     /// Brings the array that Python sees up to date.
     fn show(&self, py: Python<'_>) -> PyResult<()> {
-        let mut out = self.observations.bind(py).readwrite();
+        let mut out = self.observations.bind(py).try_readwrite().map_err(locked)?;
         out.as_slice_mut()?.copy_from_slice(self.inner.observations());
         Ok(())
     }

@@ -1,9 +1,9 @@
 //! Worlds.
 
-use crate::convert::{Pair, error, place, read, tuple, write};
+use crate::convert::{Pair, error, locked, place, read, tuple, write};
 use crate::draw::{Picture, View};
 use crate::handles::{Body, Joint, Shape, World};
-use numpy::{PyArray2, PyArray3, PyArrayMethods, PyReadwriteArray2};
+use numpy::{PyArray2, PyArray3, PyArrayMethods, PyReadwriteArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -125,7 +125,7 @@ impl World {
             )?;
         }
         let body: RigidBody = read(fields.as_any())?;
-        let id = slf.borrow_mut().inner.add_body(body).map_err(error)?;
+        let id = slf.try_borrow_mut()?.inner.add_body(body).map_err(error)?;
         Ok(Self::body(slf, id))
     }
 
@@ -146,7 +146,7 @@ impl World {
         if let Some(friction) = friction {
             chain = chain.friction(friction);
         }
-        let ids = slf.borrow_mut().inner.add_chain(body.id, &chain).map_err(error)?;
+        let ids = slf.try_borrow_mut()?.inner.add_chain(body.id, &chain).map_err(error)?;
         Ok(ids.iter().map(|id| Self::shape(slf, *id)).collect())
     }
 
@@ -162,21 +162,21 @@ impl World {
         own(slf, a)?;
         own(slf, b)?;
         let def: JointDef = read(joint)?;
-        let id = slf.borrow_mut().inner.add_joint(a.id, b.id, def).map_err(error)?;
+        let id = slf.try_borrow_mut()?.inner.add_joint(a.id, b.id, def).map_err(error)?;
         Ok(Joint { world: slf.clone().unbind(), id })
     }
 
     /// Its bodies, in index order.
     #[getter]
-    fn bodies(slf: &Bound<'_, Self>) -> Vec<Body> {
-        slf.borrow().inner.body_ids().map(|id| Self::body(slf, id)).collect()
+    fn bodies(slf: &Bound<'_, Self>) -> PyResult<Vec<Body>> {
+        Ok(slf.try_borrow()?.inner.body_ids().map(|id| Self::body(slf, id)).collect())
     }
 
     /// Its joints, in index order.
     #[getter]
-    fn joints(slf: &Bound<'_, Self>) -> Vec<Joint> {
+    fn joints(slf: &Bound<'_, Self>) -> PyResult<Vec<Joint>> {
         let joint = |id| Joint { world: slf.clone().unbind(), id };
-        slf.borrow().inner.joint_ids().map(joint).collect()
+        Ok(slf.try_borrow()?.inner.joint_ids().map(joint).collect())
     }
 
     /// Bodies in the world.
@@ -203,7 +203,7 @@ impl World {
     /// What happened in the last step: lists "contact_begin", "contact_end", "sensor_begin", "sensor_end" of
     /// pairs of shapes, "hits" of (shape, shape, point, normal, speed), "joint_breaks", "woke", "fell_asleep".
     fn events<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyDict>> {
-        let (world, found) = (slf.borrow(), PyDict::new(slf.py()));
+        let (world, found) = (slf.try_borrow()?, PyDict::new(slf.py()));
         let events = world.inner.events();
         let pair = |a, b| (Self::shape(slf, a), Self::shape(slf, b));
         let begin = events.contact_begin().iter().map(|e| pair(e.shape_a, e.shape_b));
@@ -233,7 +233,7 @@ impl World {
     /// Touching pairs: dictionaries with "shapes", "bodies", "normal" (from the first to the second) and "points"
     /// of (position, separation, normal impulse, tangent impulse): metres, newton seconds.
     fn contacts<'py>(slf: &Bound<'py, Self>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let world = slf.borrow();
+        let world = slf.try_borrow()?;
         let contact = |view: engine::ContactView| {
             let contact = PyDict::new(slf.py());
             let shapes = (Self::shape(slf, view.shape_a), Self::shape(slf, view.shape_b));
@@ -282,12 +282,13 @@ impl World {
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let count = self.inner.body_count();
         let out = out.unwrap_or_else(|| PyArray2::zeros(py, [count, 6], false));
-        let mut rows: PyReadwriteArray2<'_, f64> = out.readwrite();
-        let rows = rows.as_slice_mut()?;
-        if rows.len() != 6 * count {
+        let mut rows: PyReadwriteArray2<'_, f64> =
+            out.try_readwrite().map_err(locked)?;
+        if rows.shape() != [count, 6] {
             let reason = format!("out must have the shape ({count}, 6)");
             return Err(PyValueError::new_err(reason));
         }
+        let rows = rows.as_slice_mut()?;
         for (row, id) in rows.chunks_mut(6).zip(self.inner.body_ids()) {
             let Some(body) = self.inner.body(id) else { continue };
             let (p, v) = (body.position_f64(), body.velocity());
@@ -333,18 +334,18 @@ impl World {
         slf: &Bound<'py, Self>,
     ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
         let make = slf.get_type().getattr("from_bytes")?;
-        Ok((make, (slf.borrow().to_bytes(slf.py()),)))
+        Ok((make, (slf.try_borrow()?.to_bytes(slf.py()),)))
     }
 
     /// The body of a handle of another copy of this world; None where it is not in this one.
-    fn same(slf: &Bound<'_, Self>, body: &Body) -> Option<Body> {
-        let here = slf.borrow().inner.body(body.id).is_some();
-        here.then(|| Self::body(slf, body.id))
+    fn same(slf: &Bound<'_, Self>, body: &Body) -> PyResult<Option<Body>> {
+        let here = slf.try_borrow()?.inner.body(body.id).is_some();
+        Ok(here.then(|| Self::body(slf, body.id)))
     }
 
     /// A body by its index.
     fn body_at(slf: &Bound<'_, Self>, index: usize) -> PyResult<Body> {
-        let found = slf.borrow().inner.body_ids().find(|id| id.index() == index);
+        let found = slf.try_borrow()?.inner.body_ids().find(|id| id.index() == index);
         let missing = || PyIndexError::new_err(format!("no body has index {index}"));
         found.map(|id| Self::body(slf, id)).ok_or_else(missing)
     }

@@ -217,3 +217,40 @@ def test_other_threads_run_while_a_world_steps():
     stop.set()
     thread.join()
     assert during > 1000
+
+
+def test_a_world_that_another_thread_steps_refuses_politely():
+    world = tp.World(gravity=(0, -10))
+    for i in range(300):
+        world.add_body(tp.circle(0.4), position=(0.1 * (i % 7), i))
+    thread = threading.Thread(target=lambda: world.step(1 / 60, steps=400))
+    thread.start()
+    refused = 0
+    while thread.is_alive():
+        for read in (lambda: world.bodies, world.contacts, world.events, lambda: world.ray_cast((0, 0), (1, 0))):
+            try:
+                read()
+            except RuntimeError:
+                refused += 1
+    thread.join()
+    assert refused > 0
+    assert len(world.bodies) == 300
+
+
+def test_arrays_that_cannot_be_written_are_refused():
+    world = tp.World()
+    world.add_body(tp.circle(1))
+    out = np.zeros((1, 6))
+    out.flags.writeable = False
+    with pytest.raises(ValueError):
+        world.states(out=out)
+    with pytest.raises(ValueError):
+        world.states(out=np.zeros((6, 1)))
+
+
+def test_a_picture_of_a_lone_turned_circle_shows_it():
+    world = tp.World(gravity=(0, 0))
+    world.add_body(tp.circle(1), angle=np.pi / 4)
+    picture = world.draw(60, 60)
+    covered = (picture != picture[0, 0]).any(axis=2).mean()
+    assert 0.2 < covered < 0.95

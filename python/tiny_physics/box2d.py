@@ -562,6 +562,7 @@ class b2World:
 
     def DestroyJoint(self, joint: b2RevoluteJoint) -> None:
         self.joints.remove(joint)
+        self._fresh = [fresh for fresh in self._fresh if fresh is not joint]
         joint._inner.remove()
 
     def Step(self, timeStep: float, velocityIterations: int, positionIterations: int) -> None:

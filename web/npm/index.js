@@ -186,8 +186,8 @@ export class World {
 
   step(dt) {
     // The module takes 0 for the scene's own step.
-    const given = Math.fround(dt) > 0 && Number.isFinite(dt) ? dt : NaN;
-    check(wasm.tp_step(this.session, dt === undefined ? 0 : given));
+    if (Math.fround(dt) === 0) throw new PhysicsError(`dt is ${dt}; it has to be above 0`);
+    check(wasm.tp_step(this.session, dt === undefined ? 0 : Number.isFinite(dt) ? dt : NaN));
   }
 
   get dt() {

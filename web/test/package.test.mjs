@@ -63,6 +63,10 @@ test("what is wrong is said in the engine's words, and changes nothing", () => {
   wrong(() => world.addJoint(0, 0, { kind: { revolute: {} } }), /body|joint/);
   wrong(() => world.step(-1), /dt is -1/);
   wrong(() => world.step(NaN), /dt is NaN/);
+  wrong(() => world.step(0), /dt is 0/);
+  wrong(() => world.step(1e-50), /dt is 1e-50/);
+  wrong(() => world.setSettings({ substeps: 0 }), /substeps/);
+  assert.equal(world.settings.substeps, 4);
   wrong(() => World.loadScene('{ "version": 1, "bodies": [ { "weight": 2 } ] }'), /line 1 column \d+: bodies\[0\]/);
   wrong(() => World.fromBytes(new Uint8Array(10)), /./);
   wrong(() => new World({ gravity: [0] }), /gravity/);
@@ -109,6 +113,20 @@ test("bodies, shapes and joints can be read and changed", () => {
   world.setSettings({ substeps: 8 });
   assert.deepEqual([world.gravity, world.settings.substeps], [{ x: 1, y: 2 }, 8]);
   world.validate();
+});
+
+test("filters have 64 bits, and what is read can be written", () => {
+  const world = new World();
+  const high = 2n ** 63n;
+  const body = world.addBody({ shapes: [{ shape: { circle: { radius: 1 } }, filter: { mask: 2n } }] });
+  const [shape] = world.body(body).shapes ?? world.shapeIds();
+  assert.deepEqual(world.shape(shape).filter.mask, 2);
+  world.changeShape(shape, { set_filter: { category: high, mask: 2n ** 64n - 1n, group: 0 } });
+  const filter = world.shape(shape).filter;
+  assert.equal(filter.category, high);
+  world.changeShape(shape, { set_filter: { ...filter, category: 2 } });
+  assert.equal(world.shape(shape).filter.category, 2);
+  assert.equal(world.shape(shape).filter.mask, 2n ** 64n - 1n);
 });
 
 test("questions are answered", () => {

@@ -78,7 +78,10 @@ export function files(app) {
   return {
     openBytes,
     choose: () => input.click(),
-    saveScene: () => download(name("json"), new Blob([app.source], { type: "application/json" })),
+    saveScene: () =>
+      app.source
+        ? download(name("json"), new Blob([app.source], { type: "application/json" }))
+        : toast("A recording has no scene file: save it as a recording.", "bad"),
     saveRecording: () => download(name("tpr"), new Blob([app.world.recording()])),
     png: () => {
       app.draw();

@@ -23,6 +23,9 @@ impl<'a> Body<'a> {
         let i = self.index as usize;
         let (start, end) = (self.world.state.bodies.previous[i], self.world.state.bodies.poses[i]);
         let alpha = if alpha.is_finite() { alpha.clamp(0.0, 1.0) } else { 1.0 };
+        if alpha == 1.0 {
+            return self.pose();
+        }
         let center = start.p + (end.p - start.p) * f64::from(alpha);
         let rotation = start.q.integrate(self.turn_of_last_step(end.q.angle_from(start.q)) * alpha);
         Pose::new(center - rotation.rotate(self.local_center()), rotation)
