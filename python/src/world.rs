@@ -282,8 +282,7 @@ impl World {
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let count = self.inner.body_count();
         let out = out.unwrap_or_else(|| PyArray2::zeros(py, [count, 6], false));
-        let mut rows: PyReadwriteArray2<'_, f64> =
-            out.try_readwrite().map_err(locked)?;
+        let mut rows: PyReadwriteArray2<'_, f64> = out.try_readwrite().map_err(locked)?;
         if rows.shape() != [count, 6] {
             let reason = format!("out must have the shape ({count}, 6)");
             return Err(PyValueError::new_err(reason));

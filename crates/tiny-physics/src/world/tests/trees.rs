@@ -365,7 +365,7 @@ fn a_motor_without_force_does_nothing() {
     let motor = world.add_joint(bars[3], last, hinge().motor(2.0, 50.0)).unwrap();
     run(&mut world, 5);
     assert!(in_trees(&world) > 0);
-    world.joint_mut(motor).unwrap().set_max_force(0.0);
+    world.joint_mut(motor).unwrap().set_max_force(0.0).unwrap();
     run(&mut world, 2);
     assert_eq!(world.joint(motor).unwrap().motor_load(), 0.0);
 }
