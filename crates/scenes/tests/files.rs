@@ -99,7 +99,7 @@ fn bad_files_are_refused_with_line_field_and_value() {
         ("\"max\": 5", "\"power\": 5", 4, "joints[0].kind.revolute.motor.power", "unknown field `power`"),
         ("\"revolute\"", "\"glue\"", 4, "joints[0].kind", "unknown variant `glue`"),
         ("\"motor\": { \"speed\": 1, \"max\": 5 }", "\"limits\": { \"lower\": 1, \"upper\": 0.5 }", 4, "joints[0].kind.revolute.limits.upper", "0.5"),
-        ("\"substeps\": 4", "\"substeps\": 0", 5, "settings.substeps", "1 or above"),
+        ("\"substeps\": 4", "\"substeps\": 0", 5, "settings.substeps", "1 to 1000"),
         ("\"substeps\": 4", "\"substeps\": 1.5", 5, "settings.substeps", "1.5"),
         ("\"substeps\": 4", "\"sub_steps\": 4", 5, "settings.sub_steps", "unknown field"),
         ("\"dt\": 0.0166", "\"dt\": 0", 2, "dt", "above 0"),
