@@ -270,7 +270,7 @@ export class World {
   joint(id) {
     if (!wasm.tp_joint(this.session, id)) return undefined;
     const [bodyA, bodyB, ax, ay, bx, by, fx, fy, torque] = numbers();
-    const def = read(text());
+    const def = JSON.parse(text());
     return { id, bodyA, bodyB, anchorA: point(ax, ay), anchorB: point(bx, by), force: point(fx, fy), torque, def };
   }
 

@@ -118,9 +118,9 @@ test("bodies, shapes and joints can be read and changed", () => {
 test("filters have 64 bits, and what is read can be written", () => {
   const world = new World();
   const high = 2n ** 63n;
-  const body = world.addBody({ shapes: [{ shape: { circle: { radius: 1 } }, filter: { mask: 2n } }] });
-  const [shape] = world.body(body).shapes ?? world.shapeIds();
-  assert.deepEqual(world.shape(shape).filter.mask, 2);
+  world.addBody({ shapes: [{ shape: { circle: { radius: 1 } }, filter: { mask: 2n } }] });
+  const [shape] = world.shapeIds();
+  assert.equal(world.shape(shape).filter.mask, 2);
   world.changeShape(shape, { set_filter: { category: high, mask: 2n ** 64n - 1n, group: 0 } });
   const filter = world.shape(shape).filter;
   assert.equal(filter.category, high);

@@ -177,8 +177,7 @@ impl TileGrid {
 
     /// The value of a cell; 0 outside of the grid.
     pub fn get(&self, x: u32, y: u32) -> u16 {
-        let cell = self.cells.get(self.index(x, y)).filter(|_| x < self.width && y < self.height);
-        cell.copied().unwrap_or(0)
+        self.index(x, y).map_or(0, |index| self.cells[index])
     }
 
     /// What stands in a cell.
@@ -191,11 +190,8 @@ impl TileGrid {
     /// # Errors
     /// The cell is outside of the grid, or the palette has no such entry.
     pub fn set(&mut self, x: u32, y: u32, value: u16) -> Result<(), Error> {
-        let index = self.index(x, y);
-        if x >= self.width || y >= self.height || index >= self.cells.len() {
-            let reason = "the cell is outside of the tile grid";
-            return Err(Error::Unsupported { reason });
-        }
+        let reason = "the cell is outside of the tile grid";
+        let index = self.index(x, y).ok_or(Error::Unsupported { reason })?;
         let is_known = usize::from(value) <= self.palette.len();
         Error::check("tile", value, is_known, "0 to the length of the palette")?;
         self.cells[index] = value;
@@ -252,8 +248,11 @@ impl TileGrid {
         bodies.filter(|body| !body.shapes.is_empty()).collect()
     }
 
-    fn index(&self, x: u32, y: u32) -> usize {
-        y as usize * self.width as usize + x as usize
+    /// Where a cell of the grid is in the list, if it is there.
+    fn index(&self, x: u32, y: u32) -> Option<usize> {
+        let index = u64::from(y) * u64::from(self.width) + u64::from(x);
+        let inside = x < self.width && y < self.height && index < self.cells.len() as u64;
+        inside.then_some(index as usize)
     }
 
     fn pose(&self) -> Pose {

@@ -154,7 +154,7 @@ fn cross_edge(ray: &Ray, start: Vec2, end: Vec2, normal: Vec2) -> Option<RayHit>
     let along = (at - start).dot(way);
     // Two edges that meet round where a ray hits their corner each for itself: none may slip through between.
     let size = |v: Vec2| v.x.abs() + v.y.abs();
-    let slack = ROUNDING * (size(ray.origin) + size(ray.translation) + size(start)) * way.length();
+    let slack = ROUNDING * (size(ray.origin) + size(at) + size(start)) * way.length();
     let on_edge = along >= -slack && along <= way.length_sq() + slack;
     on_edge.then_some(RayHit { fraction, normal })
 }

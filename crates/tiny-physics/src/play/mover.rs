@@ -220,12 +220,12 @@ impl CharacterMover {
     pub fn update(&mut self, world: &mut World, input: MoverInput, dt: f32) {
         let gravity = world.gravity * self.gravity_scale;
         let numbers = [dt, input.walk, input.jump, self.height, self.radius, self.skin];
-        let limits =
-            [self.max_slope, self.step_height, self.snap_distance, self.push_force, self.mass];
+        let limits = [self.max_slope, self.step_height, self.snap_distance, self.mass];
         let finite = numbers.iter().chain(&limits).all(|number| number.is_finite())
             && self.position.is_finite()
             && self.velocity.is_finite()
-            && gravity.is_finite();
+            && gravity.is_finite()
+            && !self.push_force.is_nan();
         if !finite || dt <= 0.0 || self.radius < MIN_EXTENT {
             return;
         }

@@ -15,6 +15,7 @@ pub(crate) struct Context<'a> {
     pub(crate) infos: Option<&'a [BodyInfo]>,
     /// Points up to this far apart are contacts already, metres.
     pub(crate) speculative_distance: f32,
+    /// For contacts with guarded shapes.
     pub(crate) ground: Ground<'a>,
     /// Length of the step, seconds.
     pub(crate) dt: f32,

@@ -254,7 +254,7 @@ fn wake_ring(index: u32, bodies: &mut Bodies, island: &mut Vec<u32>) {
         let info = &mut bodies.infos[body as usize];
         info.awake = true;
         info.sleep_time = 0.0;
-        // Of the step in which it was last awake.
+        // Those are of the step in which it was last awake.
         (bodies.motions[body as usize], bodies.starts[body as usize]) = Default::default();
         body = core::mem::replace(&mut info.island_next, NULL);
         if body == index || body == NULL {

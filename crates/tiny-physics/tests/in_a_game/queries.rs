@@ -122,3 +122,16 @@ fn questions_of_any_size_have_answers() {
     let hit = world.ray_cast((-5.0, 0.0), (f32::MAX, 0.0), &all).unwrap();
     assert!((hit.point.x + 1.0).abs() < 0.01 && hit.normal == -Vec2::X, "{hit:?}");
 }
+
+/// What forgives rounding grows with where a ray hits, not with how far it would go on.
+#[test]
+fn long_rays_miss_what_lies_beside_them() {
+    let mut world = World::new((0.0, 0.0));
+    let ground = world.add_body(RigidBody::fixed()).unwrap();
+    let wall = ChainDef::open(&[(3.0, 1.0).into(), (3.0, -1.0).into()]);
+    world.add_chain(ground, &wall).unwrap();
+    for length in [10.0, 1.0e6, 1.0e12, f32::MAX] {
+        let hits = |y: f64| world.ray_cast((0.0, y), (length, 0.0), &QueryFilter::new()).is_some();
+        assert!(hits(0.999) && hits(-0.999) && !hits(1.001) && !hits(-1.001), "{length}");
+    }
+}

@@ -28,7 +28,7 @@ const LONGEST: usize = 16;
 /// a thousand times as much as other things, the deepest overlaps add up to 6.1 m with 32, 6.5 with 16, 6.0 with 128.
 const MOST_SEEN: usize = 32;
 /// So many times less heavy is what is pressed on from step to step that nothing heavy reaches by contacts: in a drum of 6,000
-/// bodies, else, 1,600 of them went on pressing each other as what had swept through them, for a quarter of the step. With 2 to 8
+/// bodies, else, 1,600 of them went on pressing each other as what had swept through them, for a fifth of the step. With 2 to 8
 /// heaps of mixed masses sleep as early as without; let go of at once, they sleep after 8.8 s in place of 6.1.
 const FADE: f32 = 8.0;
 /// A body backs another if its contact's normal leads on along the push, by this cosine.

@@ -138,3 +138,15 @@ fn a_fast_body_and_a_sensor_elsewhere() {
         counted(|| world.step(DT))
     });
 }
+
+#[test]
+fn chains_that_go() {
+    let heights = |count: u32| -> Vec<f32> { (0..count).map(|i| (i % 7) as f32).collect() };
+    grows_in_proportion("removed", |count| {
+        let mut world = world();
+        let ground = world.add_body(RigidBody::fixed()).unwrap();
+        let chain = crate::ChainDef::heights(1.0, &heights(count));
+        let chain = world.add_chain(ground, &chain).unwrap();
+        counted(|| chain.remove(&mut world).unwrap())
+    });
+}

@@ -408,8 +408,9 @@ fn a_ring_takes_limits_where_it_closes() {
 fn idle_joints_change_no_tree() {
     let mut world = sleepless();
     add_ground(&mut world);
-    let (bars, _) = add_chain(&mut world, 0.2, 8);
+    let (bars, _) = add_chain(&mut world, 0.2, 16);
     run(&mut world, 20);
+    assert_eq!(in_trees(&world), 15);
     let far = add(&mut world, 30.0, 5.0, circle(0.2));
     world.add_joint(far, bars[3], JointDef::filter()).unwrap();
     let mut again = World::from_bytes(&world.to_bytes()).unwrap();
