@@ -31,6 +31,18 @@ fn app(frame: f64) -> (App, Entity) {
     (app, ball)
 }
 
+/// It is shown on its way in even parts, and steps see it where it is.
+#[track_caller]
+fn moves_evenly(app: &App, places: &[f32]) {
+    for pair in places.windows(2).skip(10) {
+        assert!((pair[1] - pair[0] - 0.035).abs() < 1e-3, "{} m in a frame", pair[1] - pair[0]);
+    }
+    let seen = &app.world().resource::<Seen>().0;
+    for (step, x) in seen.iter().enumerate() {
+        assert!((x - 0.1 * step as f32).abs() < 1e-4, "step {step} saw it at {x}");
+    }
+}
+
 #[test]
 fn bodies_are_drawn_between_steps_and_move_evenly() {
     // Frames of 7 ms, steps of 20 ms.
@@ -41,13 +53,7 @@ fn bodies_are_drawn_between_steps_and_move_evenly() {
             place(&app, ball).x
         })
         .collect();
-    for pair in places.windows(2).skip(10) {
-        assert!((pair[1] - pair[0] - 0.035).abs() < 1e-3, "{} m in a frame", pair[1] - pair[0]);
-    }
-    let seen = &app.world().resource::<Seen>().0;
-    for (step, x) in seen.iter().enumerate() {
-        assert!((x - 0.1 * step as f32).abs() < 1e-4, "step {step} saw it at {x}");
-    }
+    moves_evenly(&app, &places);
     assert!(messages::<PhysicsProblem>(&app).is_empty());
 }
 
@@ -102,13 +108,7 @@ fn mirroring_a_body_between_frames_does_not_throw_it_back() {
             transform.translation.x
         })
         .collect();
-    for pair in places.windows(2).skip(10) {
-        assert!((pair[1] - pair[0] - 0.035).abs() < 1e-3, "{} m in a frame", pair[1] - pair[0]);
-    }
-    let seen = &app.world().resource::<Seen>().0;
-    for (step, x) in seen.iter().enumerate() {
-        assert!((x - 0.1 * step as f32).abs() < 1e-4, "step {step} saw it at {x}");
-    }
+    moves_evenly(&app, &places);
 }
 
 #[test]

@@ -31,7 +31,8 @@ pub(crate) struct Rules<'a> {
     pub(crate) joints: &'a Joints,
     /// The user's word on a pair of shapes, if there is any.
     pub(crate) custom: Option<&'a dyn PairRule>,
-    /// Pairs of shapes whose contacts the user has switched off in this step, sorted.
+    /// Shapes, each with a body that the user has switched a contact of it with off in this step, sorted. By bodies, since of neighbours
+    /// such as the segments of a chain only those are asked about that have points.
     pub(crate) off: &'a [[u32; 2]],
     /// See [`Settings::length_unit`](crate::Settings).
     pub(crate) length_unit: f32,
@@ -533,7 +534,7 @@ impl Search<'_> {
         other.body != record.body
             && !other.sensor
             && record.filter.collides(&other.filter)
-            && rules.off.binary_search(&[shape.min(index), shape.max(index)]).is_err()
+            && rules.off.binary_search(&[shape, other.body]).is_err()
             && rules.joints.may_collide(bodies, record.body, other.body)
             && rules.custom.is_none_or(|rule| rule.allows(bodies, shapes, shape, index))
     }

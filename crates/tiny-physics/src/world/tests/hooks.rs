@@ -101,17 +101,23 @@ fn groups_pass_each_other() {
 /// What a hook switches off does not stop what is fast, nor what turns.
 #[test]
 fn what_is_switched_off_stops_nothing_fast() {
-    for speed in [3.0, 20.0, 60.0, 300.0] {
+    let chain = [Vec2::new(3.0, 2.0), Vec2::new(3.1, 0.0), Vec2::new(3.0, -2.0)];
+    for (speed, is_chain) in [3.0, 20.0, 60.0, 300.0].map(|s| [(s, false), (s, true)]).concat() {
         let mut world = World::new(Vec2::ZERO);
-        let wall = RigidBody::fixed().position(Vec2::new(3.0, 0.0)).shape(rect(0.1, 2.0));
-        world.add_body(wall).unwrap();
+        let wall = RigidBody::fixed().shape(rect(0.1, 2.0).offset(Vec2::new(3.0, 0.0)));
+        let wall = world.add_body(if is_chain { RigidBody::fixed() } else { wall }).unwrap();
+        if is_chain {
+            world.add_chain(wall, &crate::ChainDef::open(&chain)).unwrap();
+        }
         world.set_pre_solve(|_, _, rules| rules.enabled = false);
         let ball = RigidBody::dynamic().velocity(Vec2::new(speed, 0.0)).angular_velocity(30.0);
         let ball = world.add_body(ball.shape(rect(0.1, 0.3))).unwrap();
         let steps = (6.0 / speed / DT).ceil();
         run(&mut world, steps as usize);
         let ball = world.body(ball).unwrap();
-        assert!((ball.position().x - speed * steps * DT).abs() < 1.0e-3, "{speed}: {ball:?}");
+        // A segment that it is not asked about, since only a sweep has met it, may hold it back for a step.
+        let most = if is_chain { 1.001 * speed * DT } else { 1.0e-3 };
+        assert!((ball.position().x - speed * steps * DT).abs() < most, "{speed}: {ball:?}");
         assert_eq!(ball.velocity(), Vec2::new(speed, 0.0));
         world.clear_pre_solve();
     }
