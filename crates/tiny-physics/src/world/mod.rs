@@ -67,6 +67,9 @@ use std::sync::OnceLock;
 const SPECULATIVE_DISTANCE: f32 = 0.02;
 /// Metres; multiplied by [`Settings::length_unit`]. Room around a shape in its fat box.
 const FAT_MARGIN: f32 = 0.1;
+/// Bodies awake and contacts between them from which a step is shared among threads: a thousand crates gain nothing yet, fewer
+/// lose. Tests share every step, so that small worlds try the threads, too.
+const LEAST_SHARED: usize = if cfg!(debug_assertions) { 0 } else { 2048 };
 
 /// A world of bodies.
 ///
@@ -167,7 +170,8 @@ impl World {
     pub fn try_step(&mut self, dt: f32) -> Result<(), Error> {
         let lengths = self.step_lengths(dt)?;
         self.stats.dt = dt;
-        let pool = self.pool.clone();
+        let work = self.state.bodies.awake.len() + self.state.graph.touching_count();
+        let pool = if work < LEAST_SHARED { Pool::default() } else { self.pool.clone() };
         pool.scope(|team| self.run_stages(team, lengths));
         self.state.step_count += 1;
         Ok(())
@@ -500,7 +504,8 @@ impl World {
     }
 
     /// Lets steps use this many threads, the calling one included; 0 counts as 1, and without the feature
-    /// `parallel` there is never more than 1. Results do not depend on it.
+    /// `parallel` there is never more than 1. Results do not depend on it. A step of less than a third of a
+    /// millisecond or so runs on its caller alone, as others would not be awake in time.
     pub fn set_threads(&mut self, threads: usize) {
         if threads != self.threads() {
             self.pool = Pool::new(threads);
