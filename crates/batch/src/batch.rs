@@ -261,7 +261,7 @@ impl WorldBatch {
         Ok(Self { templates, slots, threads })
     }
 
-    /// Goes back to what was saved, on the threads that it has.
+    /// Goes back to what was saved, on the threads that it has. Hooks are no part of what is saved: no world has any then.
     ///
     /// # Errors
     /// Bytes that are no saved batch, or a damaged one; nothing has changed then.

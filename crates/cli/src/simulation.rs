@@ -132,7 +132,7 @@ impl Simulation {
         })
     }
 
-    fn equip(world: &mut World, how: &WorldArgs) -> Outcome {
+    pub fn equip(world: &mut World, how: &WorldArgs) -> Outcome {
         world.set_threads(usize::from(how.threads));
         world.time_stages(true);
         if let Some(level) = how.simd {

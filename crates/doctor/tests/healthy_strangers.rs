@@ -52,6 +52,7 @@ fn healthy() -> Vec<Healthy> {
         billiards(),
         pixels(),
         conveyor(),
+        fast_belt(),
         fountain(),
         explosion(),
         rafts(),
@@ -348,6 +349,15 @@ fn conveyor() -> Healthy {
         add(&mut world, plank(0.3, 0.3, -3.5 + i as f32, 1.5));
     }
     left_alone("belt drops crates to the floor", 500, world)
+}
+
+fn fast_belt() -> Healthy {
+    let mut world = earth();
+    ground(&mut world);
+    let belt = ShapeDef::new(Shape::rect(30.0, 0.2).unwrap()).tangent_speed(6.0);
+    add(&mut world, RigidBody::fixed().position(Vec2::new(0.0, 1.0)).shape(belt));
+    add(&mut world, plank(0.3, 0.3, 0.0, 1.5));
+    left_alone("a crate is put on a belt that runs at 6 m/s", 200, world)
 }
 
 /// A ball pool that fills from a spout; what is too much is taken out by handle.

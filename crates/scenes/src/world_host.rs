@@ -287,10 +287,7 @@ impl<T: Commanded> CommandHost<T> {
 
     /// The shapes of a body in the order in which it was described.
     fn shapes_of(&self, body: usize) -> Vec<ShapeId> {
-        let body = self.body(body);
-        let mut shapes: Vec<ShapeId> = body.map_or(Vec::new(), |body| body.shapes().collect());
-        shapes.sort_unstable_by_key(|id| id.index());
-        shapes
+        self.body(body).map_or(Vec::new(), |body| body.shapes().collect())
     }
 }
 

@@ -253,3 +253,54 @@ fn no_machine_pushes_it_through_a_wall() {
         }
     }
 }
+
+/// Without a bound the push is what it takes.
+#[test]
+fn an_unbounded_push_moves_what_it_meets() {
+    let mut world = World::new(Vec2::new(0.0, -10.0));
+    let ground =
+        RigidBody::fixed().position(Vec2::new(0.0, -1.0)).shape(Shape::rect(50.0, 1.0).unwrap());
+    world.add_body(ground).unwrap();
+    let crate_ =
+        RigidBody::dynamic().position(Vec2::new(2.0, 0.5)).shape(Shape::rect(0.5, 0.5).unwrap());
+    let crate_ = world.add_body(crate_.mass(1.0)).unwrap();
+    let mut hero = CharacterMover::new(Vec2::new(0.0, 0.95), 1.8, 0.3);
+    hero.push_force = f32::INFINITY;
+    for _ in 0..120 {
+        world.step(1.0 / 60.0);
+        hero.update(&mut world, MoverInput { walk: 3.0, ..MoverInput::default() }, 1.0 / 60.0);
+    }
+    assert!(
+        world.body(crate_).unwrap().position().x > 4.0,
+        "{:?}",
+        world.body(crate_).unwrap().position()
+    );
+    assert_eq!(world.stats().refused_numbers, 0);
+}
+
+/// A wall is no floor, however steep a slope may be.
+#[test]
+fn a_slope_of_any_angle_leaves_walls_walls() {
+    for slope in [1.5, core::f32::consts::FRAC_PI_2, 3.0, -1.0] {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let boxes = [(0.0, -1.0, 50.0, 1.0), (3.0, 5.0, 1.0, 5.0)];
+        for (x, y, hx, hy) in boxes {
+            let body =
+                RigidBody::fixed().position(Vec2::new(x, y)).shape(Shape::rect(hx, hy).unwrap());
+            world.add_body(body).unwrap();
+        }
+        let mut hero = CharacterMover::new(Vec2::new(0.0, 0.95), 1.8, 0.3);
+        hero.max_slope = slope;
+        for step in 0..240 {
+            world.step(1.0 / 60.0);
+            let jump = if step == 100 { 5.0 } else { 0.0 };
+            hero.update(
+                &mut world,
+                MoverInput { walk: 3.0, jump, ..MoverInput::default() },
+                1.0 / 60.0,
+            );
+            assert!(hero.position.is_finite(), "{slope}");
+        }
+        assert!(hero.position.y < 1.2 && hero.position.x < 2.0, "{slope}: {:?}", hero.position);
+    }
+}

@@ -432,3 +432,30 @@ fn hinged_bars_stop_at_pegs() {
     });
     assert!(played.get() > 100, "only {}", played.get());
 }
+
+/// What is thick itself has no right to run over what is small.
+#[test]
+fn a_thick_ram_swallows_nothing() {
+    let mut deepest = 0.0_f32;
+    for half in [0.03, 0.05, 0.1] {
+        for speed in [2.0, 4.0, 6.0, 8.5] {
+            for phase in 0..8 {
+                let mut world = World::new(Vec2::ZERO);
+                let pebble = RigidBody::dynamic().shape(rect(half, half));
+                let pebble = world.add_body(pebble).unwrap();
+                let gap = half + 0.05 + 0.125 * phase as f32 * speed * DT;
+                let ram = RigidBody::kinematic().position(Vec2::new(-5.0 - gap, 0.0));
+                let ram = ram.velocity(Vec2::new(speed, 0.0)).shape(rect(5.0, 5.0));
+                let ram = world.add_body(ram).unwrap();
+                for _ in 0..60 {
+                    world.step(DT);
+                    let [x, front] = [pebble, ram].map(|id| world.body(id).unwrap().position().x);
+                    let overlap = (front + 5.0 - (x - half)) / half;
+                    deepest = deepest.max(overlap);
+                }
+            }
+        }
+    }
+    // Seven tenths of the reach of contacts are left to the next step.
+    assert!(deepest < 0.5, "{deepest} of half a pebble");
+}

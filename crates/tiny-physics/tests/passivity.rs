@@ -206,3 +206,66 @@ fn what_floats_keeps_its_momenta() {
         assert!(highest < 1.01 * first, "seed {seed}: {highest} of {first} J");
     }
 }
+
+/// A pulley hangs from the ground: its pulls on the two ends have a sum and a moment.
+#[test]
+fn a_pulley_turns_nothing_and_brakes_nothing() {
+    let mut random = Random(3);
+    for _ in 0..10 {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let (left, right) = (random.range(1.0, 4.0), random.range(1.0, 4.0));
+        let weight = random.range(2.5, 6.0);
+        let box_of = |x: f32, y: f32, mass: f32| {
+            RigidBody::dynamic().position(Vec2::new(x, y)).shape(rect(0.5, 0.25)).mass(mass)
+        };
+        let cage = world.add_body(box_of(-left, 5.0, 1.0)).unwrap();
+        let load = world.add_body(box_of(-left, 5.5, 1.0)).unwrap();
+        let counter = world.add_body(box_of(right, 5.0, weight)).unwrap();
+        let (a, b) = (Vec2::new(-left, 20.0), Vec2::new(right, 20.0));
+        world.add_joint(cage, counter, JointDef::pulley(a, b, 30.0)).unwrap();
+        for _ in 0..40 {
+            world.step(DT);
+        }
+        let time = 40.0 * DT;
+        let expected = 10.0 * (weight - 2.0) / (weight + 2.0) * time;
+        let speed = -world.body(counter).unwrap().velocity().y;
+        assert!((speed - expected).abs() < 0.02 * expected, "{weight}: {speed} for {expected}");
+        for id in [cage, load, counter] {
+            let spin = world.body(id).unwrap().angular_velocity();
+            assert!(spin.abs() < 1.0e-3, "{left} {right} {weight}: {spin}");
+        }
+    }
+}
+
+/// What gives way is what can move: a body that is locked against turning has no spin to give.
+#[test]
+fn the_guard_moves_nothing_that_is_locked() {
+    let mut random = Random(5);
+    for _ in 0..20 {
+        let mut world = World::new(Vec2::ZERO);
+        let mut locked = Vec::new();
+        for i in 0..6 {
+            let place = Vec2::new(0.9 * i as f32, random.range(-0.3, 0.3));
+            let body = RigidBody::dynamic().position(place).shape(rect(0.5, 0.5));
+            let body = body.velocity(Vec2::new(random.range(-6.0, 6.0), random.range(-6.0, 6.0)));
+            let body = if i % 2 == 0 { body.lock_rotation() } else { body.angular_velocity(5.0) };
+            let id = world.add_body(body).unwrap();
+            if i % 2 == 0 {
+                locked.push(id);
+            }
+        }
+        let ids: Vec<BodyId> = world.body_ids().collect();
+        for pair in ids.windows(2).step_by(2) {
+            let joint = JointDef::revolute().anchor_at(Vec2::new(random.range(0.0, 5.0), 0.5));
+            world
+                .add_joint(pair[0], pair[1], JointDef { collide_connected: true, ..joint })
+                .unwrap();
+        }
+        for _ in 0..120 {
+            world.step(DT);
+            for &id in &locked {
+                assert_eq!(world.body(id).unwrap().angular_velocity(), 0.0);
+            }
+        }
+    }
+}

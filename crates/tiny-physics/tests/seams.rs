@@ -3,7 +3,7 @@
 
 mod common;
 
-use tiny_physics::{ChainDef, RigidBody, Shape, ShapeDef, Vec2, World};
+use tiny_physics::{ChainDef, Polygon, RigidBody, Rot, Shape, ShapeDef, Vec2, World};
 
 const SPEED: f32 = 10.0;
 const TILES: i32 = 60;
@@ -311,6 +311,64 @@ fn what_rolls_over_seams_stays_on_the_floor() {
             let off = (world.body(ball).unwrap().position().y - radius).abs();
             let place = world.body(ball).unwrap().position().x / width;
             assert!(off < 2e-4, "{member}, step {step}: {off} m off the floor at {place}");
+        }
+    }
+}
+
+/// Whatever corner comes first, and wherever the shape lies in its body.
+#[test]
+fn a_chain_lets_everything_pass_from_behind() {
+    let turned = |half: f32, y: f32| {
+        Shape::from(Polygon::turned_rect(half, half, Vec2::new(0.0, y), Rot::IDENTITY).unwrap())
+    };
+    let shapes = [
+        turned(0.5, 0.0),
+        turned(0.1, 3.0),
+        turned(0.1, -3.0),
+        Shape::regular(5, 0.5).unwrap(),
+        Shape::capsule(Vec2::new(-0.5, 0.0), Vec2::new(0.5, 0.0), 0.2).unwrap(),
+    ];
+    for (i, shape) in shapes.into_iter().enumerate() {
+        for step in -10..=10 {
+            for speed in [4.0, 30.0] {
+                let mut world = World::new(Vec2::ZERO);
+                let ground = world.add_body(RigidBody::fixed()).unwrap();
+                let line = ChainDef::open(&[Vec2::new(5.0, 0.0), Vec2::new(-5.0, 0.0)]);
+                world.add_chain(ground, &line).unwrap();
+                let body =
+                    RigidBody::dynamic().position(Vec2::new(0.0, -4.5)).angle(0.1 * step as f32);
+                let body = body.velocity(Vec2::new(0.0, speed)).shape(shape);
+                let body = world.add_body(body).unwrap();
+                for _ in 0..(10.0 / speed * 60.0) as u32 {
+                    world.step(1.0 / 60.0);
+                }
+                let body = world.body(body).unwrap();
+                let slower = (body.velocity() - Vec2::new(0.0, speed)).length();
+                assert!(slower < 1.0e-3, "{i} {step} {speed}: {:?}", body.velocity());
+            }
+        }
+    }
+}
+
+/// In front is where the shape is, not where its body has its origin.
+#[test]
+fn a_chain_holds_shapes_far_from_their_origin() {
+    for offset in [-3.0, -1.0, 1.0, 3.0] {
+        for phase in 0..20 {
+            let mut world = World::new(Vec2::ZERO);
+            let ground = world.add_body(RigidBody::fixed()).unwrap();
+            let line = ChainDef::open(&[Vec2::new(5.0, 0.0), Vec2::new(-5.0, 0.0)]);
+            world.add_chain(ground, &line).unwrap();
+            let shape = Polygon::turned_rect(0.1, 0.1, Vec2::new(0.0, offset), Rot::IDENTITY);
+            let height = 0.75 + 0.025 * phase as f32;
+            let body = RigidBody::dynamic().position(Vec2::new(0.0, height - offset));
+            let body = body.velocity(Vec2::new(0.0, -30.0)).shape(shape.unwrap());
+            let body = world.add_body(body).unwrap();
+            for _ in 0..30 {
+                world.step(1.0 / 60.0);
+            }
+            let y = world.body(body).unwrap().position().y + offset;
+            assert!(y > 0.05, "{offset} {phase}: {y}");
         }
     }
 }

@@ -9,7 +9,7 @@ use std::io::{Write, stderr, stdout};
 use std::path::Path;
 use tiny_physics::record::{Player, Recording};
 use tiny_physics::{
-    BodyId, BodyKind, Color, DVec2, DebugDraw, Layer, Pose, Rot, World, draw_shape,
+    BodyId, BodyKind, Color, DVec2, DebugDraw, Layer, Pose, Rot, Vec2, World, draw_shape,
 };
 use tiny_physics_doctor::{Code, Doctor, Finding, Report, Severity, Trace};
 use tiny_physics_draw::{Camera, Canvas};
@@ -80,7 +80,9 @@ fn print_trace(
 /// Plays a scene or a recording and shows the world after each step.
 fn each_step(args: &DoctorArgs, subject: &str, mut show: impl FnMut(&World)) -> Outcome {
     if let Some(recording) = recording(subject)? {
-        let mut player = Player::new(&recording)?;
+        let mut world = World::new(Vec2::ZERO);
+        Simulation::equip(&mut world, &args.world)?;
+        let mut player = Player::in_world(&recording, world)?;
         while args.steps.is_none_or(|steps| player.at() < steps as usize) && player.step()? {
             show(player.world());
         }

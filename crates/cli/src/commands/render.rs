@@ -124,7 +124,8 @@ impl Film {
             progress.at(step);
         }
         progress.finish();
-        report(&numbered(path, 0), &format!("and so on, {count} pictures"))
+        let first = self.from.next_multiple_of(every);
+        report(&numbered(path, first), &format!("and so on, {count} pictures"))
     }
 
     fn write_png(&self, path: &Path) -> Outcome {

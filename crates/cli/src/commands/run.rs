@@ -53,7 +53,7 @@ impl Ended {
 
     fn of(world: &World, frozen: bool) -> Self {
         let (fastest, unit) = (fastest(world), world.settings.length_unit);
-        if frozen || fastest >= 0.98 * world.settings.max_speed {
+        if frozen || fastest >= 0.98 * world.settings.max_speed * unit {
             Self::BlownUp
         } else if fastest < Self::SLOW * unit {
             Self::AtRest

@@ -34,6 +34,12 @@ pub(crate) struct Memory {
     pushes: u64,
 }
 
+/// Does a belt run under anything?
+fn any_belt(look: &Look<'_>) -> bool {
+    let runs = |id| look.world.shape(id).is_some_and(|s| s.material().tangent_speed != 0.0);
+    look.world.contacts().any(|contact| runs(contact.shape_a) || runs(contact.shape_b))
+}
+
 impl Memory {
     /// The world has been changed: what was before says nothing.
     pub(crate) fn reset(&mut self) {
@@ -94,7 +100,12 @@ impl Memory {
         let unit = f64::from(look.unit);
         let scale = self.peak + 0.05 * self.mass * unit * (f64::from(gravity.length()) + unit);
         let gain = energy - least;
-        if self.growing >= GROWING && gain > FACTOR * scale {
+        if self.growing < GROWING || gain <= FACTOR * scale {
+            return;
+        }
+        if any_belt(look) {
+            self.reset();
+        } else {
             self.report(look, gain, FACTOR * scale, findings);
         }
     }

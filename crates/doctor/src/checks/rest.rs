@@ -205,7 +205,7 @@ fn what_keeps_awake(
             Severity::Note,
         );
     }
-    if track.speed > body.sleep_speed() {
+    if track.speed > body.sleep_speed() * look.unit {
         return (
             "it never gets slow enough".to_owned(),
             "raise sleep_speed for it, or find what shakes it",

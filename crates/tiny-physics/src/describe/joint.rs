@@ -196,8 +196,9 @@ described! {
         pub angle_b: f32 = default,
         /// Do the joined bodies still collide with each other?
         pub collide_connected: bool = default,
-        /// Stiffness of what the joint holds rigid, and of its limits; `None` takes 60 hertz (at most a
-        /// quarter of the substep rate), damping ratio 2.
+        /// Stiffness of what the joint holds rigid, and of its limits. With `None` that is as stiff as the substeps bear: joints in
+        /// trees are solved directly, others take 60 hertz between two dynamic bodies (at most a quarter of the substep rate),
+        /// else one and a half times the substep rate, damping ratio 2. A joint with a softness of its own is in no tree.
         pub softness: Option<Spring> = default,
         /// Load at which it breaks.
         pub break_at: Option<Break> = default,

@@ -67,7 +67,8 @@ described! {
         pub refine_up_to: u32 = 1000,
         /// Units a metre-scaled constant is multiplied by: set 100 where a crate is 100 units (pixels) wide.
         pub length_unit: f32 = 1.0,
-        /// Greatest contact stiffness, hertz; at most 0.22 of the substep rate is used.
+        /// Greatest contact stiffness between bodies that move, hertz; at most 0.22 of the substep rate is used. Twice that
+        /// against what nothing moves.
         pub contact_hertz: f32 = 240.0,
         /// Contact damping ratio, no unit.
         pub contact_damping_ratio: f32 = 3.0,

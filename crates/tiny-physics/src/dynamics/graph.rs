@@ -88,12 +88,24 @@ impl Bucket {
         manifold.body_b[lane] = contact.body_b;
         manifold.shape_a[lane] = contact.shape_a;
         manifold.shape_b[lane] = contact.shape_b;
-        manifold.friction[lane] = contact.friction;
         manifold.id_1[lane] = contact.saved[0].id;
         manifold.id_2[lane] = contact.saved[1].id;
         self.heads[block].touching |= u16::from(contact.touching) << lane;
         if !self.constraints.is_empty() {
             self.fill_constraint(block, lane, contact);
+        }
+        self.write_materials(slot, contact);
+    }
+
+    /// Writes what a contact has of the materials of its shapes into its slot.
+    fn write_materials(&mut self, slot: u32, contact: &Contact) {
+        let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
+        self.manifolds[block].friction[lane] = contact.friction;
+        if let Some(surface) = self.surfaces.get_mut(block) {
+            surface.restitution[lane] = contact.restitution;
+            surface.rolling_resistance[lane] = contact.rolling_resistance;
+            surface.tangent_speed[lane] = contact.tangent_speed;
+            self.heads[block].flags |= contact_flags(contact);
         }
     }
 
@@ -108,13 +120,9 @@ impl Bucket {
         }
         let surface = &mut self.surfaces[block];
         surface.copy_lane(lane, &SurfaceBlock::NULL, 0);
-        surface.restitution[lane] = contact.restitution;
-        surface.rolling_resistance[lane] = contact.rolling_resistance;
-        surface.tangent_speed[lane] = contact.tangent_speed;
         surface.rest_1[lane] = contact.saved[0].rest;
         surface.rest_2[lane] = contact.saved[1].rest;
         surface.rolling_impulse[lane] = 0.0;
-        self.heads[block].flags |= contact_flags(contact);
     }
 
     /// Takes a slot out; the last one moves into it. Gives the contact that moved, if one did.
@@ -130,11 +138,16 @@ impl Bucket {
             move_lane(&mut self.surfaces, to, from);
         }
         let last_head = self.heads[last_block];
-        let touching = last_head.touching >> last_lane & 1;
+        let move_bit = |to: u16, from: u16| to & !(1 << lane) | (from >> last_lane & 1) << lane;
         let head = &mut self.heads[block];
-        head.touching = head.touching & !(1 << lane) | touching << lane;
+        head.touching = move_bit(head.touching, last_head.touching);
+        head.jointed_a = move_bit(head.jointed_a, last_head.jointed_a);
+        head.jointed_b = move_bit(head.jointed_b, last_head.jointed_b);
         head.flags |= last_head.flags;
-        self.heads[last_block].touching &= !(1 << last_lane);
+        let last_head = &mut self.heads[last_block];
+        for bits in [&mut last_head.touching, &mut last_head.jointed_a, &mut last_head.jointed_b] {
+            *bits &= !(1 << last_lane);
+        }
         if last_lane == 0 {
             self.manifolds.pop();
             self.constraints.pop();
@@ -416,6 +429,13 @@ impl Graph {
             self.fresh.push((place as u8, contact.class as u8, slot / BLOCK as u32));
         }
         (place, slot)
+    }
+
+    /// Brings what a contact's lane has of the materials of its shapes up to date.
+    pub(crate) fn write_materials(&mut self, contact: &Contact) {
+        if let Place::Graph { colour, slot } = contact.place {
+            self.bucket_mut(colour.into(), contact.class).write_materials(slot, contact);
+        }
     }
 
     /// What the narrow phase, or [`Self::mark_touching`], said last.

@@ -4,7 +4,9 @@
 //! works on bodies in index order, so results do not depend on anything but the world.
 
 use crate::codec::{described, described_enum};
-use crate::{Aabb, BodyKind, BodyMut, DVec2, Pose, QueryFilter, Shape, ShapeId, Vec2, World};
+use crate::{
+    Aabb, BodyId, BodyKind, BodyMut, DVec2, Pose, QueryFilter, Shape, ShapeId, Vec2, World,
+};
 
 described! {
     /// A blast: impulses away from a point.
@@ -95,6 +97,16 @@ described! {
     }
 }
 
+/// What of a shape is under water.
+struct WetPart {
+    body: BodyId,
+    center: DVec2,
+    /// Mass of the water in its place, kilograms.
+    displaced: f32,
+    /// That by its square of arms, as a moment of inertia.
+    spread: f32,
+}
+
 impl World {
     /// Sets off an explosion: every dynamic shape in reach that the filter shows gets an impulse away from the
     /// centre, at its closest point, in proportion to its width as seen from there. Shapes do not shade each
@@ -179,45 +191,62 @@ impl World {
             Some(area) => self.overlap_aabb(area, filter),
             None => self.shapes_seen(filter).collect(),
         };
-        for shape in shapes {
-            self.float(shape, water, normal, dt);
+        let wet = |shape| self.wet_part(shape, water, normal, dt);
+        let mut parts: Vec<WetPart> = shapes.into_iter().filter_map(wet).collect();
+        parts.sort_by_key(|part| part.body);
+        for parts in parts.chunk_by(|a, b| a.body == b.body) {
+            self.float(parts, water, dt);
         }
     }
 
-    /// Buoyancy and drag of one shape, if it moves.
-    fn float(&mut self, shape: ShapeId, water: &Water, normal: Vec2, dt: f32) {
-        let Some(shape) = self.shape(shape) else { return };
-        let id = shape.body();
-        let body = self.body(id).filter(|body| body.kind() == BodyKind::Dynamic && body.is_awake());
-        let (Some(body), place) = (body, shape.pose()) else { return };
+    /// What of a shape is under water, if its body moves.
+    fn wet_part(&self, shape: ShapeId, water: &Water, normal: Vec2, dt: f32) -> Option<WetPart> {
+        let shape = self.shape(shape)?;
+        let (id, place) = (shape.body(), shape.pose());
+        let body = self.body(id)?;
+        if body.kind() != BodyKind::Dynamic || !body.is_awake() {
+            return None;
+        }
         // As it lies in the middle of the step: what bobs on forces of its start swings further and further.
         let half = 0.5 * dt;
         let turned = place.q.integrate(body.angular_velocity() * half);
         let middle = place.p + body.velocity_at(place.p) * half;
         let height = water.surface.relative_to(middle).dot(normal);
         let part = shape.shape().part_below(turned.unrotate(normal), height);
-        if part.area <= 0.0 {
-            return;
-        }
         let whole = shape.shape().mass_properties(1.0);
-        let center = place.apply(part.center);
-        let displaced = water.density * part.area;
+        (part.area > 0.0).then(|| WetPart {
+            body: id,
+            center: place.apply(part.center),
+            displaced: water.density * part.area,
+            spread: water.density * whole.inertia * (part.area / whole.mass),
+        })
+    }
+
+    /// Buoyancy and drag of all that is under water of a body. Implicit in the velocities, so that no drag is too strong
+    /// for a step.
+    fn float(&mut self, parts: &[WetPart], water: &Water, dt: f32) {
         let gravity = self.gravity;
-        let Some(mut body) = self.body_mut(id) else { return };
-        let (mass, inertia) = (body.as_ref().mass(), body.as_ref().inertia());
-        // Implicit in the velocity, so that no drag is too strong for a step.
-        let rate = displaced * water.linear_drag;
-        let slip = water.flow - body.as_ref().velocity_at(center);
-        let drag = slip * (rate / (1.0 + dt * rate / mass));
-        let spread = water.density * whole.inertia * (part.area / whole.mass);
-        let rate = spread * water.angular_drag;
-        let torque = if inertia > 0.0 {
-            -body.as_ref().angular_velocity() * rate / (1.0 + dt * rate / inertia)
-        } else {
-            0.0
+        let Some(mut body) = parts.first().and_then(|part| self.body_mut(part.body)) else {
+            return;
         };
-        body.apply_force(drag - gravity * displaced, center);
-        body.apply_torque(torque);
+        let (mass, inertia) = (body.as_ref().mass(), body.as_ref().inertia());
+        let per_inertia = if inertia > 0.0 { 1.0 / inertia } else { 0.0 };
+        let middle = body.as_ref().center();
+        let (mut slowed, mut turned) = (0.0, 0.0);
+        for part in parts {
+            let rate = part.displaced * water.linear_drag;
+            let by_arm = rate * part.center.relative_to(middle).length_sq() * per_inertia;
+            slowed += rate / mass + by_arm;
+            turned += part.spread * water.angular_drag * per_inertia + by_arm;
+        }
+        let (slowed, turned) = (1.0 / (1.0 + dt * slowed), 1.0 / (1.0 + dt * turned));
+        for part in parts {
+            let slip = water.flow - body.as_ref().velocity_at(part.center);
+            let drag = slip * (part.displaced * water.linear_drag * slowed);
+            body.apply_force(drag - gravity * part.displaced, part.center);
+            let spin = body.as_ref().angular_velocity();
+            body.apply_torque(-spin * (part.spread * water.angular_drag * turned));
+        }
     }
 
     /// Lets the force of a zone act on all dynamic bodies that overlap it with a shape that the filter shows,

@@ -27,6 +27,10 @@ const PARALLEL: f32 = 1.0e-4;
 const THIN_SKIN: f32 = 0.125;
 /// An edge whose normal is at least this much upward may have floor behind it.
 const LEAST_EDGE: f32 = 0.05;
+/// No slope is steeper, radians: what is upright is a wall.
+const STEEPEST: f32 = 1.5;
+/// A push that is not bounded is at most this strong, newtons.
+const MAX_PUSH: f32 = 1.0e12;
 
 described! {
     /// What a character is asked to do in an update.
@@ -104,7 +108,7 @@ described! {
         pub height: f32,
         /// Radius, metres.
         pub radius: f32,
-        /// Steepest slope that it walks on, radians from level.
+        /// Steepest slope that it walks on, radians from level; at most 1.5.
         pub max_slope: f32,
         /// Highest step that it climbs, metres.
         pub step_height: f32,
@@ -462,13 +466,18 @@ impl CharacterMover {
         })
     }
 
+    /// The steepest slope, which is no wall.
+    fn slope(&self) -> f32 {
+        self.max_slope.clamp(0.0, STEEPEST)
+    }
+
     fn is_walkable(&self, normal: Vec2, up: Vec2) -> bool {
-        normal.dot(up) >= sin_cos(self.max_slope).1 - 1.0e-3
+        normal.dot(up) >= sin_cos(self.slope()).1 - 1.0e-3
     }
 
     /// Tangent of the steepest slope.
     fn steepest(&self) -> f32 {
-        let (sine, cosine) = sin_cos(self.max_slope);
+        let (sine, cosine) = sin_cos(self.slope());
         if cosine > 0.1 { sine / cosine } else { 10.0 }
     }
 
@@ -517,8 +526,9 @@ impl CharacterMover {
         let lacking = mass * (speed - view.velocity_at(point).dot(way));
         let held_back = |push: Push| push.resistance + mass * (push.expected - now) / dt;
         let resistance = pushed.filter(|push| push.body == id).map_or(0.0, held_back);
-        let resistance = smaller(if resistance > 0.0 { resistance } else { 0.0 }, self.push_force);
-        let (wanted, most) = (lacking + resistance * dt, self.push_force * part * dt);
+        let force = smaller(self.push_force, MAX_PUSH);
+        let resistance = smaller(if resistance > 0.0 { resistance } else { 0.0 }, force);
+        let (wanted, most) = (lacking + resistance * dt, force * part * dt);
         let total = smaller(wanted, most);
         if total <= 0.0 {
             return;

@@ -164,11 +164,7 @@ struct Inner {
 impl Inner {
     fn new(record: &ShapeRecord, body: &Sweep) -> Self {
         let radius = 0.5 * record.shape.inner_radius();
-        let middle = record.central.apply(match record.class {
-            ShapeClass::General => record.shape.mass_properties(1.0).center,
-            _ => record.box_frame.p,
-        });
-        let sweep = body.child(Transform::new(middle, Rot::IDENTITY));
+        let sweep = body.child(Transform::new(middle_of(record), Rot::IDENTITY));
         Self { disk: Shape::Circle { radius }, sweep }
     }
 
@@ -206,6 +202,14 @@ impl Inner {
             ToiState::Separated | ToiState::Touching => None,
         }
     }
+}
+
+/// The middle of a shape in the frame of its body's centre of mass.
+fn middle_of(record: &ShapeRecord) -> Vec2 {
+    record.central.apply(match record.class {
+        ShapeClass::General => record.shape.mass_properties(1.0).center,
+        _ => record.box_frame.p,
+    })
 }
 
 /// How far the way of a body's centre of mass certainly stays from a shape, given as a rounded box (see
@@ -446,9 +450,9 @@ impl Search<'_> {
             return None;
         }
         let motion = their.child(other.central);
-        let center = body.start + body.rotation.rotate(record.central.p);
+        let middle = || body.start + body.rotation.rotate(middle_of(record));
         let turn = bodies.poses[other.body as usize].q;
-        if surfaces::lets_pass(other, motion.at(0.0), turn, center, relative) {
+        if surfaces::lets_pass(other, motion.at(0.0), turn, middle, relative) {
             return None;
         }
         // One-way platforms stop only what comes from their solid side.

@@ -126,7 +126,7 @@ pub(crate) fn bound(team: &Team, listed: &[u32], bodies: &mut Bodies, max_speed:
     });
 }
 
-/// Moves the bodies on by a substep; speeds above the limits are cut.
+/// Moves the bodies on by a substep; speeds above the limits are cut, which is no impulse to be carried on.
 pub(crate) fn positions(
     team: &Team,
     level: SimdLevel,
@@ -135,12 +135,12 @@ pub(crate) fn positions(
     h: f32,
     max_speed: f32,
 ) {
-    let Bodies { rows, motions, .. } = bodies;
-    let rows = SharedRows::new(rows);
+    let Bodies { rows, motions, starts, .. } = bodies;
+    let (rows, starts) = (SharedRows::new(rows), SharedSlice::new(starts));
     let limits = Limits { speed: max_speed, turn_rate: MAX_TURN / h };
     team.for_each_chunk(listed.len(), CHUNK, |range| {
         let listed = &listed[range];
-        dispatch_fours(level, Positions { listed, rows, motions, h, limits });
+        dispatch_fours(level, Positions { listed, rows, starts, motions, h, limits });
     });
 }
 
@@ -154,6 +154,7 @@ struct Limits {
 struct Positions<'a> {
     listed: &'a [u32],
     rows: SharedRows<'a>,
+    starts: SharedSlice<'a, [f32; 4]>,
     motions: &'a [Motion],
     h: f32,
     limits: Limits,
@@ -162,7 +163,7 @@ struct Positions<'a> {
 impl FourKernel for Positions<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { listed, rows, motions, h, limits } = self;
+        let Self { listed, rows, starts, motions, h, limits } = self;
         let zero = f32x4::splat(simd, 0.0);
         let way = f32x4::simd_from(simd, [h, h, h, 0.0]);
         // What is slower along each axis needs no closer look.
@@ -177,7 +178,11 @@ impl FourKernel for Positions<'_> {
                     let now = f32x4::from_slice(simd, &row[..4]);
                     let mut v = factor.simd_eq(zero).select(zero, now);
                     if v.abs().simd_gt(most).any_true() {
-                        v = f32x4::simd_from(simd, limits.cut(v.into()));
+                        let cut = f32x4::simd_from(simd, limits.cut(v.into()));
+                        starts.update(index, |start| {
+                            *start = (cut - (v - f32x4::simd_from(simd, *start))).into();
+                        });
+                        v = cut;
                     }
                     v.store_slice(&mut row[..4]);
                     let moved = f32x4::from_slice(simd, &row[4..]);

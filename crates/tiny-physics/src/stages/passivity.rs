@@ -125,13 +125,12 @@ impl Memory {
                 })
             })
         };
-        let joined = || {
+        let records = || {
             let all = joint_graph.of_pace(pace).iter().flat_map(|colour| colour.joints());
-            all.map(|joint| {
-                let record = &joints.records[joint as usize];
-                ((record.body_a, record.body_b), may_drive(&record.def))
-            })
+            all.map(|joint| &joints.records[joint as usize])
         };
+        let joined =
+            || records().map(|record| ((record.body_a, record.body_b), may_drive(&record.def)));
         // A contact that has just begun may join what is of two paces until the next step.
         let is_here =
             |body| bodies.is_solved(body) && usize::from(bodies.infos[body as usize].pace) == pace;
@@ -153,6 +152,9 @@ impl Memory {
                 islands.push(Island { origin, ..Island::default() });
             }
             members.push((body, *number));
+            if bodies.inverse_masses(body) == (0.0, 0.0) {
+                islands[*number as usize].lean_on([0.0, 0.0]);
+            }
         }
         touching().chain(joined()).for_each(|((a, b), drives)| {
             let (mover, body) = if is_here(a) { (b, a) } else { (a, b) };
@@ -163,11 +165,23 @@ impl Memory {
             island.driven |= drives;
             if !bodies.is_dynamic(mover) {
                 let row = &bodies.rows[mover as usize];
-                let ground = [row[Slot::VX], row[Slot::VY]];
-                island.driven |= row[Slot::W] != 0.0 || island.ground.is_some_and(|g| g != ground);
-                island.ground = Some(ground);
+                island.driven |= row[Slot::W] != 0.0;
+                island.lean_on([row[Slot::VX], row[Slot::VY]]);
             }
         });
+        let hung = |hangs: fn(&JointKind) -> bool| {
+            let all = records().filter(move |record| hangs(&record.def.kind));
+            all.flat_map(|record| [record.body_a, record.body_b]).filter(|&body| is_here(body))
+        };
+        // Pulleys hang from the world.
+        for body in hung(|kind| matches!(kind, JointKind::Pulley { .. })) {
+            islands[numbers[sets.root(body) as usize] as usize].lean_on([0.0, 0.0]);
+        }
+        // Gears turn against it: those on nothing else have no motion of their own as a whole.
+        for body in hung(|kind| matches!(kind, JointKind::Gear { .. })) {
+            let island = &mut islands[numbers[sets.root(body) as usize] as usize];
+            island.driven |= island.ground.is_none();
+        }
         members.retain(|&(_, island)| !islands[island as usize].driven);
         let is_free = |&&(_, island): &&(u32, u32)| islands[island as usize].ground.is_none();
         free.clear();
@@ -205,9 +219,9 @@ impl Memory {
             if island.share == 1.0 {
                 continue;
             }
-            let State { v, place, .. } = State::new(bodies, body, island.origin);
+            let State { masses, v, place, .. } = State::new(bodies, body, island.origin);
             let whole = island.whole.at(place);
-            for k in 0..3 {
+            for k in (0..3).filter(|&k| masses[k] > 0.0) {
                 let less = (1.0 - island.share) * (v[k] - whole[k]);
                 bodies.rows[body as usize][k] = (v[k] - less) as f32;
                 // What the difference of the two says, the impulses of the substep, is carried on.
@@ -218,6 +232,12 @@ impl Memory {
 }
 
 impl Island {
+    /// Notes what moves with this velocity under it.
+    fn lean_on(&mut self, ground: [f32; 2]) {
+        self.driven |= self.ground.is_some_and(|other| other != ground);
+        self.ground = Some(ground);
+    }
+
     /// Chooses its share. Gives the energy that this withholds.
     fn give_way(&mut self) -> f64 {
         let [a, b, c] = core::mem::take(&mut self.work);

@@ -36,7 +36,7 @@ pub(crate) struct Scene<'a> {
 pub(crate) fn find_overlaps<'a>(
     team: &Team,
     scene: Scene<'_>,
-    fast: impl Iterator<Item = &'a FastBody>,
+    fast: impl Iterator<Item = &'a FastBody> + Clone,
     found: &mut Vec<Vec<Overlap>>,
     overlaps: &mut Vec<Overlap>,
 ) {
@@ -55,7 +55,9 @@ pub(crate) fn find_overlaps<'a>(
             bounds = bounds.union(fat);
         }
         let far = |body: &&FastBody| sensors.len() <= FEW && scene.goes_past(body, &bounds);
-        fast.filter(|body| !far(body)).for_each(|body| scene.look_along(body, &boxes, overlaps));
+        let near = fast.clone().filter(|body| !far(body));
+        near.for_each(|body| scene.look_along(body, &boxes, overlaps));
+        scene.look_across(fast, overlaps);
     }
     // Sweeps add to what is sorted already, if there are any.
     overlaps.sort_unstable();
@@ -166,9 +168,7 @@ impl Scene<'_> {
     fn look_along(&self, fast: &FastBody, boxes: &[Aabb; FEW], overlaps: &mut Vec<Overlap>) {
         let info = &self.bodies.infos[fast.body as usize];
         let sweep = fast.seen_from(fast.start);
-        let extent = Vec2::splat(info.max_extent);
-        let at = |pose: Pose| Aabb::rounded_out(pose.p - extent, pose.p + extent);
-        let path = at(fast.start).union(&at(fast.end));
+        let path = self.path(fast);
         for shape in self.shapes.of_body(info.first_shape) {
             let record = &self.shapes.records[shape as usize];
             let moving = sweep.child(record.central);
@@ -190,6 +190,49 @@ impl Scene<'_> {
                 ControlFlow::Continue(())
             });
         }
+    }
+
+    /// Appends the overlaps that sensors of fast bodies had with other fast bodies on their ways: the boxes of these hold where
+    /// they go next by now.
+    fn look_across<'a>(
+        &self,
+        fast: impl Iterator<Item = &'a FastBody> + Clone,
+        overlaps: &mut Vec<Overlap>,
+    ) {
+        let shapes = |body: &FastBody| {
+            self.shapes.of_body(self.bodies.infos[body.body as usize].first_shape)
+        };
+        let sees =
+            |body: &FastBody| shapes(body).any(|shape| self.shapes.records[shape as usize].sensor);
+        if !fast.clone().any(sees) {
+            return;
+        }
+        let mut ways: Vec<_> = fast.map(|body| (self.path(body), body, sees(body))).collect();
+        ways.sort_by(|a, b| a.0.min.x.total_cmp(&b.0.min.x));
+        for (i, (path, a, sees_a)) in ways.iter().enumerate() {
+            let near = ways[i + 1..].iter().take_while(|(other, ..)| other.min.x <= path.max.x);
+            for (_, b, _) in
+                near.filter(|(other, _, sees)| (*sees_a || *sees) && path.overlaps(other))
+            {
+                let sweep = a.seen_from(a.start);
+                for shape in shapes(a) {
+                    let moving = sweep.child(self.shapes.records[shape as usize].central);
+                    for other in shapes(b) {
+                        work::note();
+                        for pair in [(shape, other), (other, shape)] {
+                            overlaps.extend(self.on_the_way(a, (shape, &moving), other, pair));
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// A box around all that a fast body went through.
+    fn path(&self, fast: &FastBody) -> Aabb {
+        let extent = Vec2::splat(self.bodies.infos[fast.body as usize].max_extent);
+        let at = |pose: Pose| Aabb::rounded_out(pose.p - extent, pose.p + extent);
+        at(fast.start).union(&at(fast.end))
     }
 
     /// The overlap of a swept shape with another, if the first of the pair is a sensor that sees the second and they

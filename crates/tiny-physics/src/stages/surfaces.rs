@@ -53,6 +53,11 @@ impl LanePoints {
         Vec2::new(self.values[2 + 2 * k], self.values[3 + 2 * k])
     }
 
+    /// Either point may be missing.
+    fn is_empty(&self) -> bool {
+        self.values[6] > f32::MAX * 0.5 && self.values[7] > f32::MAX * 0.5
+    }
+
     fn is_valid(&self, k: usize, limit: f32) -> bool {
         self.values[6 + k] <= limit
     }
@@ -107,7 +112,7 @@ pub(crate) fn correct(context: &Context<'_>, pair: Pair, lane: &mut LanePoints) 
     let frames = [Transform::IDENTITY, pair.b_in_a];
     let shapes = [pair.shape_a, pair.shape_b];
     for side in [0, 1] {
-        if guards[shapes[side] as usize] == 0 || !lane.is_valid(0, f32::MAX * 0.5) {
+        if guards[shapes[side] as usize] == 0 || lane.is_empty() {
             continue;
         }
         let out = if side == 0 { lane.normal() } else { -pair.b_in_a.q.unrotate(lane.normal()) };
@@ -287,8 +292,11 @@ impl<'a> View<'a> {
             return self.judge_link(normal, link);
         }
         if self.seams.guard & guard::ONE_WAY != 0 {
-            let on_face = face_of(&self.seams.core, normal).is_some_and(|face| self.is_solid(face));
-            if !on_face {
+            let solid = match face_of(&self.seams.core, normal) {
+                Some(face) => self.is_solid(face),
+                None => self.seams.core.radius > 0.0 && self.is_against_way(normal),
+            };
+            if !solid {
                 return self.best_face();
             }
         }
@@ -364,7 +372,12 @@ impl<'a> View<'a> {
 
     /// May something stand on this face?
     fn is_solid(&self, face: usize) -> bool {
-        self.way().is_none_or(|way| self.seams.core.normal(face).dot(way) > one_way::LEAST_COSINE)
+        self.is_against_way(self.seams.core.normal(face))
+    }
+
+    /// May something stand on what has this normal?
+    fn is_against_way(&self, normal: Vec2) -> bool {
+        self.way().is_none_or(|way| normal.dot(way) > one_way::LEAST_COSINE)
     }
 }
 
@@ -492,18 +505,18 @@ fn touched_by(core: &Core, other: &Core, tolerance: f32) -> u32 {
 }
 
 /// May something that moves by `motion` (metres, world) from behind or inside pass this shape? For the
-/// continuous stage: `center` is the moving shape's centre and `place` the other's frame, in one frame.
+/// continuous stage: `middle` is that of the moving shape and `place` the other's frame, in one frame.
 pub(crate) fn lets_pass(
     record: &ShapeRecord,
     place: Transform,
     body_rotation: crate::math::Rot,
-    center: Vec2,
+    middle: impl FnOnce() -> Vec2,
     motion: Vec2,
 ) -> bool {
     if let (Some(_), Shape::Segment { a, b }) = (record.link, record.shape) {
         let way = b - a;
         let outside = Vec2::new(way.y, 0.0 - way.x);
-        return outside.dot(place.unapply(center) - a) < 0.0;
+        return outside.dot(place.unapply(middle()) - a) < 0.0;
     }
     record.one_way.is_some_and(|way| body_rotation.rotate(way).dot(motion) >= 0.0)
 }

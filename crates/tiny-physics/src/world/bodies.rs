@@ -312,10 +312,10 @@ impl World {
         bodies.indices().map(energy).sum()
     }
 
-    /// Wakes the islands of bodies that touch this one.
+    /// Wakes the islands of bodies that touch this one or are near it: of what was put down asleep no step has seen which.
     pub(super) fn wake_neighbours(&mut self, index: u32) {
-        let touching = self.state.contacts_of(index).filter(|(_, contact)| contact.touching);
-        let others: Vec<u32> = touching.map(|(_, contact)| contact.other(index)).collect();
+        let contacts = self.state.contacts_of(index);
+        let others: Vec<u32> = contacts.map(|(_, contact)| contact.other(index)).collect();
         others.into_iter().for_each(|other| self.wake_index(other));
     }
 

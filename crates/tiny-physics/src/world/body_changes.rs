@@ -187,8 +187,10 @@ impl World {
             self.state.shapes.records[shape as usize].proxy = NULL;
         }
         self.state.waiting.stale = true;
-        self.state.bodies.infos[index as usize].awake = false;
-        self.state.bodies.remove_awake(index);
+        let bodies = &mut self.state.bodies;
+        bodies.infos[index as usize].awake = false;
+        bodies.previous[index as usize] = bodies.poses[index as usize];
+        bodies.remove_awake(index);
     }
 
     /// Puts a body back that was taken out, awake if it can be; does nothing to one that is not enabled.

@@ -252,10 +252,13 @@ impl World {
         };
         let center =
             if dynamic { info.fixed_center.get().unwrap_or(total.center) } else { Vec2::ZERO };
-        let way = origin.q.rotate(center - core::mem::replace(&mut info.local_center, center));
-        let shifted = way != Vec2::ZERO;
+        let shift = center - core::mem::replace(&mut info.local_center, center);
+        let (way, shifted) = (origin.q.rotate(shift), shift != Vec2::ZERO);
         let bodies = &mut self.state.bodies;
+        let mut previous = bodies.previous[index as usize];
+        previous.p = previous.apply(shift);
         bodies.set_origin_pose(index, origin.p, origin.q);
+        bodies.previous[index as usize] = previous;
         // Every point of it goes on as it was, its frame too.
         let turning = bodies.angular_velocity(index);
         if shifted && turning != 0.0 {

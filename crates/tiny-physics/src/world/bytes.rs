@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_a_world_that_forgot_a_pair() {
+    fn a_world_that_forgot_a_pair_says_so() {
         let mut world = busy_world();
         world.step(1.0 / 60.0);
         let contacts = world.state.contacts.records.iter().enumerate().filter(|(_, c)| c.alive);
@@ -297,7 +297,9 @@ mod tests {
             copy.state.contacts.remove(&mut copy.state.bodies, index);
             // Pairs of shapes that left their fat boxes are looked for anyway.
             let is_forgotten = copy.validate().is_err_and(|e| e.contains("will not meet"));
-            assert_eq!(World::from_bytes(&copy.to_bytes()).is_err(), is_forgotten);
+            // It is read, as a hook may have decided so.
+            let read = World::from_bytes(&copy.to_bytes()).unwrap();
+            assert_eq!(read.validate().is_err(), is_forgotten);
             forgotten += usize::from(is_forgotten);
         }
         assert!(forgotten > 5, "{forgotten}");

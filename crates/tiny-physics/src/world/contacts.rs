@@ -94,10 +94,10 @@ impl World {
     }
 
     /// The contacts that touch (or are about to) and are awake, as of the last step, in a fixed order
-    /// that threads do not change.
+    /// that threads do not change. Those of a body that has woken since are not known before the next step.
     pub fn contacts(&self) -> impl Iterator<Item = ContactView> + '_ {
         self.state.graph.touching_buckets().flat_map(move |(_, bucket)| {
-            (0..bucket.contacts.len()).map(move |slot| self.view(bucket, slot))
+            (0..bucket.contacts.len()).filter_map(move |slot| self.known_view(bucket, slot))
         })
     }
 
@@ -106,7 +106,13 @@ impl World {
         let contact = &self.state.contacts.records[index as usize];
         let Place::Graph { colour, slot } = contact.place else { return None };
         let bucket = self.state.graph.find(usize::from(colour), contact.class)?;
-        contact.touching.then(|| self.view(bucket, slot as usize))
+        contact.touching.then(|| self.known_view(bucket, slot as usize)).flatten()
+    }
+
+    /// A contact as the last step left it; one that has just woken is not known before the next.
+    fn known_view(&self, bucket: &Bucket, slot: usize) -> Option<ContactView> {
+        let view = self.view(bucket, slot);
+        (view.normal != Vec2::ZERO).then_some(view)
     }
 
     pub(super) fn view(&self, bucket: &Bucket, slot: usize) -> ContactView {
@@ -293,23 +299,25 @@ impl World {
     pub(super) fn destroy_contacts(&mut self, team: &Team, indices: &[u32]) {
         let State { graph, bodies, contacts, .. } = &mut self.state;
         self.scratch.transfers.remove(team, graph, bodies, contacts, indices.iter().copied());
-        indices.iter().for_each(|&index| self.destroy_contact(index));
+        for &index in indices {
+            if self.state.contacts.records[index as usize].touching {
+                self.destroy_contact(index);
+            } else {
+                self.state.destroy_contact(index);
+            }
+        }
     }
 
-    /// Removes a contact for good. What rested on it wakes.
+    /// Removes a contact for good. What may have rested on it wakes: of what was put down asleep no step has seen whether it touches.
     pub(super) fn destroy_contact(&mut self, index: u32) {
         let contact = &self.state.contacts.records[index as usize];
-        let (touching, events) = (contact.touching, contact.events);
-        let (body_a, body_b) = (contact.body_a, contact.body_b);
-        if touching {
-            if events {
-                let end = self.end_event(index);
-                self.state.events.pending_end.push(end);
-            }
-            self.wake_dynamic([body_a, body_b]);
+        let bodies = [contact.body_a, contact.body_b];
+        if contact.touching && contact.events {
+            let end = self.end_event(index);
+            self.state.events.pending_end.push(end);
         }
-        self.state.displace_contact(index);
-        self.state.contacts.remove(&mut self.state.bodies, index);
+        self.wake_dynamic(bodies);
+        self.state.destroy_contact(index);
     }
 
     fn end_event(&self, index: u32) -> ContactEnd {
@@ -385,13 +393,17 @@ impl World {
             joint_graph.scale(*inv_h / new);
         }
         *inv_h = new;
-        let (lengths, coarse) = lengths.after(*coarse_h);
-        if core::mem::replace(coarse_h, coarse) != coarse {
+        lengths.after(*coarse_h).0
+    }
+
+    /// Lets what rests stay where it is as contacts become softer or firmer. After the narrow phase, which finds what that goes by anew.
+    pub(super) fn stay_at_rest(&mut self, lengths: Lengths) {
+        let (lengths, coarse) = lengths.after(self.state.coarse_h);
+        if core::mem::replace(&mut self.state.coarse_h, coarse) != coarse {
             let compliance = self.solver_rules(lengths).compliance();
             let State { graph, bodies, .. } = &mut self.state;
             rests::stay(graph, bodies, compliance);
         }
-        lengths
     }
 
     /// What changes when bodies fall asleep and wake, and memory for it.

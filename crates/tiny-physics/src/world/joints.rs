@@ -108,12 +108,14 @@ impl<'a> JointRef<'a> {
         graph.impulses(self.record)[impulse] * per_second
     }
 
-    /// Force on body B in the last step, newtons; the opposite acts on A. Zero while it sleeps.
+    /// Force on body B in the last step, newtons. The opposite acts on A, but for pulleys, whose rope pulls A its own way, and
+    /// mouse joints, which pull B alone. Zero while it sleeps.
     pub fn force(&self) -> Vec2 {
         self.load().force
     }
 
-    /// Torque on body B in the last step, newton metres; the opposite acts on A. Zero while it sleeps.
+    /// Torque on body B in the last step, newton metres. The opposite acts on A, but for gears: there it is this over the
+    /// ratio. Zero while it sleeps.
     pub fn torque(&self) -> f32 {
         self.load().torque
     }
@@ -125,7 +127,8 @@ impl<'a> JointRef<'a> {
 }
 
 impl World {
-    /// Joins two bodies. Contacts between them end unless [`JointDef::collide_connected`] is set.
+    /// Joins two bodies. Contacts between them end unless [`JointDef::collide_connected`] is set. Where one of them is awake,
+    /// both are then; two that sleep sleep on, so that a level can be built asleep: [`BodyMut::wake`] what is to move.
     ///
     /// # Errors
     /// A handle is stale, the bodies are the same one, or a number in the description is out of range.

@@ -3,8 +3,9 @@
 use super::World;
 use super::ids::ShapeId;
 use super::shapes::ShapeRef;
+use super::state::State;
 use crate::describe::{Filter, Material, ShapeDef};
-use crate::dynamics::{NULL, Place};
+use crate::dynamics::NULL;
 use crate::error::Error;
 use crate::geometry::Shape;
 use crate::geometry::manifold::ShapeClass;
@@ -199,13 +200,10 @@ impl World {
     /// Brings what contacts know of the materials of their shapes up to date.
     fn refresh_contacts_of(&mut self, shape: u32) {
         for index in self.contacts_of(shape) {
-            let contact = &mut self.state.contacts.records[index as usize];
-            pairs::mix_materials(contact, &self.settings, &self.state.shapes);
-            if matches!(contact.place, Place::Graph { .. }) {
-                // Lanes are filled when a contact enters the graph; its impulses live on.
-                self.state.displace_contact(index);
-                self.state.place_contact(index);
-            }
+            let State { contacts, shapes, graph, .. } = &mut self.state;
+            let contact = &mut contacts.records[index as usize];
+            pairs::mix_materials(contact, &self.settings, shapes);
+            graph.write_materials(contact);
         }
     }
 }

@@ -77,6 +77,12 @@ impl State {
         self.graph.remove(&mut self.bodies, &mut self.contacts, index);
     }
 
+    /// Removes a contact for good, from its lanes too.
+    pub(super) fn destroy_contact(&mut self, index: u32) {
+        self.displace_contact(index);
+        self.contacts.remove(&mut self.bodies, index);
+    }
+
     /// Gives an awake joint lanes.
     pub(super) fn place_joint(&mut self, index: u32) {
         self.joint_graph.insert(&mut self.bodies, &mut self.joints, index);

@@ -116,7 +116,11 @@ impl History {
     /// Moves the world on by `dt` seconds. What came after the current step is forgotten; to see it again, go to it.
     pub fn step(&mut self, dt: f32) {
         self.forget_later();
+        let made = self.world.step_count();
         self.world.step(dt);
+        if self.world.step_count() == made {
+            return;
+        }
         let commands = core::mem::take(&mut self.commands);
         self.recording.steps.push(Step { commands, dt, hash: self.world.state_hash() });
         self.arrive();
@@ -386,5 +390,34 @@ mod tests {
         let mut opened = History::open(wrong, 1 << 22).unwrap();
         assert_eq!(opened.go_to(120), Err(Error::Differs { step: 60 }));
         assert_eq!(opened.at(), 60);
+    }
+
+    /// A frame is worth as much as the world whatever comes next: a step of another length, one that is refused.
+    #[test]
+    fn frames_go_on_whatever_the_next_step_is() {
+        for other in [1.0 / 30.0, 1.0 / 120.0, 0.0, f32::NAN] {
+            let mut world = World::new(Vec2::new(0.0, -9.8));
+            world.settings.sleep = false;
+            let mut history = History::new(world, 1 << 22);
+            let floor = RigidBody::fixed().shape(Shape::rect(20.0, 1.0).unwrap());
+            history.apply(Command::AddBody(floor)).unwrap();
+            for i in 0..4 {
+                let place = Vec2::new(0.0, 1.5 + i as f32);
+                let body =
+                    RigidBody::dynamic().position(place).shape(Shape::rect(0.5, 0.5).unwrap());
+                history.apply(Command::AddBody(body)).unwrap();
+            }
+            let mut hashes = vec![0];
+            for step in 1..100 {
+                history.step(if step % 8 == 1 && step > 60 { other } else { 1.0 / 60.0 });
+                // What is refused is no step.
+                hashes.truncate(history.at());
+                hashes.push(history.world().state_hash());
+            }
+            for step in (60..history.len()).rev() {
+                history.go_to(step).unwrap();
+                assert_eq!(history.world().state_hash(), hashes[step], "{other}: {step}");
+            }
+        }
     }
 }

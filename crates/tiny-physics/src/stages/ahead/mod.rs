@@ -61,8 +61,8 @@ impl Found {
 footprint!(Found { moved, fast });
 footprint!(Ways { of_shapes } each { found });
 
-/// Lets the fat boxes of what moves further in a step of `dt` seconds than `limit` metres and than is [`HARMLESS`] hold
-/// all that it goes through, and the tight ones all that it turns through; these are put right when the step ends.
+/// Lets the fat boxes of what moves further in a step of `dt` seconds than `limit` metres hold all that it goes through, and the
+/// tight ones all that it turns through; these are put right when the step ends. However thick it is: what it meets may be small.
 pub(crate) fn reach(
     team: &Team,
     bodies: &Bodies,
@@ -79,7 +79,7 @@ pub(crate) fn reach(
                 let way = Course::of(bodies, dt, body).way(bodies);
                 let length = way.motion.length() + way.turn.abs() * info.max_extent;
                 // Also false for what is not finite.
-                if length > limit.max(HARMLESS * info.min_extent) && length < f32::MAX {
+                if length > limit && length < f32::MAX {
                     boxes.reach((info.first_shape, false), &way, &mut found.moved, &mut found.fast);
                 }
             }

@@ -10,7 +10,7 @@ use super::axis::{AxisDef, Coordinate, Give, Held};
 use super::parts::{Pair, Row, Soft, Start, Stride, add, describe_angle, wrap};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind, Limits};
-use crate::dynamics::{AxisLanes, RevoluteBlock, TreeLink};
+use crate::dynamics::{AxisLanes, RevoluteBlock, TreeLink, UNLIMITED};
 use crate::math::{Pose, Rot, Vec2};
 use crate::simd::Lanes;
 
@@ -41,8 +41,8 @@ impl JointKernel for RevoluteBlock {
         AxisDef { spring, target, limits, motor }.write(&mut self.axis, lane, rates);
     }
 
-    /// The angle is the one nearest to the middle of the limits, the spring's rest the one nearest to
-    /// the angle.
+    /// The angle is the one nearest to the middle of the limits, and so is the spring's rest; without limits that is the one
+    /// nearest to the angle.
     #[inline(always)]
     fn prepare<L: Lanes>(&mut self, stride: &Stride<L>, start: &Start<L>, _: &[Pose]) {
         if !self.axis.any_used() {
@@ -54,7 +54,8 @@ impl JointKernel for RevoluteBlock {
         let value = middle + wrap(stride, angle - middle);
         stride.store(value, &mut self.angle.start);
         let target = stride.load(&self.axis.target);
-        stride.store(value - wrap(stride, angle - target), &mut self.axis.rest);
+        let turn = L::select(lower.gt(stride.splat(-UNLIMITED)), middle, value);
+        stride.store(turn - wrap(stride, turn - target), &mut self.axis.rest);
     }
 
     #[inline(always)]

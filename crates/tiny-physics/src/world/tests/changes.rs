@@ -414,3 +414,85 @@ fn a_wall_that_begins_to_collide_lets_out_what_sleeps_in_it() {
     run(&mut world, 300);
     assert!(world.body(inside).unwrap().position().x < -0.28);
 }
+
+/// A new mass or shape moves nothing, so the last step has still moved the body.
+#[test]
+fn what_changes_its_mass_or_shape_has_moved_all_the_same() {
+    let changes: [fn(&mut World, BodyId); 4] = [
+        |world, body| world.body_mut(body).unwrap().set_mass(Some(2.0)).unwrap(),
+        |world, body| world.body_mut(body).unwrap().set_center(Some(Vec2::new(0.2, 0.1))).unwrap(),
+        |world, body| {
+            let shape = shape_of(world, body);
+            world.shape_mut(shape).unwrap().set_shape(Shape::circle(0.3).unwrap()).unwrap();
+        },
+        |world, body| {
+            world.add_shape(body, circle(0.2).offset(Vec2::new(1.0, 0.0))).unwrap();
+        },
+    ];
+    for (i, change) in changes.into_iter().enumerate() {
+        let mut world = World::new(Vec2::ZERO);
+        let body = add(&mut world, 0.0, 0.0, rect(0.5, 0.5));
+        world.body_mut(body).unwrap().set_velocity(Vec2::new(6.0, 3.0));
+        world.body_mut(body).unwrap().set_angular_velocity(2.0);
+        run(&mut world, 3);
+        let before = world.body(body).unwrap().interpolated_pose(0.5);
+        change(&mut world, body);
+        assert_eq!(world.moved_bodies(), [body], "{i}");
+        let now = world.body(body).unwrap().interpolated_pose(0.5);
+        let off = (now.p.x - before.p.x).hypot(now.p.y - before.p.y);
+        assert!(off < 0.005, "{i}: {off}");
+    }
+}
+
+#[test]
+fn what_is_switched_off_is_drawn_where_it_is() {
+    let mut world = World::new(Vec2::ZERO);
+    let body = add(&mut world, 0.0, 0.0, circle(0.5));
+    world.body_mut(body).unwrap().set_velocity(Vec2::new(6.0, 0.0));
+    run(&mut world, 3);
+    world.body_mut(body).unwrap().set_enabled(false);
+    let body = world.body(body).unwrap();
+    assert_eq!(body.interpolated_pose(0.25).p, body.interpolated_pose(1.0).p);
+}
+
+/// Materials are numbers of a contact, not what it is made of.
+#[test]
+fn contacts_stay_as_they_are_when_a_material_changes() {
+    let mut world = world();
+    let ground = add_ground(&mut world);
+    let body = add(&mut world, 0.0, 0.5, rect(0.5, 0.5));
+    world.body_mut(body).unwrap().set_can_sleep(false);
+    run(&mut world, 60);
+    let before = world.body(body).unwrap().contacts().next().unwrap();
+    let shape = shape_of(&world, ground);
+    world.shape_mut(shape).unwrap().set_friction(0.9).unwrap();
+    let after = world.body(body).unwrap().contacts().next().unwrap();
+    assert_eq!(format!("{before:?}"), format!("{after:?}"));
+    world.step(DT);
+    let contact = world.body(body).unwrap().contacts().next().unwrap();
+    assert!(contact.force().length() > 1.0);
+    // And they go by the new one: with no friction it slides as on ice.
+    for id in [shape, shape_of(&world, body)] {
+        world.shape_mut(id).unwrap().set_friction(0.0).unwrap();
+    }
+    world.body_mut(body).unwrap().set_velocity(Vec2::new(2.0, 0.0));
+    run(&mut world, 60);
+    assert!((world.body(body).unwrap().velocity().x - 2.0).abs() < 0.01);
+}
+
+/// What has just woken has no contacts until a step has found them.
+#[test]
+fn no_contact_is_shown_without_its_normal() {
+    let mut world = world();
+    add_ground(&mut world);
+    let body = add(&mut world, 0.0, 0.5, rect(0.5, 0.5));
+    run(&mut world, 120);
+    assert!(!world.body(body).unwrap().is_awake());
+    world.body_mut(body).unwrap().wake();
+    let bad =
+        |world: &World| world.contacts().filter(|contact| contact.normal.length() < 0.9).count();
+    assert_eq!(bad(&world), 0);
+    assert_eq!(world.body(body).unwrap().contacts().filter(|c| c.normal == Vec2::ZERO).count(), 0);
+    world.step(DT);
+    assert_eq!((world.contacts().count(), bad(&world)), (1, 0));
+}

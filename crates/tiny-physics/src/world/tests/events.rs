@@ -1,5 +1,6 @@
 use super::*;
 use crate::describe::JointDef;
+use crate::math::Rot;
 
 #[test]
 fn a_hit_tells_the_speed_of_the_fall() {
@@ -235,5 +236,27 @@ fn what_flies_through_a_sensor_is_seen_once() {
             ended += world.events().sensor_end().len();
         }
         assert_eq!((begun, ended), (1, 1), "{k}");
+    }
+}
+
+/// Two that cross each other's way within a step meet where their ways cross, wherever they go next.
+#[test]
+fn a_fast_sensor_sees_what_crosses_its_way() {
+    for turned in 0..8 {
+        let q = Rot::from_angle(0.3 + turned as f32);
+        let mut world = World::new(Vec2::ZERO);
+        let fast = |place: Vec2, velocity: Vec2, shape: ShapeDef| {
+            RigidBody::dynamic().position(q.rotate(place)).velocity(q.rotate(velocity)).shape(shape)
+        };
+        let shot = fast(Vec2::new(-2.5, 0.0), Vec2::new(300.0, 0.0), circle(0.1).sensor());
+        world.add_body(shot).unwrap();
+        let bird = world.add_body(fast(Vec2::new(0.0, -2.5), Vec2::new(0.0, 300.0), circle(0.1)));
+        let bird = bird.unwrap();
+        // One that crosses the same way earlier is not seen.
+        world.add_body(fast(Vec2::new(0.5, -0.5), Vec2::new(0.0, 300.0), circle(0.1))).unwrap();
+        world.step(DT);
+        let begun = world.events().sensor_begin();
+        assert_eq!(begun.len(), 1, "{turned}");
+        assert_eq!(begun[0].visitor, shape_of(&world, bird));
     }
 }

@@ -151,3 +151,72 @@ fn a_belt_brings_a_box_to_its_speed() {
         assert!((velocity.x - 2.0).abs() < 0.02, "{velocity:?}");
     }
 }
+
+/// The limit is on the speed, not on where it goes: the difference is no impulse that would be carried on.
+#[test]
+fn what_is_faster_than_the_limit_goes_on_at_the_limit() {
+    for substeps in [1, 2, 4, 8] {
+        for speed in [440.0, 500.0, 900.0, 1.0e6, 1.0e15] {
+            let mut world = World::new(Vec2::ZERO);
+            world.settings.substeps = substeps;
+            let most = world.settings.max_speed;
+            let body = add(&mut world, 0.0, 0.0, circle(0.5));
+            world.body_mut(body).unwrap().set_velocity(Vec2::new(0.6 * speed, 0.8 * speed));
+            world.step(DT);
+            let now = world.body(body).unwrap();
+            let off = (now.velocity() - Vec2::new(0.6, 0.8) * most).length();
+            assert!(off < 1.0e-3 * most, "{substeps} {speed}: {:?}", now.velocity());
+            let way = now.position() - Vec2::new(0.6, 0.8) * (most * DT);
+            assert!(way.length() < 0.01, "{substeps} {speed}: {:?}", now.position());
+        }
+    }
+    let mut world = World::new(Vec2::ZERO);
+    let lift = world.add_body(RigidBody::kinematic().shape(rect(1.0, 1.0))).unwrap();
+    world.body_mut(lift).unwrap().set_target(at(10.0, 0.0), DT);
+    world.step(DT);
+    let now = world.body(lift).unwrap().velocity();
+    assert!((now.x - world.settings.max_speed).abs() < 0.1, "{now:?}");
+}
+
+#[test]
+fn what_turns_faster_than_the_limit_goes_on_at_the_limit() {
+    let mut world = World::new(Vec2::ZERO);
+    let body = add(&mut world, 0.0, 0.0, circle(0.5));
+    world.body_mut(body).unwrap().set_angular_velocity(5.0e4);
+    world.step(DT);
+    let most = 8.0 * core::f32::consts::TAU / (DT / world.settings.substeps as f32);
+    let now = world.body(body).unwrap().angular_velocity();
+    assert!((now - most).abs() < 1.0e-3 * most, "{now}");
+}
+
+/// Drag may stop a body within a step, but never throws it back, of however many shapes it is.
+#[test]
+fn no_drag_of_water_is_too_strong_for_a_step() {
+    for pieces in [1, 2, 4, 8] {
+        for (density, drag) in [(500.0, 300.0), (10.0, 3.0)] {
+            let mut world = World::new(Vec2::ZERO);
+            let mut raft = RigidBody::dynamic().velocity(Vec2::new(3.0, 0.0)).angular_velocity(2.0);
+            for i in 0..pieces {
+                let x = i as f32 - 0.5 * (pieces - 1) as f32;
+                raft = raft.shape(rect(0.5, 0.5).offset(Vec2::new(x, 0.0)).density(density));
+            }
+            let raft = world.add_body(raft).unwrap();
+            let surface = DVec2::new(0.0, 50.0);
+            let water =
+                Water { surface, linear_drag: drag, angular_drag: drag, ..Water::default() };
+            for _ in 0..20 {
+                let before = world.body(raft).unwrap();
+                let (v, w) = (before.velocity(), before.angular_velocity());
+                world.apply_water(&water, &QueryFilter::new(), DT);
+                world.step(DT);
+                let now = world.body(raft).unwrap();
+                let (slower, turns) = (now.velocity(), now.angular_velocity());
+                assert!(
+                    slower.x >= -1.0e-4 && slower.x <= v.x + 1.0e-4,
+                    "{pieces}: {v:?} {slower:?}"
+                );
+                assert!(turns >= -1.0e-4 && turns <= w + 1.0e-4, "{pieces}: {w} {turns}");
+            }
+        }
+    }
+}

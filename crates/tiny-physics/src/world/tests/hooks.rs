@@ -122,3 +122,18 @@ fn what_is_switched_off_stops_nothing_fast() {
         world.clear_pre_solve();
     }
 }
+
+/// A world does not hold its hooks, so what they have decided about pairs is not judged when it is read.
+#[test]
+fn worlds_with_a_pair_filter_are_read_again() {
+    let mut world = world();
+    add_ground(&mut world);
+    world.set_pair_filter(|pair| pair.user_data_a != 7 || pair.user_data_b != 7);
+    let friends = [0.5, 2.0].map(|y| add(&mut world, 0.0, y, circle(0.5).user_data(7)));
+    run(&mut world, 120);
+    let bytes = world.to_bytes();
+    World::from_bytes(&bytes).unwrap();
+    world.restore_bytes(&bytes).unwrap();
+    run(&mut world, 60);
+    assert!(friends.iter().all(|&friend| (y(&world, friend) - 0.5).abs() < 0.02));
+}

@@ -1,4 +1,5 @@
 use super::*;
+use crate::describe::Locks;
 
 fn add_platform(world: &mut World, kind: BodyKind, height: f32, half_height: f32) -> BodyId {
     let shape = rect(3.0, half_height).one_way(Vec2::Y).events();
@@ -183,5 +184,53 @@ fn it_holds_what_came_from_above_whatever_has_become_of_step_and_speed() {
                 assert!(y(&world, body) > 0.3, "{k} {calmed} {shape:?}: {}", y(&world, body));
             }
         }
+    }
+}
+
+/// The rule goes by the direction, not by faces: what is round has none.
+#[test]
+fn things_land_on_what_is_round() {
+    let capsule = Shape::capsule(Vec2::new(-1.0, 0.0), Vec2::new(1.0, 0.0), 0.5).unwrap();
+    let places = [(circle(0.5), 0.0), (ShapeDef::new(capsule), 0.0), (ShapeDef::new(capsule), 1.1)];
+    for (platform, x) in places {
+        for shape in shapes() {
+            for speed in [0.0, 5.0, 30.0] {
+                let mut world = world();
+                let platform = platform.clone().one_way(Vec2::Y);
+                world.add_body(RigidBody::fixed().shape(platform)).unwrap();
+                let body = RigidBody::dynamic().position(Vec2::new(x, 2.0)).lock_rotation();
+                let body = body
+                    .locks(Locks { x: true, rotation: true, ..Locks::default() })
+                    .shape(shape.clone())
+                    .velocity(Vec2::new(0.0, -speed));
+                let body = world.add_body(body).unwrap();
+                run(&mut world, 120);
+                let height = y(&world, body);
+                assert!(height > 0.7, "{x} {speed} {shape:?}: {height}");
+                // And from below it comes through.
+                let mut world = world.clone();
+                world.body_mut(body).unwrap().set_position(Vec2::new(x, -2.0));
+                world.body_mut(body).unwrap().set_velocity(Vec2::new(0.0, 12.0));
+                run(&mut world, 24);
+                assert!(y(&world, body) > 0.7, "{x} {speed} {shape:?}: {}", y(&world, body));
+            }
+        }
+    }
+}
+
+/// New masses say nothing of where it came from.
+#[test]
+fn what_is_given_a_mass_each_step_lands_too() {
+    for i in 0..20 {
+        let mut world = world();
+        add_platform(&mut world, BodyKind::Static, 0.0, 0.1);
+        let body = RigidBody::dynamic().position(Vec2::new(0.0, 0.6 + 0.01 * i as f32));
+        let body = body.lock_rotation().shape(rect(0.4, 0.4)).velocity(Vec2::new(0.0, -5.0));
+        let body = world.add_body(body).unwrap();
+        for _ in 0..60 {
+            world.body_mut(body).unwrap().set_mass(Some(1.0)).unwrap();
+            world.step(DT);
+        }
+        assert!(y(&world, body) > 0.45, "{i}: {}", y(&world, body));
     }
 }

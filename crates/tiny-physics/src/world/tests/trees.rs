@@ -420,3 +420,47 @@ fn idle_joints_change_no_tree() {
         assert_eq!(again.state_hash(), world.state_hash());
     }
 }
+
+/// What cannot turn needs no row against turning, and holds by its other rows all the same.
+#[test]
+fn rails_hold_beads_that_cannot_turn() {
+    for prismatic in [true, false] {
+        let mut world = sleepless();
+        let beam = world.add_body(RigidBody::fixed()).unwrap();
+        let beads = [-1.0, 1.0].map(|x| {
+            let bead = RigidBody::dynamic().position(Vec2::new(x, 0.0)).lock_rotation();
+            let bead = world.add_body(bead.shape(circle(0.2))).unwrap();
+            let rail = if prismatic { JointDef::prismatic(Vec2::X) } else { JointDef::weld() };
+            let rail = rail.anchors(Vec2::new(x, 0.0), Vec2::ZERO);
+            world.add_joint(beam, bead, rail).unwrap();
+            bead
+        });
+        world.add_joint(beads[0], beads[1], JointDef::distance(2.0)).unwrap();
+        run(&mut world, 120);
+        assert_eq!(in_trees(&world), 3, "not the case that this is about");
+        for bead in beads {
+            assert!(y(&world, bead).abs() < 0.005, "{prismatic}: {}", y(&world, bead));
+        }
+    }
+}
+
+/// Between its limits a servo turns to its target, though the other way round would be shorter.
+#[test]
+fn a_hinge_spring_goes_to_its_target_inside_the_limits() {
+    for chained in [false, true] {
+        let mut world = World::new(Vec2::ZERO);
+        world.settings.sleep = false;
+        let base = world.add_body(RigidBody::fixed()).unwrap();
+        let arm = add_bar(&mut world, 0.0, 0.0, 2.5);
+        let servo = JointDef::revolute().limits(-3.0, 3.0).spring(4.0, 1.0);
+        let servo = world.add_joint(base, arm, servo).unwrap();
+        if chained {
+            let next = add_bar(&mut world, 1.0, 0.0, 0.0);
+            world.add_joint(arm, next, JointDef::weld()).unwrap();
+        }
+        world.joint_mut(servo).unwrap().set_target(-2.5).unwrap();
+        run(&mut world, 240);
+        let angle = world.joint(servo).unwrap().angle();
+        assert!((angle + 2.5).abs() < 0.02, "{chained}: {angle}");
+    }
+}

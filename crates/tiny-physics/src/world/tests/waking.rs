@@ -249,3 +249,34 @@ fn what_lies_beside_a_belt_sleeps_with_what_it_lies_on() {
     }
     assert!((world.body(carried).unwrap().velocity().x.abs() - 0.2).abs() < 0.01);
 }
+
+/// What is put down asleep lies on something all the same.
+#[test]
+fn what_was_added_asleep_falls_when_its_support_goes() {
+    let takes: [fn(&mut World, BodyId); 4] = [
+        |world, id| world.remove_body(id).unwrap(),
+        |world, id| world.body_mut(id).unwrap().set_enabled(false),
+        |world, id| world.body_mut(id).unwrap().set_position(Vec2::new(20.0, 0.0)),
+        |world, id| {
+            let shape = shape_of(world, id);
+            world.remove_shape(shape).unwrap();
+        },
+    ];
+    for (i, take) in takes.into_iter().enumerate() {
+        let mut world = world();
+        let shelf = world.add_body(fixed(0.0, -0.5, rect(3.0, 0.5))).unwrap();
+        let crates = [0.5, 1.5].map(|y| {
+            let body = RigidBody::dynamic().position(Vec2::new(0.0, y)).shape(rect(0.5, 0.5));
+            world.add_body(body.asleep()).unwrap()
+        });
+        run(&mut world, 10);
+        assert!(crates.iter().all(|&body| !is_awake(&world, body)));
+        let mut other = world.clone();
+        take(&mut world, shelf);
+        run(&mut world, 60);
+        assert!(y(&world, crates[0]) < -2.0 && y(&world, crates[1]) < -1.0, "{i}: shelf");
+        take(&mut other, crates[0]);
+        run(&mut other, 60);
+        assert!(y(&other, crates[1]) < 1.0, "{i}: crate below");
+    }
+}

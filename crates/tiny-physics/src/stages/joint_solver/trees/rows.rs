@@ -17,6 +17,8 @@ use crate::threads::SharedRows;
 /// close, such as a plank pinned at two points too far apart. Of a chain of 30 links it makes most of the stretch
 /// under 1000 times a link's weight: 0.13 % at 1e-4, 0.039 % at 3e-5; at 1e-6 rounding made it 0.5 %.
 const COMPLIANCE: f64 = 3.0e-5;
+/// That of a row which nothing answers, such as one against turning between what cannot turn: it has no share in its link.
+const UNANSWERED: f64 = 1.0e30;
 
 impl Row<f64> {
     /// That of the angle.
@@ -193,7 +195,8 @@ pub(super) fn refresh<S: Simd>(
         });
         let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
         for i in 0..link.rigid {
-            link.compliance[i] = COMPLIANCE * response(&link.row(i), &link.row(i), a, b);
+            let response = response(&link.row(i), &link.row(i), a, b);
+            link.compliance[i] = if response > 0.0 { COMPLIANCE * response } else { UNANSWERED };
         }
         stiffen(link, nodes);
     }
