@@ -3,7 +3,7 @@
 use super::problems::Problems;
 use super::scene::Scene;
 use crate::components::*;
-use crate::frame::Frame;
+use crate::frame::{Frame, Parts};
 use crate::order;
 use crate::world::{BodyRecord, PhysicsWorld, Role, ShapesRecord, Written};
 use bevy_ecs::prelude::*;
@@ -163,7 +163,8 @@ fn tell(physics: &mut PhysicsWorld, scene: &Scene, entity: Entity) -> Result<(),
     if said.mass != is.mass { body.set_mass(said.mass) } else { Ok(()) }
 }
 
-/// Puts a body where its transform is, if somebody else than us moved that.
+/// Puts a body where its transform is, if somebody else than us moved that. What stands as we left it, place or turn, may be that of a
+/// frame between two steps: there the body keeps its own.
 fn teleport(
     physics: &mut PhysicsWorld,
     scene: &Scene,
@@ -179,7 +180,8 @@ fn teleport(
     if !before.is_some_and(|before| before.is_scaled_like(&now)) {
         scene.colliders_below(entity, &mut physics.notes.colliders);
     }
-    if before.is_some_and(|before| before.is_placed_like(&now, role)) {
+    let moved = before.map_or(Parts::ALL, |before| before.moved(&now, role));
+    if moved == Parts::NONE {
         return Ok(());
     }
     let Some(frame) = scene.frame(entity) else { return Ok(()) };
@@ -189,7 +191,8 @@ fn teleport(
         mover.position = frame.p.into();
         mover.lead_body(&mut physics.world);
     } else if let Some(mut body) = physics.world.body_mut(id) {
-        body.set_pose(frame.pose());
+        let pose = moved.of(frame.pose(), body.pose());
+        body.set_pose(pose);
     }
     Ok(())
 }

@@ -3,6 +3,7 @@
 mod tables;
 
 use crate::components::Velocity;
+use crate::frame::Parts;
 use bevy_ecs::entity::{EntityHashMap, EntityMapper, MapEntities};
 use bevy_ecs::prelude::*;
 use bevy_math::{Quat, Vec2};
@@ -99,15 +100,21 @@ impl Written {
         self.scale == other.scale
     }
 
-    /// Is that the same place? How characters are turned is not physics' business.
-    pub fn is_placed_like(&self, other: &Self, role: Role) -> bool {
-        self.position == other.position
-            && (role == Role::Character || self.rotation == other.rotation)
+    /// What somebody has moved since. How characters are turned is not physics' business.
+    pub fn moved(&self, now: &Self, role: Role) -> Parts {
+        Parts {
+            place: self.position != now.position,
+            turn: role != Role::Character && self.rotation != now.rotation,
+        }
     }
 
-    /// With the scale of what was read: who changed that has yet to be heard.
-    pub fn scaled_like(self, other: &Self) -> Self {
-        Self { scale: other.scale, ..self }
+    /// With these parts of what stands there now. The others, and the scale, stay as they were read: who changed those has yet to be heard.
+    pub fn with(self, parts: Parts, now: &Self) -> Self {
+        Self {
+            position: if parts.place { now.position } else { self.position },
+            rotation: if parts.turn { now.rotation } else { self.rotation },
+            scale: self.scale,
+        }
     }
 }
 
