@@ -177,3 +177,19 @@ fn pushes_through_the_world_are_kept_where_velocity_is_told() {
     let fall = app.world().get::<Velocity>(ball).unwrap().linear.y - told.linear.y;
     assert!((fall + 10.0 / 60.0).abs() < 1e-4, "what comes again is heard");
 }
+
+#[test]
+fn a_target_that_is_no_place_leaves_the_body_where_it_is() {
+    let mut app = app();
+    let at = Transform::from_xyz(3.0, 4.0, 0.0).with_rotation(Quat::from_rotation_z(0.5));
+    let nowhere = KinematicTarget { position: Vec2::new(f32::NAN, 0.0), angle: 0.0 };
+    let lift = (RigidBody::Kinematic, Collider::rect(2.0, 0.25), at, nowhere);
+    let lift = app.world_mut().spawn(lift).id();
+    steps(&mut app, 3);
+    assert!((place(&app, lift) - Vec2::new(3.0, 4.0)).length() < 1e-4, "{}", place(&app, lift));
+    assert!((physics(&app).body(lift).unwrap().angle() - 0.5).abs() < 1e-4);
+    let target = app.world().get::<KinematicTarget>(lift).unwrap();
+    assert!((target.position - Vec2::new(3.0, 4.0)).length() < 1e-4, "{target:?}");
+    assert!((target.angle - 0.5).abs() < 1e-4, "{target:?}");
+    assert_eq!(messages::<PhysicsProblem>(&app).len(), 1);
+}
