@@ -190,6 +190,11 @@ impl Handles {
         }
     }
 
+    /// Knows what is removed now though it was never entered.
+    pub fn note_removed(&mut self, bits: u64, entity: Entity) {
+        self.removed.push((bits, entity));
+    }
+
     pub fn forget_removed(&mut self) {
         self.removed.clear();
     }

@@ -135,8 +135,10 @@ impl PhysicsWorld {
     }
 
     pub(crate) fn remove_tiles(&mut self, entity: Entity) {
-        if let Some(id) = self.maps.tiles.remove(&entity) {
-            let _ = self.world.remove_tiles(id);
+        let Some(id) = self.maps.tiles.remove(&entity) else { return };
+        for body in self.world.body_ids().filter(|body| self.world.tiles_of(*body) == Some(id)) {
+            self.maps.body_entities.note_removed(body.to_bits(), entity);
         }
+        let _ = self.world.remove_tiles(id);
     }
 }
