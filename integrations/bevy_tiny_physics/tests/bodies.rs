@@ -1,6 +1,7 @@
 //! Bodies: components go in, places and velocities come out, what is removed goes.
 
 mod common;
+use bevy_ecs::prelude::*;
 use bevy_math::{Quat, Vec2};
 use bevy_tiny_physics::prelude::*;
 use bevy_transform::prelude::Transform;
@@ -192,4 +193,27 @@ fn a_target_that_is_no_place_leaves_the_body_where_it_is() {
     assert!((target.position - Vec2::new(3.0, 4.0)).length() < 1e-4, "{target:?}");
     assert!((target.angle - 0.5).abs() < 1e-4, "{target:?}");
     assert_eq!(messages::<PhysicsProblem>(&app).len(), 1);
+}
+
+#[test]
+fn what_is_placed_through_the_world_is_shown_there_though_it_rests() {
+    for kind in [RigidBody::Static, RigidBody::Kinematic, RigidBody::Dynamic] {
+        let mut app = app();
+        let body = app.world_mut().spawn((kind, GravityScale(0.0))).id();
+        let part = app.world_mut().spawn((Collider::circle(0.5), ChildOf(body))).id();
+        steps(&mut app, 2);
+        for (at, by) in [(7.0, body), (8.0, part)] {
+            let mut physics = app.world_mut().resource_mut::<PhysicsWorld>();
+            physics.body_mut(by).unwrap().set_position((at, 1.0));
+            steps(&mut app, 1);
+            assert_eq!(place(&app, body), Vec2::new(at as f32, 1.0), "{kind:?}");
+        }
+        app.world_mut().get_mut::<Transform>(body).unwrap().translation.x = 2.0;
+        steps(&mut app, 1);
+        assert_eq!(
+            physics(&app).body(body).unwrap().position().x,
+            2.0,
+            "transforms still teleport"
+        );
+    }
 }

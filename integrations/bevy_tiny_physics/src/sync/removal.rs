@@ -27,7 +27,8 @@ pub(crate) fn watch(app: &mut App) {
         .add_observer(of_collider::<OneWay>)
         .add_observer(of_collider::<CollisionEvents>)
         .add_observer(of_collider::<HitEvents>)
-        .add_observer(of_collider::<ChildOf>);
+        .add_observer(of_collider::<ChildOf>)
+        .add_observer(taken_off);
 }
 
 fn gone<C: Component>(removed: On<Remove, C>, mut physics: ResMut<PhysicsWorld>) {
@@ -40,6 +41,13 @@ fn of_body<C: Component>(removed: On<Remove, C>, mut physics: ResMut<PhysicsWorl
 
 fn of_collider<C: Component>(removed: On<Remove, C>, mut physics: ResMut<PhysicsWorld>) {
     physics.notes.colliders.push(removed.entity);
+}
+
+/// A body that has lost its parent stays where it is, and so its transform says something else.
+fn taken_off(removed: On<Remove, ChildOf>, mut physics: ResMut<PhysicsWorld>) {
+    let record = physics.maps.bodies.get(&removed.entity);
+    let body = record.filter(|record| record.role == Role::Body).map(|record| record.id);
+    physics.notes.placed.extend(body);
 }
 
 /// Removes what nothing asks for any more. In a copy that has just come in everybody is looked at.

@@ -111,10 +111,11 @@ impl Places<'_, '_> {
     }
 }
 
-/// Writes what the step moved.
+/// Writes what the step moved, and what was placed since the one before.
 pub(crate) fn transforms(mut physics: ResMut<PhysicsWorld>, mut places: Places) {
+    let placed = core::mem::take(&mut physics.notes.placed);
     let moved = physics.world.moved_bodies().to_vec();
-    places.write(&mut physics, moved.into_iter(), Which::All, |body| body.pose());
+    places.write(&mut physics, moved.into_iter().chain(placed), Which::All, |body| body.pose());
 }
 
 /// Writes velocities.

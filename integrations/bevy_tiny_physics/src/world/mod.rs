@@ -8,6 +8,7 @@ use bevy_ecs::entity::{EntityHashMap, EntityMapper, MapEntities};
 use bevy_ecs::prelude::*;
 use bevy_math::{Quat, Vec2};
 use bevy_transform::prelude::Transform;
+use std::collections::BTreeSet;
 use tiny_physics::{
     Body, BodyId, BodyMut, CharacterMover, JointDef, JointId, JointRef, ShapeDef, ShapeId,
     TileGridId,
@@ -27,7 +28,8 @@ use tiny_physics::{
 /// new ones. Where a rollback despawns and spawns again, [`MapEntities`] takes the copy to the new entities.
 #[derive(Resource, Debug)]
 pub struct PhysicsWorld {
-    /// The engine's world. Whatever is done to it is seen; bodies that are added here have no entity.
+    /// The engine's world. Whatever is done to it is seen; bodies that are added here have no entity. Place what has one by
+    /// [`PhysicsWorld::body_mut`]: only that writes the place to the entity though the body does not move in the next step.
     pub world: tiny_physics::World,
     pub(crate) maps: Maps,
     /// What hooks noted since the last step.
@@ -57,7 +59,7 @@ impl Clone for PhysicsWorld {
     }
 }
 
-/// Components that were taken off entities.
+/// Components that were taken off entities, and bodies that were changed by hand.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Notes {
     /// What makes a body, joint, tile map or character.
@@ -66,6 +68,8 @@ pub(crate) struct Notes {
     pub bodies: Vec<Entity>,
     /// What a collider is told by, and parents.
     pub colliders: Vec<Entity>,
+    /// Bodies of which the place is to be written, even if they do not move: they may have been placed by hand, or taken off a parent.
+    pub placed: BTreeSet<BodyId>,
 }
 
 /// A body, and what was last written to its entity.
@@ -225,7 +229,9 @@ impl PhysicsWorld {
 
     /// The body of an entity, to change: impulses at points, sleep, and all that has no component.
     pub fn body_mut(&mut self, entity: Entity) -> Option<BodyMut<'_>> {
-        self.world.body_mut(self.body_id(entity)?)
+        let body = self.world.body_mut(self.body_id(entity)?)?;
+        self.notes.placed.insert(body.id());
+        Some(body)
     }
 
     /// Handle of an entity's joint; `None` while it waits for its bodies.
@@ -302,7 +308,7 @@ impl MapEntities for PhysicsWorld {
         {
             handles.map_entities(mapper);
         }
-        let Notes { gone, bodies, colliders } = &mut self.notes;
+        let Notes { gone, bodies, colliders, placed: _ } = &mut self.notes;
         for entity in [gone, bodies, colliders].into_iter().flatten() {
             *entity = mapper.get_mapped(*entity);
         }
