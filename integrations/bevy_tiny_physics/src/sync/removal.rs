@@ -18,6 +18,7 @@ pub(crate) fn watch(app: &mut App) {
         .add_observer(of_body::<Mass>)
         .add_observer(of_body::<Enabled>)
         .add_observer(of_body::<CanSleep>)
+        .add_observer(of_body::<Velocity>)
         .add_observer(of_collider::<Friction>)
         .add_observer(of_collider::<Restitution>)
         .add_observer(of_collider::<Density>)
@@ -60,6 +61,9 @@ pub(crate) fn remove_gone(
     tiles: Query<(), With<TileMap>>,
 ) {
     let physics = &mut *physics;
+    for entity in physics.notes.taken_off() {
+        physics.maps.refused.ask_again(entity);
+    }
     let mut entities = core::mem::take(&mut physics.notes.gone);
     if physics.fresh {
         entities.extend(physics.maps.entities());

@@ -1,5 +1,6 @@
 //! The world as one resource, with the tables that lead from entities to handles and back.
 
+mod refused;
 mod tables;
 
 use crate::components::Velocity;
@@ -8,6 +9,7 @@ use bevy_ecs::entity::{EntityHashMap, EntityMapper, MapEntities};
 use bevy_ecs::prelude::*;
 use bevy_math::{Quat, Vec2};
 use bevy_transform::prelude::Transform;
+use refused::Refused;
 use std::collections::BTreeSet;
 use tiny_physics::{
     Body, BodyId, BodyMut, CharacterMover, JointDef, JointId, JointRef, ShapeDef, ShapeId,
@@ -72,6 +74,13 @@ pub(crate) struct Notes {
     pub placed: BTreeSet<BodyId>,
 }
 
+impl Notes {
+    /// All that something was taken off.
+    pub fn taken_off(&self) -> impl Iterator<Item = Entity> + '_ {
+        self.gone.iter().chain(&self.bodies).chain(&self.colliders).copied()
+    }
+}
+
 /// A body, and what was last written to its entity.
 #[derive(Clone, Debug)]
 pub(crate) struct BodyRecord {
@@ -123,7 +132,7 @@ impl Written {
 }
 
 /// What made an entity a body.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) enum Role {
     /// A [`RigidBody`](crate::RigidBody).
     Body,
@@ -131,6 +140,17 @@ pub(crate) enum Role {
     Lone,
     /// A character.
     Character,
+}
+
+impl Role {
+    /// As problems call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Body => "body",
+            Self::Lone => "collider",
+            Self::Character => "character",
+        }
+    }
 }
 
 /// The shapes of a collider, in its body's frame.
@@ -156,6 +176,7 @@ pub(crate) struct Maps {
     pub joints: EntityHashMap<JointRecord>,
     /// Joints that wait for their bodies.
     pub waiting: Vec<Entity>,
+    pub refused: Refused,
     pub tiles: EntityHashMap<TileGridId>,
     pub characters: EntityHashMap<CharacterMover>,
     pub body_entities: Handles,
@@ -308,6 +329,7 @@ impl MapEntities for PhysicsWorld {
         {
             handles.map_entities(mapper);
         }
+        maps.refused.map_entities(mapper);
         let Notes { gone, bodies, colliders, placed: _ } = &mut self.notes;
         for entity in [gone, bodies, colliders].into_iter().flatten() {
             *entity = mapper.get_mapped(*entity);

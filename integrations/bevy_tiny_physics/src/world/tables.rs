@@ -47,6 +47,7 @@ impl PhysicsWorld {
     }
 
     pub(crate) fn enter_body(&mut self, entity: Entity, record: BodyRecord) {
+        self.maps.refused.forget(record.role, entity);
         self.maps.body_entities.set(record.id.to_bits(), entity);
         self.maps.bodies.insert(entity, record);
     }
