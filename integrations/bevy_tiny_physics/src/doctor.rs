@@ -1,12 +1,12 @@
 //! What is wrong with the world, in words.
 
-use crate::{PhysicsSystems, PhysicsWorld};
+use crate::PhysicsWorld;
 use bevy_app::prelude::*;
 use bevy_ecs::prelude::*;
 use tiny_physics_doctor::{Code, Doctor, Finding};
 
-/// Watches the world and says what is wrong with it, once for each thing: as a [`PhysicsFinding`] and in the log. It costs a few per
-/// cent of a step; for development.
+/// Watches the world and says what is wrong with it, once for each thing: as a [`PhysicsFinding`] and in the log. It looks after each step, in
+/// the schedule of [`PhysicsPlugin`](crate::PhysicsPlugin), and costs a few per cent of a step; for development.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PhysicsDoctorPlugin;
 
@@ -26,14 +26,14 @@ pub struct PhysicsFinding {
 impl Plugin for PhysicsDoctorPlugin {
     fn build(&self, app: &mut App) {
         app.init_resource::<PhysicsDoctor>().add_message::<PhysicsFinding>();
-        app.add_systems(FixedUpdate, watch.after(PhysicsSystems::Write));
     }
 }
 
 /// Steps between two looks at the report.
 const REPORT_EVERY: u64 = 16;
 
-fn watch(
+/// Looks at what the step left. The plugin that steps knows when.
+pub(crate) fn watch(
     physics: Res<PhysicsWorld>,
     mut doctor: ResMut<PhysicsDoctor>,
     mut told: Local<Vec<(Code, u64)>>,

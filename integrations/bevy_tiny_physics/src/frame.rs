@@ -14,6 +14,24 @@ pub(crate) struct Frame {
     pub scale: Vec2,
 }
 
+/// Which parts of a pose something is about.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Parts {
+    pub place: bool,
+    pub turn: bool,
+}
+
+impl Parts {
+    pub const ALL: Self = Self { place: true, turn: true };
+    pub const NONE: Self = Self { place: false, turn: false };
+
+    /// These of one pose, the others of another.
+    pub fn of(self, one: Pose, other: Pose) -> Pose {
+        let p = if self.place { one.p } else { other.p };
+        Pose::new(p, if self.turn { one.q } else { other.q })
+    }
+}
+
 impl Frame {
     pub const IDENTITY: Self =
         Self { p: tiny_physics::Vec2::ZERO, q: Rot::IDENTITY, scale: Vec2::ONE };
@@ -64,10 +82,12 @@ impl Frame {
         self.p.is_finite() && self.q.is_finite() && self.scale.is_finite()
     }
 
-    /// Puts a transform here; its depth and scale stay, and its rotation where it is to be kept.
-    pub fn write(&self, transform: &mut Transform, keep_rotation: bool) {
-        (transform.translation.x, transform.translation.y) = (self.p.x, self.p.y);
-        if !keep_rotation {
+    /// Puts a transform here, in so many parts; its depth and scale stay.
+    pub fn write(&self, transform: &mut Transform, parts: Parts) {
+        if parts.place {
+            (transform.translation.x, transform.translation.y) = (self.p.x, self.p.y);
+        }
+        if parts.turn {
             transform.rotation = self.rotation();
         }
     }

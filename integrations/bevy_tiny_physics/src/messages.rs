@@ -4,6 +4,9 @@ use bevy_ecs::prelude::*;
 use tiny_physics::{Error, UserData};
 
 /// A component asked for something that cannot be. The entity is left as it was, and tried again when the component changes. It is logged, too.
+///
+/// A body, a character or ground that was refused altogether is tried again when any of its components changes or goes, or its place does,
+/// and told again only if something else is wrong then.
 #[derive(Message, Clone, PartialEq, Debug)]
 pub struct PhysicsProblem {
     /// The entity; `None` where it is about the whole world.

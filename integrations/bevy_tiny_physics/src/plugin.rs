@@ -121,6 +121,13 @@ impl Plugin for PhysicsPlugin {
             characters::tell,
         );
         app.add_systems(self.schedule, write.chain().in_set(PhysicsSystems::Write));
+        #[cfg(feature = "doctor")]
+        app.add_systems(
+            self.schedule,
+            crate::doctor::watch
+                .run_if(resource_exists::<crate::PhysicsDoctor>)
+                .after(PhysicsSystems::Write),
+        );
         if self.interpolate {
             app.init_resource::<write::Interpolated>();
             app.add_systems(FixedFirst, write::exact_places);

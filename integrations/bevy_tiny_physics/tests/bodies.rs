@@ -1,6 +1,7 @@
 //! Bodies: components go in, places and velocities come out, what is removed goes.
 
 mod common;
+use bevy_ecs::prelude::*;
 use bevy_math::{Quat, Vec2};
 use bevy_tiny_physics::prelude::*;
 use bevy_transform::prelude::Transform;
@@ -176,4 +177,43 @@ fn pushes_through_the_world_are_kept_where_velocity_is_told() {
     steps(&mut app, 1);
     let fall = app.world().get::<Velocity>(ball).unwrap().linear.y - told.linear.y;
     assert!((fall + 10.0 / 60.0).abs() < 1e-4, "what comes again is heard");
+}
+
+#[test]
+fn a_target_that_is_no_place_leaves_the_body_where_it_is() {
+    let mut app = app();
+    let at = Transform::from_xyz(3.0, 4.0, 0.0).with_rotation(Quat::from_rotation_z(0.5));
+    let nowhere = KinematicTarget { position: Vec2::new(f32::NAN, 0.0), angle: 0.0 };
+    let lift = (RigidBody::Kinematic, Collider::rect(2.0, 0.25), at, nowhere);
+    let lift = app.world_mut().spawn(lift).id();
+    steps(&mut app, 3);
+    assert!((place(&app, lift) - Vec2::new(3.0, 4.0)).length() < 1e-4, "{}", place(&app, lift));
+    assert!((physics(&app).body(lift).unwrap().angle() - 0.5).abs() < 1e-4);
+    let target = app.world().get::<KinematicTarget>(lift).unwrap();
+    assert!((target.position - Vec2::new(3.0, 4.0)).length() < 1e-4, "{target:?}");
+    assert!((target.angle - 0.5).abs() < 1e-4, "{target:?}");
+    assert_eq!(messages::<PhysicsProblem>(&app).len(), 1);
+}
+
+#[test]
+fn what_is_placed_through_the_world_is_shown_there_though_it_rests() {
+    for kind in [RigidBody::Static, RigidBody::Kinematic, RigidBody::Dynamic] {
+        let mut app = app();
+        let body = app.world_mut().spawn((kind, GravityScale(0.0))).id();
+        let part = app.world_mut().spawn((Collider::circle(0.5), ChildOf(body))).id();
+        steps(&mut app, 2);
+        for (at, by) in [(7.0, body), (8.0, part)] {
+            let mut physics = app.world_mut().resource_mut::<PhysicsWorld>();
+            physics.body_mut(by).unwrap().set_position((at, 1.0));
+            steps(&mut app, 1);
+            assert_eq!(place(&app, body), Vec2::new(at as f32, 1.0), "{kind:?}");
+        }
+        app.world_mut().get_mut::<Transform>(body).unwrap().translation.x = 2.0;
+        steps(&mut app, 1);
+        assert_eq!(
+            physics(&app).body(body).unwrap().position().x,
+            2.0,
+            "transforms still teleport"
+        );
+    }
 }

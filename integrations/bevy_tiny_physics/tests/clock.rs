@@ -3,7 +3,7 @@
 mod common;
 use bevy_app::prelude::*;
 use bevy_ecs::prelude::*;
-use bevy_math::Vec2;
+use bevy_math::{Quat, Vec2};
 use bevy_time::{Fixed, Time, TimePlugin, TimeUpdateStrategy};
 use bevy_tiny_physics::prelude::*;
 use bevy_transform::prelude::Transform;
@@ -133,4 +133,46 @@ fn a_body_below_something_teleports_between_frames() {
     let x = physics(&app).body(ball).unwrap().position().x;
     assert!((60.0..61.0).contains(&x), "{x}");
     assert!((place(&app, ball).x - x + 10.0).abs() < 0.2);
+}
+
+/// Turns a body in every frame, as one that looks at the mouse does.
+fn turn_between_frames(below: Option<Transform>) {
+    let (mut app, ball) = app(0.007);
+    app.world_mut().entity_mut(ball).insert(LockedAxes::ROTATION);
+    if let Some(level) = below {
+        let level = app.world_mut().spawn(level).id();
+        app.world_mut().entity_mut(ball).insert(ChildOf(level));
+    }
+    let places: Vec<f32> = (0..100)
+        .map(|frame| {
+            app.update();
+            let mut transform = app.world_mut().get_mut::<Transform>(ball).unwrap();
+            transform.rotation = Quat::from_rotation_z(0.01 * frame as f32);
+            transform.translation.x
+        })
+        .collect();
+    moves_evenly(&app, &places);
+    let angle = physics(&app).body(ball).unwrap().angle();
+    assert!((0.95..1.0).contains(&angle), "{angle}");
+}
+
+#[test]
+fn turning_a_body_between_frames_does_not_throw_it_back() {
+    turn_between_frames(None);
+    turn_between_frames(Some(Transform::from_xyz(10.0, 3.0, 0.0)));
+}
+
+#[test]
+fn shifting_a_body_between_frames_does_not_turn_it_back() {
+    let (mut app, ball) = app(0.007);
+    *app.world_mut().get_mut::<Velocity>(ball).unwrap() =
+        Velocity { linear: Vec2::ZERO, angular: 1.0 };
+    for frame in 0..100 {
+        app.update();
+        app.world_mut().get_mut::<Transform>(ball).unwrap().translation.y = 0.01 * frame as f32;
+    }
+    let body = physics(&app).body(ball).unwrap();
+    let turned = 0.02 * physics(&app).world.step_count() as f32;
+    assert!((body.angle() - turned).abs() < 1e-3, "{} of {turned} radians", body.angle());
+    assert!(body.position().y > 0.9);
 }

@@ -151,3 +151,49 @@ fn tiles_are_ground_and_single_cells_can_go() {
     steps(&mut app, 1);
     assert_eq!(physics(&app).world.body_count(), 1);
 }
+
+#[test]
+fn messages_name_tile_maps_that_were_edited_or_despawned() {
+    let mut app = app();
+    let grid = TileGrid::parse(1.0, &["    ", "####"]).unwrap();
+    let map = app.world_mut().spawn(TileMap(grid)).id();
+    for x in [1.5, 3.5] {
+        let ball = ball(&mut app, x, 1.6);
+        app.world_mut().entity_mut(ball).insert(CollisionEvents);
+    }
+    steps(&mut app, 90);
+    let mut known = 0;
+    let mut named = |app: &bevy_app::App| {
+        let ended = messages::<CollisionEnded>(app);
+        assert!(ended.len() > known, "something ended");
+        known = ended.len();
+        for event in ended {
+            assert!([event.collider_a, event.collider_b].contains(&map), "{event:?}");
+            assert!([event.body_a, event.body_b].contains(&map), "{event:?}");
+        }
+    };
+    app.world_mut().get_mut::<TileMap>(map).unwrap().0.set(1, 0, 0).unwrap();
+    steps(&mut app, 1);
+    named(&app);
+    steps(&mut app, 60);
+    app.world_mut().despawn(map);
+    steps(&mut app, 1);
+    named(&app);
+}
+
+#[test]
+fn messages_name_a_character_that_was_despawned() {
+    let mut app = app();
+    let gate = app.world_mut().spawn((Collider::rect(2.0, 2.0), Sensor)).id();
+    let hero = app.world_mut().spawn(Character::new(1.8, 0.3)).id();
+    steps(&mut app, 3);
+    app.world_mut().despawn(hero);
+    steps(&mut app, 1);
+    let left = messages::<SensorLeft>(&app);
+    assert!(!left.is_empty());
+    for event in left {
+        let colliders = [event.sensor, event.visitor];
+        assert!(colliders.contains(&hero) && colliders.contains(&gate), "{event:?}");
+        assert_eq!([event.sensor_body, event.visitor_body], colliders);
+    }
+}

@@ -182,3 +182,21 @@ fn bodies_below_what_is_mirrored_keep_their_place_in_the_world() {
     assert!((shown.translation.x - 2.5).abs() < 1e-3, "{}", shown.translation);
     assert!(shown.rotation.angle_between(Quat::IDENTITY) < 1e-3, "{}", shown.rotation);
 }
+
+#[test]
+fn a_body_taken_off_its_parent_is_shown_where_it_is_though_it_rests() {
+    let mut app = app();
+    let turned = Transform::from_xyz(10.0, 0.0, 0.0)
+        .with_rotation(Quat::from_rotation_z(core::f32::consts::FRAC_PI_2));
+    let level = app.world_mut().spawn(turned).id();
+    let wall = (RigidBody::Static, Collider::rect(1.0, 1.0), Transform::from_xyz(4.0, 0.0, 0.0));
+    let wall = app.world_mut().spawn((wall, ChildOf(level))).id();
+    steps(&mut app, 2);
+    app.world_mut().entity_mut(wall).remove::<ChildOf>();
+    steps(&mut app, 1);
+    let at = physics(&app).body(wall).unwrap().position();
+    assert!((at.x - 10.0).abs() < 1e-4 && (at.y - 4.0).abs() < 1e-4, "{at:?}");
+    let shown = app.world().get::<Transform>(wall).unwrap();
+    assert!((shown.translation.truncate() - Vec2::new(10.0, 4.0)).length() < 1e-4, "{shown:?}");
+    assert!(shown.rotation.angle_between(turned.rotation) < 1e-3, "{shown:?}");
+}

@@ -99,3 +99,114 @@ fn one_bad_shape_spares_the_others_and_mending_it_heals() {
     steps(&mut app, 1);
     assert_eq!(physics(&app).world.shape_count(), 2);
 }
+
+/// Spawns something bad, mends it, and wants the body that was refused.
+#[track_caller]
+fn heals(bad: impl Bundle, mend: impl FnOnce(&mut EntityWorldMut)) {
+    let mut app = app();
+    let entity = app.world_mut().spawn(bad).id();
+    steps(&mut app, 3);
+    assert!(physics(&app).body(entity).is_none());
+    mend(&mut app.world_mut().entity_mut(entity));
+    steps(&mut app, 2);
+    assert!(physics(&app).body(entity).is_some(), "it is tried again");
+    assert_eq!(messages::<PhysicsProblem>(&app).len(), 1, "there was one problem");
+    assert_eq!(physics(&app).world.validate(), Ok(()));
+}
+
+#[test]
+fn a_body_that_was_refused_comes_when_it_is_mended() {
+    let ball = (RigidBody::Dynamic, Collider::circle(1.0));
+    let nan = Velocity::linear(f32::NAN, 0.0);
+    heals((ball.clone(), Mass(-3.0)), |body| {
+        body.insert(Mass(3.0));
+    });
+    heals((ball.clone(), Mass(-3.0)), |body| {
+        body.remove::<Mass>();
+    });
+    heals((ball.clone(), GravityScale(f32::NAN)), |body| {
+        body.insert(GravityScale(0.0));
+    });
+    heals((ball.clone(), nan), |body| {
+        body.insert(Velocity::default());
+    });
+    heals((ball.clone(), nan), |body| {
+        body.remove::<Velocity>();
+    });
+}
+
+#[test]
+fn what_was_refused_at_its_place_comes_when_that_is_mended() {
+    let nowhere = Transform::from_xyz(f32::NAN, 0.0, 0.0);
+    let flat = Transform::from_scale(Vec3::new(1.0, 2.0, 1.0));
+    let ball = (RigidBody::Dynamic, Collider::circle(1.0));
+    heals((ball, nowhere), |body| {
+        body.insert(Transform::default());
+    });
+    heals((Character::new(1.8, 0.3), nowhere), |hero| {
+        hero.insert(Transform::default());
+    });
+    heals((Collider::circle(1.0), nowhere), |ground| {
+        ground.insert(Transform::default());
+    });
+    heals((Collider::circle(1.0), flat), |ground| {
+        ground.insert(Transform::default());
+    });
+}
+
+#[test]
+fn what_was_refused_below_a_bad_place_comes_when_that_is_mended() {
+    let mut app = app();
+    let level = app.world_mut().spawn(Transform::from_xyz(f32::NAN, 0.0, 0.0)).id();
+    let body = app.world_mut().spawn((RigidBody::Static, ChildOf(level))).id();
+    let ground = app.world_mut().spawn((Collider::circle(1.0), ChildOf(level))).id();
+    steps(&mut app, 3);
+    assert_eq!(messages::<PhysicsProblem>(&app).len(), 2, "each is told once");
+    app.world_mut().get_mut::<Transform>(level).unwrap().translation.x = 1.0;
+    steps(&mut app, 1);
+    assert_eq!(physics(&app).body(body).unwrap().position().x, 1.0);
+    assert_eq!(physics(&app).body(ground).unwrap().position().x, 1.0);
+}
+
+#[test]
+fn who_is_body_and_character_becomes_one_when_the_other_goes() {
+    let mut app = app();
+    let hero = app.world_mut().spawn((Character::new(1.8, 0.3), Collider::circle(1.0))).id();
+    steps(&mut app, 2);
+    app.world_mut().entity_mut(hero).remove::<Collider>();
+    steps(&mut app, 1);
+    assert!(physics(&app).character(hero).is_some());
+    app.world_mut().entity_mut(hero).insert(RigidBody::Dynamic);
+    steps(&mut app, 2);
+    app.world_mut().entity_mut(hero).remove::<Character>();
+    steps(&mut app, 1);
+    assert!(physics(&app).character(hero).is_none() && physics(&app).body(hero).is_some());
+    app.world_mut().entity_mut(hero).insert(Character::new(1.8, 0.3));
+    steps(&mut app, 9);
+    app.world_mut().entity_mut(hero).remove::<RigidBody>();
+    steps(&mut app, 1);
+    assert!(physics(&app).character(hero).is_some());
+    assert_eq!(messages::<PhysicsProblem>(&app).len(), 3, "each is told once");
+    assert_eq!(physics(&app).world.body_count(), 1);
+}
+
+#[test]
+fn what_stays_bad_is_told_when_it_is_bad_in_another_way() {
+    let mut app = app();
+    let ball = app.world_mut().spawn((RigidBody::Dynamic, Mass(-3.0))).id();
+    steps(&mut app, 2);
+    app.world_mut().entity_mut(ball).insert(Mass(-3.0));
+    steps(&mut app, 2);
+    assert_eq!(messages::<PhysicsProblem>(&app).len(), 1);
+    app.world_mut().entity_mut(ball).insert(Mass(-4.0));
+    steps(&mut app, 2);
+    assert_eq!(messages::<PhysicsProblem>(&app).len(), 2);
+    let frame = physics(&app).clone();
+    app.world_mut().entity_mut(ball).insert(Mass(4.0));
+    *app.world_mut().resource_mut::<PhysicsWorld>() = frame;
+    steps(&mut app, 1);
+    assert!(physics(&app).body(ball).is_some(), "in a copy, too");
+    app.world_mut().despawn(ball);
+    steps(&mut app, 1);
+    assert_eq!(physics(&app).world.body_count(), 0);
+}

@@ -22,7 +22,7 @@ pub struct ExternalImpulse {
 }
 
 /// Where a kinematic body has to be at the end of the next step: it gets the velocity that takes it there, and takes along what
-/// stands on it. Give it a new place before each step.
+/// stands on it. Give it a new place before each step. One that is not finite becomes the place where the body is.
 #[derive(Component, Clone, Copy, PartialEq, Debug, Default)]
 pub struct KinematicTarget {
     /// World, metres.

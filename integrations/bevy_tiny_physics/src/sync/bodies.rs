@@ -1,9 +1,9 @@
 //! Bodies: new ones, and what components say of those that are there.
 
 use super::problems::Problems;
-use super::scene::Scene;
+use super::scene::{Moved, Scene};
 use crate::components::*;
-use crate::frame::Frame;
+use crate::frame::{Frame, Parts};
 use crate::order;
 use crate::world::{BodyRecord, PhysicsWorld, Role, ShapesRecord, Written};
 use bevy_ecs::prelude::*;
@@ -17,21 +17,26 @@ struct New {
     colliders: Vec<(Entity, Vec<ShapeDef>)>,
 }
 
-/// Adds bodies for entities that have become some, with all their shapes, in an order that depends on nothing but what they are.
+/// Adds bodies for entities that have become some, or were refused and have changed since, with all their shapes, in an order that depends on nothing but what they are.
 pub(crate) fn add(
     mut physics: ResMut<PhysicsWorld>,
     scene: Scene,
     changed: Query<Entity, Changed<RigidBody>>,
+    mended: Query<(), Or<(BodyChange, Changed<Velocity>)>>,
+    moved: Moved,
     all: Query<Entity, With<RigidBody>>,
     mut problems: Problems,
 ) {
     let physics = &mut *physics;
+    let mended = |entity| mended.contains(entity) || moved.contains(entity);
+    let again = physics.maps.refused.asked_again(Role::Body, |entity| all.contains(entity), mended);
+    let again = again.into_iter().filter(|entity| !changed.contains(*entity));
     let asked: Vec<Entity> =
-        if physics.fresh { all.iter().collect() } else { changed.iter().collect() };
+        if physics.fresh { all.iter().collect() } else { changed.iter().chain(again).collect() };
     let mut new = Vec::new();
     for entity in asked {
         match physics.maps.bodies.get_mut(&entity).map(|record| &mut record.role) {
-            Some(Role::Character) => problems.report(entity, "body", BOTH),
+            Some(Role::Character) => problems.refuse(physics, entity, Role::Body, BOTH),
             Some(role) => {
                 *role = Role::Body;
                 scene.colliders_below(entity, &mut physics.notes.colliders);
@@ -88,8 +93,9 @@ fn add_one(physics: &mut PhysicsWorld, scene: &Scene, new: New, problems: &mut P
             id
         }
         Err(_) => {
-            let Some(id) = problems.check(entity, "body", physics.world.add_body(body)) else {
-                return;
+            let id = match physics.world.add_body(body) {
+                Ok(id) => id,
+                Err(error) => return problems.refuse(physics, entity, Role::Body, error),
             };
             physics.notes.colliders.extend(colliders.iter().map(|(collider, _)| *collider));
             id
@@ -163,7 +169,8 @@ fn tell(physics: &mut PhysicsWorld, scene: &Scene, entity: Entity) -> Result<(),
     if said.mass != is.mass { body.set_mass(said.mass) } else { Ok(()) }
 }
 
-/// Puts a body where its transform is, if somebody else than us moved that.
+/// Puts a body where its transform is, if somebody else than us moved that. What stands as we left it, place or turn, may be that of a
+/// frame between two steps: there the body keeps its own.
 fn teleport(
     physics: &mut PhysicsWorld,
     scene: &Scene,
@@ -179,7 +186,8 @@ fn teleport(
     if !before.is_some_and(|before| before.is_scaled_like(&now)) {
         scene.colliders_below(entity, &mut physics.notes.colliders);
     }
-    if before.is_some_and(|before| before.is_placed_like(&now, role)) {
+    let moved = before.map_or(Parts::ALL, |before| before.moved(&now, role));
+    if moved == Parts::NONE {
         return Ok(());
     }
     let Some(frame) = scene.frame(entity) else { return Ok(()) };
@@ -189,7 +197,8 @@ fn teleport(
         mover.position = frame.p.into();
         mover.lead_body(&mut physics.world);
     } else if let Some(mut body) = physics.world.body_mut(id) {
-        body.set_pose(frame.pose());
+        let pose = moved.of(frame.pose(), body.pose());
+        body.set_pose(pose);
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Characters: movers that lie in the world, so that they go back with it.
 
 use super::problems::Problems;
-use super::scene::Scene;
+use super::scene::{Moved, Scene};
 use super::step::Clock;
 use super::write::{Places, Which};
 use crate::components::*;
@@ -11,23 +11,32 @@ use bevy_ecs::prelude::*;
 use bevy_math::Vec2;
 use tiny_physics::{BodyId, CharacterMover, Error, MoverInput};
 
-/// Adds movers for new characters, and makes those that are there what they ought to be.
+/// Adds movers for new characters, and for those that were refused and have changed since, and makes those that are there what they ought to be.
 pub(crate) fn add(
     mut physics: ResMut<PhysicsWorld>,
     scene: Scene,
     changed: Query<(Entity, &Character), Changed<Character>>,
     all: Query<(Entity, &Character)>,
+    moved: Moved,
     mut problems: Problems,
 ) {
     let physics = &mut *physics;
-    let asked: Vec<_> = if physics.fresh { all.iter().collect() } else { changed.iter().collect() };
+    let again = physics.maps.refused.asked_again(
+        Role::Character,
+        |entity| all.contains(entity),
+        |entity| moved.contains(entity),
+    );
+    let again = again.into_iter().filter(|entity| !changed.contains(*entity));
+    let again = again.filter_map(|entity| all.get(entity).ok());
+    let asked: Vec<_> =
+        if physics.fresh { all.iter().collect() } else { changed.iter().chain(again).collect() };
     let mut new = Vec::new();
     for (entity, character) in asked {
         if physics.maps.characters.contains_key(&entity) {
             let result = change(physics, entity, character);
             problems.check(entity, "character", result);
         } else if scene.is_body(entity) || scene.is_collider(entity) {
-            problems.report(entity, "character", BOTH);
+            problems.refuse(physics, entity, Role::Character, BOTH);
         } else if let Some(frame) = scene.frame(entity) {
             let mut mover = CharacterMover::new(frame.p, character.height, character.radius);
             character.apply(&mut mover);
@@ -36,8 +45,12 @@ pub(crate) fn add(
     }
     new.sort_by(|a, b| order::of_bodies(&a.1, &b.1).then_with(|| order::of_text(&a.2, &b.2)));
     for (entity, (_, body), mut mover) in new {
-        let Some(id) = problems.check(entity, "character", physics.world.add_body(body)) else {
-            continue;
+        let id = match physics.world.add_body(body) {
+            Ok(id) => id,
+            Err(error) => {
+                problems.refuse(physics, entity, Role::Character, error);
+                continue;
+            }
         };
         mover.body = Some(id);
         let written = scene.transform(entity).map(Written::of);

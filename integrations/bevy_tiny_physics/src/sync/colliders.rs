@@ -1,7 +1,7 @@
 //! Colliders: shapes of bodies, and their surfaces.
 
 use super::problems::Problems;
-use super::scene::Scene;
+use super::scene::{Moved, Scene};
 use crate::components::*;
 use crate::order;
 use crate::world::{BodyRecord, PhysicsWorld, Role, ShapesRecord, Written};
@@ -37,6 +37,7 @@ pub(crate) fn read(
     changed: Query<Entity, (With<Collider>, ColliderChange)>,
     shifted: Query<Entity, Shifted>,
     all: Query<Entity, With<Collider>>,
+    moved: Moved,
     mut problems: Problems,
 ) {
     let physics = &mut *physics;
@@ -47,18 +48,25 @@ pub(crate) fn read(
     if physics.fresh {
         asked.extend(all.iter().filter(|entity| !physics.maps.shapes.contains_key(entity)));
     }
+    asked.extend(physics.maps.refused.asked_again(
+        Role::Lone,
+        |entity| scene.is_collider(entity) && scene.owner(entity).is_none(),
+        |entity| moved.contains(entity),
+    ));
     asked.sort_unstable();
     asked.dedup();
     let mut known = Vec::new();
     let mut lone = Vec::new();
     for entity in asked {
         let owner = scene.owner(entity);
-        let Some(shapes) = problems.check(entity, "collider", scene.shapes(entity, owner)) else {
-            continue;
-        };
-        match owner.or(physics.lone(entity).map(|_| entity)) {
-            Some(owner) => known.push((physics.own_body(owner), owner, entity, shapes)),
-            None => lone.extend(lone_body(&scene, entity, shapes)),
+        let body = owner.or(physics.lone(entity).map(|_| entity));
+        match (scene.shapes(entity, owner), body) {
+            (Ok(shapes), Some(owner)) => {
+                known.push((physics.own_body(owner), owner, entity, shapes));
+            }
+            (Ok(shapes), None) => lone.extend(lone_body(&scene, entity, shapes)),
+            (Err(error), Some(_)) => problems.report(entity, "collider", error),
+            (Err(error), None) => problems.refuse(physics, entity, Role::Lone, error),
         }
     }
     known.sort_by(|a, b| a.0.cmp(&b.0).then_with(|| order::of_text(&a.3, &b.3)));
@@ -69,8 +77,9 @@ pub(crate) fn read(
     }
     lone.sort_by(|a, b| order::of_bodies(&a.1, &b.1));
     for (entity, (_, body)) in lone {
-        let result = add_lone(physics, &scene, entity, body);
-        problems.check(entity, "collider", result);
+        if let Err(error) = add_lone(physics, &scene, entity, body) {
+            problems.refuse(physics, entity, Role::Lone, error);
+        }
     }
 }
 

@@ -6,9 +6,10 @@ use super::step::Clock;
 use crate::components::*;
 use crate::world::PhysicsWorld;
 use bevy_ecs::prelude::*;
+use bevy_math::Vec2;
 use tiny_physics::{Error, Transform};
 
-/// Pushes bodies as their components say. What is not a number is set to 0 and told.
+/// Pushes bodies as their components say. What is not a number is set to 0, a target to where the body is, and told.
 pub(crate) fn apply(
     mut physics: ResMut<PhysicsWorld>,
     clock: Clock,
@@ -32,11 +33,9 @@ pub(crate) fn apply(
         *push = ExternalImpulse::default();
     }
     for (entity, mut target) in &mut targets {
-        if problems
-            .check(entity, "target", lead(physics, entity, &target, clock.seconds()))
-            .is_none()
-        {
-            *target = KinematicTarget::default();
+        let result = lead(physics, entity, &target, clock.seconds());
+        if problems.check(entity, "target", result).is_none() {
+            *target = here(physics, entity);
         }
     }
 }
@@ -71,9 +70,17 @@ fn lead(
     target: &KinematicTarget,
     dt: f32,
 ) -> Result<(), Error> {
+    let Some(mut body) = physics.own_body_mut(entity) else { return Ok(()) };
     finite("target", target.position.x + target.position.y + target.angle)?;
-    if let Some(mut body) = physics.own_body_mut(entity) {
-        body.set_target(Transform::from_angle(engine(target.position), target.angle), dt);
-    }
+    body.set_target(Transform::from_angle(engine(target.position), target.angle), dt);
     Ok(())
+}
+
+/// A target that leaves a body where it is.
+fn here(physics: &PhysicsWorld, entity: Entity) -> KinematicTarget {
+    let body = physics.own_body(entity).and_then(|id| physics.world.body(id));
+    body.map_or(KinematicTarget::default(), |body| {
+        let position = Vec2::new(body.position().x, body.position().y);
+        KinematicTarget { position, angle: body.angle() }
+    })
 }

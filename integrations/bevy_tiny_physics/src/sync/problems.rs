@@ -1,6 +1,7 @@
 //! Telling what could not be done.
 
 use crate::PhysicsProblem;
+use crate::world::{PhysicsWorld, Role};
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemParam;
 use tiny_physics::Error;
@@ -19,6 +20,14 @@ impl Problems<'_> {
             None => log::error!("physics: {what}: {error}"),
         }
         self.writer.write(PhysicsProblem { entity, what, error });
+    }
+
+    /// Notes that an entity cannot be what it asks to be. It is tried again when it changes, and told again when it is refused for another
+    /// reason.
+    pub fn refuse(&mut self, physics: &mut PhysicsWorld, entity: Entity, role: Role, error: Error) {
+        if physics.maps.refused.note(role, entity, error.to_string()) {
+            self.report(entity, role.name(), error);
+        }
     }
 
     /// Passes on what went well, and tells the rest.

@@ -18,6 +18,7 @@ pub(crate) fn watch(app: &mut App) {
         .add_observer(of_body::<Mass>)
         .add_observer(of_body::<Enabled>)
         .add_observer(of_body::<CanSleep>)
+        .add_observer(of_body::<Velocity>)
         .add_observer(of_collider::<Friction>)
         .add_observer(of_collider::<Restitution>)
         .add_observer(of_collider::<Density>)
@@ -27,7 +28,8 @@ pub(crate) fn watch(app: &mut App) {
         .add_observer(of_collider::<OneWay>)
         .add_observer(of_collider::<CollisionEvents>)
         .add_observer(of_collider::<HitEvents>)
-        .add_observer(of_collider::<ChildOf>);
+        .add_observer(of_collider::<ChildOf>)
+        .add_observer(taken_off);
 }
 
 fn gone<C: Component>(removed: On<Remove, C>, mut physics: ResMut<PhysicsWorld>) {
@@ -42,6 +44,13 @@ fn of_collider<C: Component>(removed: On<Remove, C>, mut physics: ResMut<Physics
     physics.notes.colliders.push(removed.entity);
 }
 
+/// A body that has lost its parent stays where it is, and so its transform says something else.
+fn taken_off(removed: On<Remove, ChildOf>, mut physics: ResMut<PhysicsWorld>) {
+    let record = physics.maps.bodies.get(&removed.entity);
+    let body = record.filter(|record| record.role == Role::Body).map(|record| record.id);
+    physics.notes.placed.extend(body);
+}
+
 /// Removes what nothing asks for any more. In a copy that has just come in everybody is looked at.
 pub(crate) fn remove_gone(
     mut physics: ResMut<PhysicsWorld>,
@@ -52,6 +61,9 @@ pub(crate) fn remove_gone(
     tiles: Query<(), With<TileMap>>,
 ) {
     let physics = &mut *physics;
+    for entity in physics.notes.taken_off() {
+        physics.maps.refused.ask_again(entity);
+    }
     let mut entities = core::mem::take(&mut physics.notes.gone);
     if physics.fresh {
         entities.extend(physics.maps.entities());

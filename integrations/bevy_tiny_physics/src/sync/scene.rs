@@ -47,6 +47,25 @@ pub(crate) struct Scene<'w, 's> {
     orders: Query<'w, 's, &'static BodyOrder>,
 }
 
+/// Entities that stand somewhere else, or below something else.
+type Shift = Or<(Changed<Transform>, Changed<ChildOf>)>;
+
+/// Places that changed since a system looked last.
+#[derive(SystemParam)]
+pub(crate) struct Moved<'w, 's> {
+    moved: Query<'w, 's, (), Shift>,
+    parents: Query<'w, 's, &'static ChildOf>,
+}
+
+impl Moved<'_, '_> {
+    /// May an entity be somewhere else, by itself or with what is above it?
+    pub fn contains(&self, entity: Entity) -> bool {
+        core::iter::once(entity)
+            .chain(self.parents.iter_ancestors(entity))
+            .any(|entity| self.moved.contains(entity))
+    }
+}
+
 impl Scene<'_, '_> {
     pub fn is_body(&self, entity: Entity) -> bool {
         self.bodies.contains(entity)

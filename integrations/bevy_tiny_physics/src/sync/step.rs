@@ -61,15 +61,17 @@ pub(crate) fn tell(mut physics: ResMut<PhysicsWorld>, mut writers: Writers) {
     let events = physics.world.events();
     tell_collisions(&names, &mut writers);
     for event in events.sensor_begin() {
-        let (sensor, visitor) = (names.shape(event.sensor), names.shape(event.visitor));
         let (sensor_body, visitor_body) =
             (names.body(event.sensor_body), names.body(event.visitor_body));
+        let sensor = names.shape(event.sensor, event.sensor_body);
+        let visitor = names.shape(event.visitor, event.visitor_body);
         writers.entered.write(SensorEntered { sensor, visitor, sensor_body, visitor_body });
     }
     for event in events.sensor_end() {
-        let (sensor, visitor) = (names.shape(event.sensor), names.shape(event.visitor));
         let (sensor_body, visitor_body) =
             (names.body(event.sensor_body), names.body(event.visitor_body));
+        let sensor = names.shape(event.sensor, event.sensor_body);
+        let visitor = names.shape(event.visitor, event.visitor_body);
         writers.left.write(SensorLeft { sensor, visitor, sensor_body, visitor_body });
     }
     for event in events.joint_breaks() {
@@ -98,8 +100,8 @@ fn tell_collisions(names: &Names, writers: &mut Writers) {
     macro_rules! pair {
         ($name:ident, $event:ident { $($field:ident: $value:expr),* }) => {
             $name {
-                collider_a: names.shape($event.shape_a),
-                collider_b: names.shape($event.shape_b),
+                collider_a: names.shape($event.shape_a, $event.body_a),
+                collider_b: names.shape($event.shape_b, $event.body_b),
                 body_a: names.body($event.body_a),
                 body_b: names.body($event.body_b),
                 data_a: $event.user_data_a,
@@ -131,8 +133,9 @@ fn tell_collisions(names: &Names, writers: &mut Writers) {
 struct Names<'a>(&'a PhysicsWorld);
 
 impl Names<'_> {
-    fn shape(&self, id: ShapeId) -> Entity {
-        self.0.collider_entity(id).unwrap_or(Entity::PLACEHOLDER)
+    /// That of a shape, which may be gone. Characters and tile maps are known by their bodies.
+    fn shape(&self, id: ShapeId, body: BodyId) -> Entity {
+        self.0.collider_entity(id).unwrap_or_else(|| self.body(body))
     }
 
     fn body(&self, id: BodyId) -> Entity {

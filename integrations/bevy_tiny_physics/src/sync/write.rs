@@ -1,7 +1,7 @@
 //! Components follow the world: transforms and velocities.
 
 use crate::components::{RigidBody, Velocity};
-use crate::frame::{Frame, world_frame};
+use crate::frame::{Frame, Parts, world_frame};
 use crate::world::{BodyRecord, PhysicsWorld, Role, Written};
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemParam;
@@ -14,7 +14,7 @@ use tiny_physics::{Body, BodyId, CharacterMover, DVec2, Pose};
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Which {
     All,
-    /// But for what somebody else has moved since.
+    /// But for what somebody else has moved since: place, turn or both.
     Untouched,
 }
 
@@ -42,17 +42,16 @@ impl Places<'_, '_> {
                 continue;
             };
             let asked = record.role != Role::Character && !self.parents.contains(entity);
-            if let Some(body) = world.body(id).filter(|_| asked && self.may(which, entity, record))
-            {
-                self.place(entity, record, Frame::of_pose(pose(body)));
+            if let Some(body) = world.body(id).filter(|_| asked) {
+                self.place(which, entity, record, Frame::of_pose(pose(body)));
             }
         }
         let mut nested: Vec<Entity> = self.nested.iter().collect();
         nested.sort_by_cached_key(|entity| self.parents.iter_ancestors(*entity).count());
         for entity in nested {
             let Some(record) = maps.bodies.get_mut(&entity) else { continue };
-            if let Some(body) = world.body(record.id).filter(|_| self.may(which, entity, record)) {
-                self.place(entity, record, Frame::of_pose(pose(body)));
+            if let Some(body) = world.body(record.id) {
+                self.place(which, entity, record, Frame::of_pose(pose(body)));
             }
         }
     }
@@ -67,20 +66,16 @@ impl Places<'_, '_> {
         let maps = &mut physics.maps;
         for (entity, mover) in &maps.characters {
             let Some(record) = maps.bodies.get_mut(entity) else { continue };
-            if !self.may(which, *entity, record) {
-                continue;
-            }
-            let Ok(transform) = self.transforms.get(*entity) else { continue };
-            let turned = Frame::of(transform).q;
-            self.place(
-                *entity,
-                record,
-                Frame { p: position(mover).to_vec2(), q: turned, ..Frame::IDENTITY },
-            );
+            let frame = Frame { p: position(mover).to_vec2(), ..Frame::IDENTITY };
+            self.place(which, *entity, record, frame);
         }
     }
 
-    fn place(&mut self, entity: Entity, record: &mut BodyRecord, frame: Frame) {
+    fn place(&mut self, which: Which, entity: Entity, record: &mut BodyRecord, frame: Frame) {
+        let parts = self.ours(which, entity, record);
+        if parts == Parts::NONE {
+            return;
+        }
         let local = match self.parents.get(entity) {
             Err(_) => frame,
             Ok(above) => {
@@ -94,29 +89,33 @@ impl Places<'_, '_> {
         };
         let Ok(mut transform) = self.transforms.get_mut(entity) else { return };
         let mut wanted = *transform;
-        local.write(&mut wanted, record.role == Role::Character);
+        local.write(&mut wanted, parts);
         if *transform != wanted {
             *transform = wanted;
         }
         let (now, before) = (Written::of(&wanted), record.written);
-        record.written = Some(before.map_or(now, |before| now.scaled_like(&before)));
+        record.written = Some(before.map_or(now, |before| before.with(parts, &now)));
     }
 
-    /// Is a transform to be written? If only ours are, it stands where we left it.
-    fn may(&self, which: Which, entity: Entity, record: &BodyRecord) -> bool {
+    /// What of a transform is to be written. If only ours is, it stands as we left it.
+    fn ours(&self, which: Which, entity: Entity, record: &BodyRecord) -> Parts {
+        let turns = record.role != Role::Character;
+        if which == Which::All {
+            return Parts { place: true, turn: turns };
+        }
         let here = self.transforms.get(entity).map(Written::of);
-        which == Which::All
-            || record
-                .written
-                .zip(here.ok())
-                .is_some_and(|(written, here)| written.is_placed_like(&here, record.role))
+        record.written.zip(here.ok()).map_or(Parts::NONE, |(written, here)| {
+            let moved = written.moved(&here, record.role);
+            Parts { place: !moved.place, turn: turns && !moved.turn }
+        })
     }
 }
 
-/// Writes what the step moved.
+/// Writes what the step moved, and what was placed since the one before.
 pub(crate) fn transforms(mut physics: ResMut<PhysicsWorld>, mut places: Places) {
+    let placed = core::mem::take(&mut physics.notes.placed);
     let moved = physics.world.moved_bodies().to_vec();
-    places.write(&mut physics, moved.into_iter(), Which::All, |body| body.pose());
+    places.write(&mut physics, moved.into_iter().chain(placed), Which::All, |body| body.pose());
 }
 
 /// Writes velocities.

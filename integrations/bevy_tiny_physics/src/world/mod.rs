@@ -1,12 +1,16 @@
 //! The world as one resource, with the tables that lead from entities to handles and back.
 
+mod refused;
 mod tables;
 
 use crate::components::Velocity;
+use crate::frame::Parts;
 use bevy_ecs::entity::{EntityHashMap, EntityMapper, MapEntities};
 use bevy_ecs::prelude::*;
 use bevy_math::{Quat, Vec2};
 use bevy_transform::prelude::Transform;
+use refused::Refused;
+use std::collections::BTreeSet;
 use tiny_physics::{
     Body, BodyId, BodyMut, CharacterMover, JointDef, JointId, JointRef, ShapeDef, ShapeId,
     TileGridId,
@@ -26,7 +30,8 @@ use tiny_physics::{
 /// new ones. Where a rollback despawns and spawns again, [`MapEntities`] takes the copy to the new entities.
 #[derive(Resource, Debug)]
 pub struct PhysicsWorld {
-    /// The engine's world. Whatever is done to it is seen; bodies that are added here have no entity.
+    /// The engine's world. Whatever is done to it is seen; bodies that are added here have no entity. Place what has one by
+    /// [`PhysicsWorld::body_mut`]: only that writes the place to the entity though the body does not move in the next step.
     pub world: tiny_physics::World,
     pub(crate) maps: Maps,
     /// What hooks noted since the last step.
@@ -56,7 +61,7 @@ impl Clone for PhysicsWorld {
     }
 }
 
-/// Components that were taken off entities.
+/// Components that were taken off entities, and bodies that were changed by hand.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Notes {
     /// What makes a body, joint, tile map or character.
@@ -65,6 +70,15 @@ pub(crate) struct Notes {
     pub bodies: Vec<Entity>,
     /// What a collider is told by, and parents.
     pub colliders: Vec<Entity>,
+    /// Bodies of which the place is to be written, even if they do not move: they may have been placed by hand, or taken off a parent.
+    pub placed: BTreeSet<BodyId>,
+}
+
+impl Notes {
+    /// All that something was taken off.
+    pub fn taken_off(&self) -> impl Iterator<Item = Entity> + '_ {
+        self.gone.iter().chain(&self.bodies).chain(&self.colliders).copied()
+    }
 }
 
 /// A body, and what was last written to its entity.
@@ -99,20 +113,26 @@ impl Written {
         self.scale == other.scale
     }
 
-    /// Is that the same place? How characters are turned is not physics' business.
-    pub fn is_placed_like(&self, other: &Self, role: Role) -> bool {
-        self.position == other.position
-            && (role == Role::Character || self.rotation == other.rotation)
+    /// What somebody has moved since. How characters are turned is not physics' business.
+    pub fn moved(&self, now: &Self, role: Role) -> Parts {
+        Parts {
+            place: self.position != now.position,
+            turn: role != Role::Character && self.rotation != now.rotation,
+        }
     }
 
-    /// With the scale of what was read: who changed that has yet to be heard.
-    pub fn scaled_like(self, other: &Self) -> Self {
-        Self { scale: other.scale, ..self }
+    /// With these parts of what stands there now. The others, and the scale, stay as they were read: who changed those has yet to be heard.
+    pub fn with(self, parts: Parts, now: &Self) -> Self {
+        Self {
+            position: if parts.place { now.position } else { self.position },
+            rotation: if parts.turn { now.rotation } else { self.rotation },
+            scale: self.scale,
+        }
     }
 }
 
 /// What made an entity a body.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) enum Role {
     /// A [`RigidBody`](crate::RigidBody).
     Body,
@@ -120,6 +140,17 @@ pub(crate) enum Role {
     Lone,
     /// A character.
     Character,
+}
+
+impl Role {
+    /// As problems call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Body => "body",
+            Self::Lone => "collider",
+            Self::Character => "character",
+        }
+    }
 }
 
 /// The shapes of a collider, in its body's frame.
@@ -145,6 +176,7 @@ pub(crate) struct Maps {
     pub joints: EntityHashMap<JointRecord>,
     /// Joints that wait for their bodies.
     pub waiting: Vec<Entity>,
+    pub refused: Refused,
     pub tiles: EntityHashMap<TileGridId>,
     pub characters: EntityHashMap<CharacterMover>,
     pub body_entities: Handles,
@@ -183,6 +215,11 @@ impl Handles {
         }
     }
 
+    /// Knows what is removed now though it was never entered.
+    pub fn note_removed(&mut self, bits: u64, entity: Entity) {
+        self.removed.push((bits, entity));
+    }
+
     pub fn forget_removed(&mut self) {
         self.removed.clear();
     }
@@ -213,7 +250,9 @@ impl PhysicsWorld {
 
     /// The body of an entity, to change: impulses at points, sleep, and all that has no component.
     pub fn body_mut(&mut self, entity: Entity) -> Option<BodyMut<'_>> {
-        self.world.body_mut(self.body_id(entity)?)
+        let body = self.world.body_mut(self.body_id(entity)?)?;
+        self.notes.placed.insert(body.id());
+        Some(body)
     }
 
     /// Handle of an entity's joint; `None` while it waits for its bodies.
@@ -290,7 +329,8 @@ impl MapEntities for PhysicsWorld {
         {
             handles.map_entities(mapper);
         }
-        let Notes { gone, bodies, colliders } = &mut self.notes;
+        maps.refused.map_entities(mapper);
+        let Notes { gone, bodies, colliders, placed: _ } = &mut self.notes;
         for entity in [gone, bodies, colliders].into_iter().flatten() {
             *entity = mapper.get_mapped(*entity);
         }

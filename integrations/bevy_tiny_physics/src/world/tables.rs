@@ -47,6 +47,7 @@ impl PhysicsWorld {
     }
 
     pub(crate) fn enter_body(&mut self, entity: Entity, record: BodyRecord) {
+        self.maps.refused.forget(record.role, entity);
         self.maps.body_entities.set(record.id.to_bits(), entity);
         self.maps.bodies.insert(entity, record);
     }
@@ -135,8 +136,10 @@ impl PhysicsWorld {
     }
 
     pub(crate) fn remove_tiles(&mut self, entity: Entity) {
-        if let Some(id) = self.maps.tiles.remove(&entity) {
-            let _ = self.world.remove_tiles(id);
+        let Some(id) = self.maps.tiles.remove(&entity) else { return };
+        for body in self.world.body_ids().filter(|body| self.world.tiles_of(*body) == Some(id)) {
+            self.maps.body_entities.note_removed(body.to_bits(), entity);
         }
+        let _ = self.world.remove_tiles(id);
     }
 }
