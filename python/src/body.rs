@@ -1,9 +1,9 @@
 //! Bodies.
 
-use crate::convert::{Pair, StaleHandleError, error, place, read, tuple};
+use crate::convert::{Pair, StaleHandleError, error, heard, place, read, tuple, write};
 use crate::handles::{Body, Joint, Shape, World};
 use pyo3::prelude::*;
-use tiny_physics::{self as engine, BodyKind, DVec2, ShapeDef, Vec2};
+use tiny_physics::{self as engine, BodyKind, DVec2, Locks, ShapeDef, Vec2};
 
 impl Body {
     fn stale(&self) -> PyErr {
@@ -16,10 +16,11 @@ impl Body {
         world.inner.body(self.id).map(get).ok_or_else(|| self.stale())
     }
 
-    /// Changes it.
+    /// Changes it. Raises ValueError where the engine refuses a number.
     fn set<T>(&self, py: Python<'_>, set: impl FnOnce(engine::BodyMut<'_>) -> T) -> PyResult<T> {
         let mut world = self.world.try_borrow_mut(py)?;
-        world.inner.body_mut(self.id).map(set).ok_or_else(|| self.stale())
+        heard(&mut world.inner, |world| world.body_mut(self.id).map(set))?
+            .ok_or_else(|| self.stale())
     }
 
     /// Where a force acts: the given point, else the centre of mass.
@@ -160,7 +161,31 @@ impl Body {
         self.set(py, |mut body| body.set_enabled(value))
     }
 
-    /// Is it swept against moving bodies too?
+    /// Directions in which it cannot move, as a dictionary: {"x": False, "y": False, "rotation": True}. Set it with those
+    /// that are to be locked.
+    #[getter]
+    fn locks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        write(py, &self.get(py, |body| body.locks())?)
+    }
+
+    #[setter]
+    fn set_locks(&self, py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<()> {
+        let locks: Locks = read(value)?;
+        self.set(py, |mut body| body.set_locks(locks))
+    }
+
+    /// May it fall asleep?
+    #[getter]
+    fn can_sleep(&self, py: Python<'_>) -> PyResult<bool> {
+        self.get(py, |body| body.can_sleep())
+    }
+
+    #[setter]
+    fn set_can_sleep(&self, py: Python<'_>, value: bool) -> PyResult<()> {
+        self.set(py, |mut body| body.set_can_sleep(value))
+    }
+
+    /// A flag that is kept and given back; it changes nothing: whatever is fast is looked out for, moving or not.
     #[getter]
     fn bullet(&self, py: Python<'_>) -> PyResult<bool> {
         self.get(py, |body| body.is_bullet())

@@ -8,7 +8,7 @@ use pyo3::types::{PyDict, PyList, PyTuple};
 use pythonize::{depythonize, pythonize};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use tiny_physics::{DVec2, Error, Vec2};
+use tiny_physics::{DVec2, Error, Vec2, World};
 use tiny_physics_batch::BatchError;
 
 create_exception!(
@@ -24,6 +24,16 @@ pub fn error(error: Error) -> PyErr {
         Error::StaleHandle { .. } => StaleHandleError::new_err(error.to_string()),
         _ => PyValueError::new_err(error.to_string()),
     }
+}
+
+/// What `change` gives; an error where the engine refused a number, which it does in silence.
+pub fn heard<T>(world: &mut World, change: impl FnOnce(&mut World) -> T) -> PyResult<T> {
+    let before = world.stats().refused_numbers;
+    let done = change(world);
+    if world.stats().refused_numbers == before {
+        return Ok(done);
+    }
+    Err(PyValueError::new_err("a number is not finite, or too large"))
 }
 
 /// That of an array that cannot be written, or is borrowed elsewhere.
@@ -71,7 +81,7 @@ fn plain<'py>(value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     Ok(value.clone())
 }
 
-/// A point or vector: any two numbers.
+/// A point or vector: any two numbers, both finite.
 #[derive(Clone, Copy)]
 pub struct Pair(pub f64, pub f64);
 
@@ -82,7 +92,7 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Pair {
         let mut numbers = value.try_iter()?;
         let mut next = || -> PyResult<f64> {
             match numbers.next() {
-                Some(number) => number?.extract(),
+                Some(number) => finite(number?.extract()?),
                 None => Err(PyValueError::new_err("two numbers are needed")),
             }
         };
@@ -92,6 +102,12 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Pair {
         }
         Ok(pair)
     }
+}
+
+fn finite(number: f64) -> PyResult<f64> {
+    let refused =
+        || PyValueError::new_err(format!("{number} is given, but numbers have to be finite"));
+    number.is_finite().then_some(number).ok_or_else(refused)
 }
 
 impl From<Pair> for Vec2 {

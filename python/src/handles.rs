@@ -40,6 +40,7 @@ macro_rules! handle {
 
 handle! {
     /// A body of a world: a handle. It is equal to every other handle of the same body.
+    /// Setting or applying a number that is not finite or too large raises ValueError, and changes nothing.
     Body, engine::BodyId
 }
 

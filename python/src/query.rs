@@ -4,19 +4,28 @@ use crate::convert::{Pair, place, read, tuple};
 use crate::handles::Body;
 use crate::handles::Shape;
 use crate::handles::World;
+use crate::world::own;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use tiny_physics::{self as engine, Aabb, DVec2, Pose, QueryFilter, RayCast, Rot, Vec2};
 
-/// What a query sees.
-fn filter(mask: u64, exclude: Option<&Body>, sensors: bool) -> QueryFilter<'static> {
+/// What a query of a world sees.
+///
+/// Raises ValueError where the body that it does not see is of another world.
+fn filter(
+    slf: &Bound<'_, World>,
+    mask: u64,
+    exclude: Option<&Body>,
+    sensors: bool,
+) -> PyResult<QueryFilter<'static>> {
     let mut filter = QueryFilter::new().mask(mask);
     if let Some(body) = exclude {
+        own(slf, body)?;
         filter = filter.exclude(body.id);
     }
-    if sensors { filter.sensors() } else { filter }
+    Ok(if sensors { filter.sensors() } else { filter })
 }
 
 fn shapes(slf: &Bound<'_, World>, ids: Vec<engine::ShapeId>) -> Vec<Shape> {
@@ -52,7 +61,7 @@ impl World {
         exclude: Option<&Body>,
         sensors: bool,
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let filter = filter(mask, exclude, sensors);
+        let filter = filter(slf, mask, exclude, sensors)?;
         let world = slf.try_borrow()?;
         let found = world.inner.ray_cast(DVec2::from(origin), Vec2::from(translation), &filter);
         found.map(|h| hit(slf, (h.shape, h.body), (h.point, h.normal, h.fraction))).transpose()
@@ -68,7 +77,7 @@ impl World {
         exclude: Option<&Body>,
         sensors: bool,
     ) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let filter = filter(mask, exclude, sensors);
+        let filter = filter(slf, mask, exclude, sensors)?;
         let world = slf.try_borrow()?;
         let found = world.inner.ray_cast_all(DVec2::from(origin), Vec2::from(translation), &filter);
         found
@@ -113,7 +122,7 @@ impl World {
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
         let geometry: engine::Shape = read(geometry)?;
         let pose = Pose::new(DVec2::from(position), Rot::from_angle(angle));
-        let filter = filter(mask, exclude, false);
+        let filter = filter(slf, mask, exclude, false)?;
         let world = slf.try_borrow()?;
         let found = world.inner.cast_shape(&geometry, pose, Vec2::from(translation), &filter);
         found.map(|h| hit(slf, (h.shape, h.body), (h.point, h.normal, h.fraction))).transpose()
@@ -132,7 +141,7 @@ impl World {
     ) -> PyResult<Vec<Shape>> {
         let geometry: engine::Shape = read(geometry)?;
         let pose = Pose::new(DVec2::from(position), Rot::from_angle(angle));
-        let filter = filter(mask, exclude, sensors);
+        let filter = filter(slf, mask, exclude, sensors)?;
         let found = slf.try_borrow()?.inner.overlap_shape(&geometry, pose, &filter);
         Ok(shapes(slf, found))
     }
@@ -147,7 +156,7 @@ impl World {
         exclude: Option<&Body>,
         sensors: bool,
     ) -> PyResult<Vec<Shape>> {
-        let filter = filter(mask, exclude, sensors);
+        let filter = filter(slf, mask, exclude, sensors)?;
         let area = Aabb::new(Vec2::from(lower), Vec2::from(upper));
         let found = slf.try_borrow()?.inner.overlap_aabb(area, &filter);
         Ok(shapes(slf, found))
@@ -162,7 +171,7 @@ impl World {
         exclude: Option<&Body>,
         sensors: bool,
     ) -> PyResult<Vec<Shape>> {
-        let filter = filter(mask, exclude, sensors);
+        let filter = filter(slf, mask, exclude, sensors)?;
         let found = slf.try_borrow()?.inner.overlap_point(DVec2::from(point), &filter);
         Ok(shapes(slf, found))
     }
@@ -177,7 +186,7 @@ impl World {
         mask: u64,
         exclude: Option<&Body>,
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let filter = filter(mask, exclude, false);
+        let filter = filter(slf, mask, exclude, false)?;
         let world = slf.try_borrow()?;
         let Some(found) = world.inner.closest_point(DVec2::from(point), distance, &filter) else {
             return Ok(None);

@@ -21,7 +21,7 @@ impl World {
 }
 
 /// Refuses a body of another world, whose handle would mean something else here.
-fn own(slf: &Bound<'_, World>, body: &Body) -> PyResult<()> {
+pub fn own(slf: &Bound<'_, World>, body: &Body) -> PyResult<()> {
     if body.world.is(slf) {
         return Ok(());
     }

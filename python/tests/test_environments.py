@@ -46,6 +46,29 @@ def test_a_vector_environment_is_that_many_single_ones(name):
             break
 
 
+@pytest.mark.parametrize("asked, steps", [(3, 3), (600, 500)])
+def test_an_episode_can_be_shorter_than_its_task_but_not_longer(asked, steps):
+    env = gymnasium.make("tiny_physics/Ragdoll-v0", max_episode_steps=asked)
+    env.reset(seed=1)
+    for taken in range(1, 700):
+        _, _, end, cut, _ = env.step(np.zeros(env.action_space.shape, dtype=np.float32))
+        if end or cut:
+            break
+    assert taken == steps and cut and not end
+    with pytest.raises(ValueError, match="500"):
+        gymnasium.make_vec("tiny_physics/Ragdoll-v0", 2, max_episode_steps=asked)
+
+
+def test_a_seed_is_for_the_worlds_too_that_a_mask_leaves_out():
+    name = "tiny_physics/LunarLander-v0"
+    many, other = gymnasium.make_vec(name, num_envs=2), gymnasium.make_vec(name, num_envs=2)
+    first, _ = many.reset(seed=1)
+    seen, _ = many.reset(seed=[7, 8], options={"reset_mask": np.array([False, True])})
+    assert (seen[0] == first[0]).all() and (seen[1] == other.reset(seed=8)[0][0]).all()
+    seen, _ = many.reset(options={"reset_mask": np.array([True, False])})
+    assert (seen[0] == other.reset(seed=7)[0][0]).all()
+
+
 def test_autoreset_modes():
     lander = "tiny_physics/LunarLanderContinuous-v0"
     modes = [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP, AutoresetMode.DISABLED]

@@ -64,6 +64,50 @@ def test_bad_input_is_named():
         world.add_joint(ground, ball, tp.revolute())
 
 
+@pytest.mark.parametrize("wrong", [float("nan"), float("inf"), 1e20])
+def test_numbers_that_the_engine_refuses_raise(wrong):
+    world, ground, ball = falling()
+    before = world.state_hash()
+    for name in ("position", "velocity", "damping"):
+        with pytest.raises(ValueError):
+            setattr(ball, name, (wrong, 0.0))
+    for name in ("angular_velocity", "gravity_scale"):
+        with pytest.raises(ValueError):
+            setattr(ball, name, wrong)
+    for push, args in (
+        (ball.apply_force, ((wrong, 0.0),)),
+        (ball.apply_impulse, ((0.0, 1.0), (wrong, 0.0))),
+        (ball.apply_torque, (wrong,)),
+        (ball.apply_angular_impulse, (wrong,)),
+    ):
+        with pytest.raises(ValueError):
+            push(*args)
+    assert world.state_hash() == before
+    if not np.isfinite(wrong):
+        with pytest.raises(ValueError):
+            ball.angle = wrong
+        with pytest.raises(ValueError):
+            world.gravity = (0.0, wrong)
+        with pytest.raises(ValueError):
+            world.ray_cast((wrong, 0.0), (0.0, 1.0))
+        with pytest.raises(ValueError):
+            world.overlap_box((-1.0, -1.0), (wrong, 1.0))
+    ball.velocity = (1.0, 0.0)
+    assert ball.velocity == (1.0, 0.0)
+
+
+def test_locks_and_sleep_of_a_body_can_be_set():
+    world, ground, ball = falling()
+    ball.locks = {"rotation": True}
+    assert ball.locks == {"x": False, "y": False, "rotation": True}
+    ball.apply_angular_impulse(1.0)
+    assert ball.angular_velocity == 0.0
+    assert ball.can_sleep
+    ball.can_sleep = False
+    world.step(1 / 60, steps=300)
+    assert ball.awake and not ball.can_sleep
+
+
 def test_joints_hold_limit_and_drive():
     world = tp.World(gravity=(0, 0))
     base = world.add_body(kind="static")
@@ -118,6 +162,22 @@ def test_queries_find_shapes():
     assert world.closest_point((0, 6))["distance"] == pytest.approx(1.5)
     cast = world.cast_shape({"circle": {"radius": 0.5}}, (5, 3), 0.0, (0, -5))
     assert cast["body"] == ground and cast["fraction"] == pytest.approx(0.5, abs=1e-3)
+
+
+def test_a_query_refuses_a_body_of_another_world():
+    world, ground, ball = falling()
+    for ask in (
+        lambda other: world.ray_cast((0, 10), (0, -20), exclude=other),
+        lambda other: world.ray_cast_all((0, 10), (0, -20), exclude=other),
+        lambda other: world.cast_shape({"circle": {"radius": 0.5}}, (5, 3), 0.0, (0, -5), exclude=other),
+        lambda other: world.overlap_shape({"circle": {"radius": 1.0}}, (0, 4), exclude=other),
+        lambda other: world.overlap_box((-1, -1), (1, 5), exclude=other),
+        lambda other: world.overlap_point((0, 4), exclude=other),
+        lambda other: world.closest_point((0, 6), exclude=other),
+    ):
+        ask(ball)
+        with pytest.raises(ValueError, match="another world"):
+            ask(falling()[2])
 
 
 def test_a_copy_has_the_same_future():

@@ -119,6 +119,8 @@ class Body:
     kind: str
     awake: bool
     enabled: bool
+    locks: Any
+    can_sleep: bool
     bullet: bool
     gravity_scale: float
     damping: Any

@@ -6,8 +6,9 @@
 >>> env = gymnasium.make("LunarLander-v3")
 
 After `install()`, ``import Box2D`` and ``from Box2D.b2 import ...`` give this module. It is opt-in, and no more than
-that part: static and dynamic bodies, polygons, circles and edges, revolute joints, contact listeners (called after
-the step, not within it), ray casts. Velocity iterations become solver iterations of each substep.
+that part: static, kinematic and dynamic bodies, polygons, circles and edges, revolute joints, contact listeners (called
+after the step, not within it), ray casts. What pybox2d has beyond that is refused by its name. Velocity iterations
+become solver iterations of each substep.
 """
 
 from __future__ import annotations
@@ -15,10 +16,23 @@ from __future__ import annotations
 import math
 import sys
 import types
-from typing import Any, Iterable, Iterator
+from typing import Any, Iterator
 
 from . import _native
 from . import describe as _describe
+from ._box2d_shapes import (
+    FixtureFilter,
+    b2CircleShape,
+    b2EdgeShape,
+    b2Filter,
+    b2FixtureDef,
+    b2PolygonShape,
+    b2Transform,
+    b2Vec2,
+    field,
+    lacks,
+    through,
+)
 
 #: Velocity iterations of Box2D that one solver iteration stands for: Gymnasium's 180 become 4.
 _ITERATIONS_PER_ITERATION = 45
@@ -30,182 +44,36 @@ _LOOSE = 0.005
 _LOOSE_ANGLE = math.radians(2.0)
 _ROUNDS = 60
 _MOST_TURN = math.radians(8.0)
+#: Kinds of bodies, as pybox2d numbers them.
+b2_staticBody, b2_kinematicBody, b2_dynamicBody = 0, 1, 2
+_KINDS = ("static", "kinematic", "dynamic")
 
 
-class b2Vec2(tuple):
-    """Two numbers: x and y, with the arithmetic of vectors."""
-
-    __slots__ = ()
-
-    def __new__(cls, x: Any = 0.0, y: float | None = None) -> "b2Vec2":
-        if y is None:
-            x, y = (x, 0.0) if isinstance(x, (int, float)) else x
-        return super().__new__(cls, (float(x), float(y)))
-
-    @property
-    def x(self) -> float:
-        return self[0]
-
-    @property
-    def y(self) -> float:
-        return self[1]
-
-    @property
-    def length(self) -> float:
-        return math.hypot(*self)
-
-    def __add__(self, other: Iterable[float]) -> "b2Vec2":  # type: ignore[override]
-        x, y = other
-        return b2Vec2(self[0] + x, self[1] + y)
-
-    __radd__ = __add__
-
-    def __sub__(self, other: Iterable[float]) -> "b2Vec2":
-        x, y = other
-        return b2Vec2(self[0] - x, self[1] - y)
-
-    def __mul__(self, factor: float) -> "b2Vec2":  # type: ignore[override]
-        return b2Vec2(self[0] * factor, self[1] * factor)
-
-    __rmul__ = __mul__  # type: ignore[assignment]
-
-    def __truediv__(self, factor: float) -> "b2Vec2":
-        return b2Vec2(self[0] / factor, self[1] / factor)
-
-    def __neg__(self) -> "b2Vec2":
-        return b2Vec2(-self[0], -self[1])
-
-
-class b2Transform:
-    """A place and an angle: ``transform * point`` is the point in the world."""
-
-    def __init__(self, position: Iterable[float], rotation: tuple[float, float]) -> None:
-        self.position = b2Vec2(position)
-        self.c, self.s = rotation
-
-    @property
-    def angle(self) -> float:
-        return math.atan2(self.s, self.c)
-
-    def __mul__(self, point: Iterable[float]) -> b2Vec2:
-        x, y = point
-        return self.position + (self.c * x - self.s * y, self.s * x + self.c * y)
-
-
-class b2PolygonShape:
-    """A convex polygon of up to eight vertices, or ``box=(half width, half height)``."""
-
-    def __init__(self, vertices: Any = None, box: Any = None) -> None:
-        if box is not None:
-            w, h = box[0], box[1]
-            vertices = [(-w, -h), (w, -h), (w, h), (-w, h)]
-        self.vertices = [] if vertices is None else vertices
-
-    @property
-    def vertices(self) -> list[tuple[float, float]]:
-        return self._vertices
-
-    @vertices.setter
-    def vertices(self, value: Any) -> None:
-        self._vertices = [(float(x), float(y)) for x, y in value]
-
-    def _copy(self) -> "b2PolygonShape":
-        return type(self)(vertices=self.vertices)
-
-    def _describe(self) -> dict[str, Any]:
-        return _describe.polygon(self.vertices)
-
-
-class b2EdgeShape(b2PolygonShape):
-    """A line between two vertices."""
-
-    def _describe(self) -> dict[str, Any]:
-        return _describe.segment(*self.vertices)
-
-
-class b2CircleShape:
-    """A disk."""
-
-    def __init__(self, radius: float = 0.0, pos: Any = (0.0, 0.0)) -> None:
-        self.radius, self.pos = float(radius), b2Vec2(pos)
-
-    def _copy(self) -> "b2CircleShape":
-        return b2CircleShape(self.radius, self.pos)
-
-    def _describe(self) -> dict[str, Any]:
-        return {**_describe.circle(self.radius), "offset": list(self.pos)}
-
-
-class b2Filter:
-    """Category and mask bits, and a group."""
-
-    def __init__(self, categoryBits: int = 1, maskBits: int = 0xFFFF, groupIndex: int = 0) -> None:
-        self.categoryBits, self.maskBits, self.groupIndex = categoryBits, maskBits, groupIndex
-
-
-class b2FixtureDef:
-    """A shape with density, friction, restitution and filter."""
-
-    def __init__(
-        self,
-        shape: Any = None,
-        density: float = 0.0,
-        friction: float = 0.2,
-        restitution: float = 0.0,
-        isSensor: bool = False,
-        categoryBits: int = 1,
-        maskBits: int = 0xFFFF,
-        groupIndex: int = 0,
-        userData: Any = None,
-        **more: Any,
-    ) -> None:
-        if more:
-            raise TypeError(f"there is no field {next(iter(more))!r} of a fixture here")
-        self.shape, self.density, self.friction = shape, density, friction
-        self.restitution, self.isSensor, self.userData = restitution, isSensor, userData
-        self.filter = b2Filter(categoryBits, maskBits, groupIndex)
-
-    def _describe(self) -> dict[str, Any]:
-        bits = self.filter
-        return {
-            **self.shape._describe(),
-            "material": {
-                "density": float(self.density),
-                "friction": float(self.friction),
-                "restitution": float(self.restitution),
-            },
-            "filter": {
-                "category": bits.categoryBits,
-                "mask": bits.maskBits,
-                "group": bits.groupIndex,
-            },
-            "sensor": bool(self.isSensor),
-            "contact_events": True,
-        }
-
-
+@lacks("massData", "next", "type")
 class b2Fixture:
-    """A shape of a body."""
+    """A shape of a body. Attributes of your own may be set on it."""
 
     def __init__(self, body: "b2Body", inner: _native.Shape, definition: b2FixtureDef) -> None:
         self.body, self._inner = body, inner
-        self.shape = definition.shape._copy()
-        self.density, self.friction = definition.density, definition.friction
-        self.restitution, self.userData = definition.restitution, definition.userData
-        bits = definition.filter
-        self.filterData = b2Filter(bits.categoryBits, bits.maskBits, bits.groupIndex)
+        self.shape, self.userData = definition.shape._copy(), definition.userData
+
+    sensor = through("sensor", bool, "Does it only sense?")
+    isSensor = sensor
+    density = field("material", "density", float, "The mass of its body follows at once.")
+    friction = field("material", "friction", float, "Of its contacts, too, that there are.")
+    restitution = field("material", "restitution", float, "Of its contacts, too, that there are.")
 
     @property
-    def sensor(self) -> bool:
-        return self._inner.sensor
+    def filterData(self) -> b2Filter:
+        """Its filter; what is set on that acts from the next step on."""
+        return FixtureFilter(self._inner)
 
-    @sensor.setter
-    def sensor(self, value: bool) -> None:
-        self._inner.sensor = bool(value)
-
-    isSensor = sensor
+    @filterData.setter
+    def filterData(self, value: b2Filter) -> None:
+        self._inner.filter = value._describe()
 
 
+@lacks("contacts", "joints", "localCenter", "massData", "next")
 class b2Body:
     """A body. Attributes of your own may be set on it."""
 
@@ -225,7 +93,7 @@ class b2Body:
 
     @property
     def angle(self) -> float:
-        """Radians; it goes on counting turns as long as it is read or stepped at least once a half turn."""
+        """Radians; it counts turns, of less than a half in a step."""
         off = (self._inner.angle - self._turns + math.pi) % math.tau - math.pi
         self._turns += off
         return self._turns
@@ -269,13 +137,48 @@ class b2Body:
         x, y = self._from_center((0.0, 0.0))
         return self._inner.inertia + self._inner.mass * (x * x + y * y)
 
-    @property
-    def awake(self) -> bool:
-        return self._inner.awake
+    awake = through("awake", bool, "Is it awake?")
+    active = through("enabled", bool, "Does it take part?")
+    bullet = through("bullet", bool, "Kept and given back; it changes nothing.")
+    gravityScale = through("gravity_scale", float, "Factor on the world's gravity.")
+    sleepingAllowed = through("can_sleep", bool, "May it fall asleep?")
 
-    @awake.setter
-    def awake(self, value: bool) -> None:
-        self._inner.awake = value
+    @property
+    def fixedRotation(self) -> bool:
+        """Is it kept from turning? It stops turning when that is set."""
+        return self._inner.locks["rotation"]
+
+    @fixedRotation.setter
+    def fixedRotation(self, value: bool) -> None:
+        self._inner.locks = {**self._inner.locks, "rotation": bool(value)}
+        if value:
+            self._inner.angular_velocity = 0.0
+
+    @property
+    def linearDamping(self) -> float:
+        return self._inner.damping[0]
+
+    @linearDamping.setter
+    def linearDamping(self, value: float) -> None:
+        self._inner.damping = (value, self._inner.damping[1])
+
+    @property
+    def angularDamping(self) -> float:
+        return self._inner.damping[1]
+
+    @angularDamping.setter
+    def angularDamping(self, value: float) -> None:
+        self._inner.damping = (self._inner.damping[0], value)
+
+    @property
+    def type(self) -> int:
+        """`b2_staticBody`, `b2_kinematicBody` or `b2_dynamicBody`."""
+        return _KINDS.index(self._inner.kind)
+
+    @type.setter
+    def type(self, value: int) -> None:
+        self._inner.kind = _KINDS[value]
+        self.world._note_type(self)
 
     @property
     def transform(self) -> b2Transform:
@@ -325,6 +228,11 @@ class b2Body:
 class b2RevoluteJointDef:
     """A hinge: anchors in the bodies' frames, limits and motor."""
 
+    __slots__ = (
+        *("bodyA", "bodyB", "localAnchorA", "localAnchorB", "referenceAngle", "collideConnected"),
+        *("enableMotor", "maxMotorTorque", "motorSpeed", "enableLimit", "lowerAngle", "upperAngle"),
+    )
+
     def __init__(
         self,
         bodyA: b2Body,
@@ -358,14 +266,16 @@ class b2RevoluteJointDef:
         )
 
 
+@lacks("active", "anchorA", "anchorB", "next", "type")
 class b2RevoluteJoint:
-    """A hinge of a world."""
+    """A hinge of a world. Attributes of your own may be set on it."""
 
     def __init__(self, inner: _native.Joint, definition: b2RevoluteJointDef) -> None:
         self._inner = inner
         self.bodyA, self.bodyB = definition.bodyA, definition.bodyB
         self._reference = definition.referenceAngle
-        self._limits = (definition.lowerAngle, definition.upperAngle) if definition.enableLimit else None
+        self._limited, self._driven = bool(definition.enableLimit), bool(definition.enableMotor)
+        self._limits = (float(definition.lowerAngle), float(definition.upperAngle))
         self._motor = (float(definition.motorSpeed), float(definition.maxMotorTorque))
         self._anchors = [
             body._from_center(anchor)
@@ -380,7 +290,7 @@ class b2RevoluteJoint:
         more. Was it right before?"""
         a, b = places[self.bodyA], places[self.bodyB]
         turn = 0.0
-        if self._limits is not None:
+        if self._limited:
             angle, (lower, upper) = b.angle - a.angle - self._reference, self._limits
             turn = min(0.0, angle - lower + _LOOSE_ANGLE) + max(0.0, angle - upper - _LOOSE_ANGLE)
             inverse = a.inv_inertia + b.inv_inertia
@@ -402,11 +312,23 @@ class b2RevoluteJoint:
 
     @property
     def angle(self) -> float:
-        return self._inner.angle - self._reference
+        """Radians; it counts turns, as those of the bodies do."""
+        return self.bodyB.angle - self.bodyA.angle - self._reference
 
     @property
     def speed(self) -> float:
         return self._inner.speed
+
+    @property
+    def motorEnabled(self) -> bool:
+        """Does the motor drive it?"""
+        return self._driven
+
+    @motorEnabled.setter
+    def motorEnabled(self, value: bool) -> None:
+        if bool(value) != self._driven:
+            self._renew(motor=_motor(self._motor) if value else None)
+            self._driven = bool(value)
 
     @property
     def motorSpeed(self) -> float:
@@ -426,8 +348,60 @@ class b2RevoluteJoint:
 
     def _drive(self, speed: float, torque: float) -> None:
         if (speed, torque) != self._motor:
+            if self._driven:
+                self._inner.set_motor(speed, torque)
             self._motor = (speed, torque)
-            self._inner.set_motor(speed, torque)
+
+    @property
+    def limitEnabled(self) -> bool:
+        """Do the limits hold?"""
+        return self._limited
+
+    @limitEnabled.setter
+    def limitEnabled(self, value: bool) -> None:
+        self._limit(bool(value), self._limits)
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Least and greatest angle, radians."""
+        return self._limits
+
+    @limits.setter
+    def limits(self, value: Any) -> None:
+        lower, upper = value
+        self._limit(self._limited, (float(lower), float(upper)))
+
+    @property
+    def lowerLimit(self) -> float:
+        return self._limits[0]
+
+    @lowerLimit.setter
+    def lowerLimit(self, value: float) -> None:
+        self.limits = (value, self._limits[1])
+
+    @property
+    def upperLimit(self) -> float:
+        return self._limits[1]
+
+    @upperLimit.setter
+    def upperLimit(self, value: float) -> None:
+        self.limits = (self._limits[0], value)
+
+    def _limit(self, limited: bool, limits: tuple[float, float]) -> None:
+        if (limited, limits) != (self._limited, self._limits):
+            if limited or self._limited:
+                self._renew(limits={"lower": limits[0], "upper": limits[1]} if limited else None)
+            self._limited, self._limits = limited, limits
+
+    def _renew(self, **fields: Any) -> None:
+        """Changes fields of its kind; the engine refuses those that make no sense."""
+        description = self._inner.description
+        kind = {**description["kind"]["revolute"], **fields}
+        self._inner.description = {**description, "kind": {"revolute": kind}}
+
+
+def _motor(motor: tuple[float, float]) -> dict[str, float]:
+    return {"speed": motor[0], "max": motor[1]}
 
 
 class b2Contact:
@@ -484,18 +458,23 @@ class b2RayCastCallback:
         raise NotImplementedError
 
 
+@lacks("autoClearForces", "contactFilter", "contactManager", "contacts", "continuousPhysics")
+@lacks("destructionListener", "renderer", "subStepping", "warmStarting")
 class b2World:
-    """A world of bodies."""
+    """A world of bodies. The larger of two restitutions counts, as in Box2D."""
 
     def __init__(
         self, gravity: Any = (0.0, -10.0), doSleep: bool = True, contactListener: Any = None
     ) -> None:
-        self._inner = _native.World(gravity, {"sleep": bool(doSleep), "substeps": _SUBSTEPS})
+        settings = {"sleep": bool(doSleep), "substeps": _SUBSTEPS, "restitution_mix": "max"}
+        self._inner = _native.World(gravity, settings)
         self._fixtures: dict[_native.Shape, b2Fixture] = {}
         self._iterations = 1
         self._forces: list[tuple[Any, tuple[Any, ...]]] = []
         self._fresh: list[b2RevoluteJoint] = []
-        self._touching: set[tuple[_native.Shape, _native.Shape]] = set()
+        # Pairs of shapes of which BeginContact was told last; in the order in which they came.
+        self._touching: dict[tuple[_native.Shape, _native.Shape], None] = {}
+        self._moving: dict[b2Body, None] = {}
         self.contactListener = contactListener
         self.bodies: list[b2Body] = []
         self.joints: list[b2RevoluteJoint] = []
@@ -517,6 +496,11 @@ class b2World:
             "linear_damping": float(fields.pop("linearDamping", 0.0)),
             "angular_damping": float(fields.pop("angularDamping", 0.0)),
             "bullet": bool(fields.pop("bullet", False)),
+            "gravity_scale": float(fields.pop("gravityScale", 1.0)),
+            "locks": {"rotation": bool(fields.pop("fixedRotation", False))},
+            "can_sleep": bool(fields.pop("allowSleep", True)),
+            "awake": bool(fields.pop("awake", True)),
+            "enabled": bool(fields.pop("active", True)),
         }
         data = fields.pop("userData", None)
         if fields:
@@ -524,6 +508,7 @@ class b2World:
         body = b2Body(self, self._inner.add_body(kind=kind, **place))
         body.userData = data
         self.bodies.append(body)
+        self._note_type(body)
         for definition in _list(fixtures):
             body.CreateFixture(definition)
         for shape in _list(shapes):
@@ -539,15 +524,31 @@ class b2World:
     def CreateKinematicBody(self, fixtures: Any = None, shapes: Any = None, **fields: Any) -> b2Body:
         return self._create("kinematic", fixtures, shapes, fields)
 
+    def _note_type(self, body: b2Body) -> None:
+        """Keeps the list of bodies whose turns are counted."""
+        self._moving.pop(body, None)
+        if body.type != b2_staticBody:
+            self._moving[body] = None
+
     def DestroyBody(self, body: b2Body) -> None:
-        for fixture in body.fixtures:
-            self._fixtures.pop(fixture._inner, None)
+        """Removes a body with its joints; what it touched is told, while it is still there."""
         gone = [joint for joint in self.joints if body in (joint.bodyA, joint.bodyB)]
         self.joints = [joint for joint in self.joints if joint not in gone]
         self._fresh = [joint for joint in self._fresh if joint not in gone]
         self._forces = [(call, args) for call, args in self._forces if call.__self__ != body._inner]
+        self._part({fixture._inner for fixture in body.fixtures})
+        for fixture in body.fixtures:
+            self._fixtures.pop(fixture._inner, None)
+        self._moving.pop(body, None)
         self.bodies.remove(body)
         body._inner.remove()
+
+    def _part(self, shapes: set[_native.Shape]) -> None:
+        """Tells that nothing touches these shapes any more."""
+        ended = [pair for pair in self._touching if not shapes.isdisjoint(pair)]
+        for pair in ended:
+            del self._touching[pair]
+        self._tell(ended, [])
 
     def CreateJoint(self, definition: b2RevoluteJointDef) -> b2RevoluteJoint:
         a, b = definition.bodyA._inner, definition.bodyB._inner
@@ -576,6 +577,8 @@ class b2World:
             call(*args)
         self._forces.clear()
         self._inner.step(float(timeStep))
+        for body in self._moving:
+            body.angle  # Counts its turns.
         self._tell(*self._changes())
 
     def _settle(self) -> None:
@@ -597,33 +600,36 @@ class b2World:
 
     def _changes(self) -> tuple[list[Any], list[Any]]:
         """Pairs of shapes that no longer touch, and that began to, in the last step."""
-        events = self._inner.events()
-        gone = [pair for pair in events["contact_end"] if pair in self._touching]
-        self._touching.difference_update(gone)
-        ended, begun = gone + events["sensor_end"], list(events["sensor_begin"])
+        events, touching = self._inner.events(), self._touching
+        ended = [pair for pair in events["contact_end"] + events["sensor_end"] if pair in touching]
+        begun = list(events["sensor_begin"])
+        for pair in ended:
+            del touching[pair]
         # Events of contacts tell of what is about to touch, too, up to 2 cm away.
         for contact in self._inner.contacts():
             pair = contact["shapes"]
             touches = any(gap <= 0 or push > 0 for _, gap, push, _ in contact["points"])
-            if touches and pair not in self._touching:
-                self._touching.add(pair)
+            if touches and pair not in touching:
                 begun.append(pair)
-            elif not touches and pair in self._touching:
-                self._touching.remove(pair)
+            elif not touches and pair in touching:
+                del touching[pair]
                 ended.append(pair)
         return ended, begun
 
     def _tell(self, ended: list[Any], begun: list[Any]) -> None:
-        if self.contactListener is None:
-            return
-        for pairs, call in (
-            (ended, self.contactListener.EndContact),
-            (begun, self.contactListener.BeginContact),
-        ):
-            for pair in pairs:
-                fixtures = [self._fixtures.get(shape) for shape in pair]
-                if None not in fixtures:
-                    call(b2Contact(*fixtures))  # type: ignore[arg-type]
+        for pair in ended:
+            self._call("EndContact", pair)
+        for pair in begun:
+            self._touching[pair] = None
+            self._call("BeginContact", pair)
+
+    def _call(self, name: str, pair: tuple[_native.Shape, _native.Shape]) -> None:
+        """Tells the listener of a pair; one that has lost a body meanwhile is passed over."""
+        fixtures = [self._fixtures.get(shape) for shape in pair]
+        if None in fixtures:
+            self._touching.pop(pair, None)
+        elif self.contactListener is not None:
+            getattr(self.contactListener, name)(b2Contact(*fixtures))  # type: ignore[arg-type]
 
     def RayCast(self, callback: b2RayCastCallback, point1: Any, point2: Any) -> None:
         way = (point2[0] - point1[0], point2[1] - point1[1])
@@ -671,6 +677,9 @@ def install() -> None:
     if loaded is not None and getattr(loaded, "b2World", None) is not b2World:
         raise RuntimeError("Box2D is imported already: call tiny_physics.box2d.install() before")
     module, short = types.ModuleType("Box2D"), types.ModuleType("Box2D.b2")
+    for number, name in enumerate(_KINDS):
+        setattr(short, f"{name}Body", number)
+        setattr(module, f"b2_{name}Body", number)
     for name, value in _SHORT.items():
         setattr(short, name, value)
         setattr(module, value.__name__, value)

@@ -10,7 +10,8 @@
 
 Environments ``LunarLander-v0``, ``LunarLanderContinuous-v0``, ``BipedalWalker-v0``, ``BipedalWalkerHardcore-v0``,
 ``Driving-v0``, ``Stacking-v0`` and ``Ragdoll-v0``, each under ``tiny_physics/``. The rules run in Rust; a step of a vector
-environment is one call for all worlds. World i of a vector environment that is reset with seed s does what a
+environment is one call for all worlds. An episode has at most the steps of its task: ``max_episode_steps`` of
+``gymnasium.make`` can make it shorter, not longer, and that of ``gymnasium.make_vec`` can be no other number. World i of a vector environment that is reset with seed s does what a
 single one does that is reset with seed s + i.
 """
 
@@ -222,7 +223,10 @@ class TaskVectorEnv(VectorEnv):
         seed: int | list[int | None] | None = None,
         options: dict[str, Any] | None = None,
     ) -> tuple[np.ndarray, dict[str, Any]]:
-        """Begins episodes: everywhere, or where options["reset_mask"] (bool, shape (num_envs,)) says so."""
+        """Begins episodes: everywhere, or where options["reset_mask"] (bool, shape (num_envs,)) says so.
+
+        Seeds are for all worlds, also those that the mask leaves out: their next episodes draw from them. None in a list
+        of seeds stands for a fresh one. Without `seed` every world goes on with its own random numbers."""
         self._seed(seed)
         mask = None if options is None else options.get("reset_mask")
         self.batch.reset(None if mask is None else np.asarray(mask, dtype=bool).tolist())

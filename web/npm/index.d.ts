@@ -40,8 +40,10 @@ export type BodyKind = "static" | "kinematic" | "dynamic";
 /** The geometry of a shape, in its own frame, metres. */
 export type Shape =
   | { circle: { radius: number } }
-  /** A box that turns. */
-  | { rect: { half_extents: Vec; radius?: number } }
+  /** A box that turns; read back as a polygon. */
+  | { rect: { half_extents: Vec; center?: Vec; angle?: number; radius?: number } }
+  /** A polygon of `count` (3 to 8) equal sides, `size` from its middle to a corner; read back as a polygon. */
+  | { regular: { count: number; size: number; radius?: number } }
   /** A box that never turns: its body cannot rotate. */
   | { aabb: { half_extents: Vec } }
   | { capsule: { a: Vec; b: Vec; radius: number } }
@@ -61,6 +63,10 @@ export interface Material {
   rolling_resistance?: number;
   /** A conveyor belt: speed of the surface along itself, metres a second. */
   tangent_speed?: number;
+  /** How its friction mixes with that of others, instead of {@link Settings.friction_mix}. */
+  friction_mix?: Mix | null;
+  /** How its restitution mixes with that of others, instead of {@link Settings.restitution_mix}; a trampoline takes `"max"`. */
+  restitution_mix?: Mix | null;
 }
 
 /** Two shapes collide where each one's mask has the other's category; the same positive group always, a negative never. */
@@ -81,8 +87,12 @@ export interface ShapeDef {
   filter?: Filter;
   /** Sees what overlaps it and collides with nothing. */
   sensor?: boolean;
+  /** Does this sensor see other sensors too? */
+  sees_sensors?: boolean;
   /** One-way platform: the direction out of its solid side, in the body's frame. */
   one_way?: Vec | null;
+  /** A segment of a chain: start of the segment before it and end of the one after it. {@link World.addChain} sets it. */
+  link?: { previous?: Vec | null; next?: Vec | null } | null;
   /** Are contact begin and end events sent? */
   contact_events?: boolean;
   /** Are hit events (fast approach) sent? */
@@ -106,6 +116,10 @@ export interface BodyDef {
   locks?: { x?: boolean; y?: boolean; rotation?: boolean };
   /** Kilograms; from the densities of the shapes where not said. */
   mass?: number | null;
+  /** Centre of mass in the body's frame, metres; from the shapes where not said. */
+  center?: Vec | null;
+  /** Moment of inertia about the centre of mass, kilogram square metres; from the shapes and the mass where not said. */
+  inertia?: number | null;
   can_sleep?: boolean;
   awake?: boolean;
   sleep_speed?: number;
@@ -159,6 +173,8 @@ export interface JointDef {
   /** Anchor in the frame of body A, metres. */
   anchor_a?: Vec;
   anchor_b?: Vec;
+  /** Anchors on A and B in the world, metres, instead of those in the bodies' frames; read back as those. */
+  anchors_at?: readonly [Vec, Vec] | null;
   /** Angle of the joint's frame in that of body A, radians. */
   angle_a?: number;
   angle_b?: number;
@@ -167,6 +183,8 @@ export interface JointDef {
   softness?: Spring | null;
   /** Breaks beyond this, newtons and newton metres. */
   break_at?: { force: number; torque: number } | null;
+  /** One that is not enabled is kept and does nothing; true where not said. */
+  enabled?: boolean;
   user_data?: number;
 }
 
@@ -201,6 +219,8 @@ export interface Scene {
   settings?: Partial<Settings>;
   steps?: number;
   dt?: number;
+  /** What a picture shows: lower left and upper right, metres. */
+  view?: readonly [Vec, Vec];
   bodies?: readonly BodyDef[];
   joints?: readonly (JointDef & { a: number; b: number })[];
   script?: unknown;
@@ -211,6 +231,108 @@ export interface QueryFilter extends Filter {
   sensors?: boolean;
   excludeBody?: BodyId;
 }
+
+/** Where something is in the world: its origin, metres, and cosine and sine of its angle. */
+export interface Pose {
+  p: Vec;
+  q: { c: number; s: number };
+}
+
+/** Everything below a surface, or what of that lies in an area. */
+export interface Water {
+  /** A point of the surface: world, metres. */
+  surface: Vec;
+  /** Direction out of the water; up where not said. */
+  normal?: Vec;
+  /** Kilograms a square metre, 1000 where not said: what is lighter floats. */
+  density?: number;
+  /** Velocity of the water, metres a second. */
+  flow?: Vec;
+  /** How fast a body takes on the flow, and stops turning, 1/s. */
+  linear_drag?: number;
+  angular_drag?: number;
+  /** Only shapes that overlap this box (world, metres) are in the water. */
+  area?: { min: Vec; max: Vec } | null;
+}
+
+/** What a zone does to the bodies in it. */
+export type ZoneForce =
+  /** Metres a second squared: gravity of its own. */
+  | { acceleration: Vec }
+  /** Towards a point of the world, away from it where negative, metres a second squared. */
+  | { attraction: { center: Vec; acceleration: number } }
+  /** Metres a second; kilograms a square metre (1.2 where not said); about 1 for blunt shapes. */
+  | { wind: { velocity?: Vec; density?: number; drag?: number } }
+  /** Slows motion and turning, 1/s. */
+  | { damping: { linear: number; angular: number } };
+
+/** An area in which a force acts on every body that overlaps it. */
+export interface Zone {
+  shape: Shape;
+  pose: Pose;
+  force: ZoneForce;
+  /** Does it wake sleeping bodies? Otherwise it leaves them alone. */
+  wakes: boolean;
+}
+
+/** What a character stands on. */
+export interface CharacterGround {
+  body: BodyId;
+  shape: ShapeId;
+  /** Unit, world. */
+  normal: Vec;
+  /** The place under the foot: world, metres. */
+  point: Vec;
+}
+
+/** What stopped a character on its way. */
+export interface CharacterHit {
+  body: BodyId;
+  shape: ShapeId;
+  /** World, metres. */
+  point: Vec;
+  /** Unit, out of what was hit. */
+  normal: Vec;
+}
+
+/**
+ * A capsule that walks, climbs slopes and steps, jumps, rides on platforms and pushes things; {@link character} makes one. It
+ * is a value beside the world and no body: keep what {@link World.moveCharacter} gives, which has more in it than is said
+ * here.
+ */
+export interface Character {
+  /** The middle of the capsule: world, metres. Set it to teleport. */
+  position: Vec;
+  /** Metres a second. */
+  velocity: Vec;
+  /** Of the whole capsule, metres. */
+  height: number;
+  radius: number;
+  /** Steepest slope that it walks on, radians from level; 0.9 at first. */
+  max_slope: number;
+  /** Highest step that it climbs, metres; 0.35 at first. */
+  step_height: number;
+  /** Greatest drop over which it stays on the ground at a standstill, metres; 0.1 at first. */
+  snap_distance: number;
+  /** Greatest force with which it pushes dynamic bodies, newtons; 500 at first. */
+  push_force: number;
+  /** Mass with which it weighs on what it stands on, kilograms; 70 at first. */
+  mass: number;
+  gravity_scale: number;
+  /** Gap that it keeps to everything, metres; 0.01 at first. */
+  skin: number;
+  /** What it collides with. */
+  filter: Filter;
+  /** A body of its own, which it takes along and does not collide with: for what is to notice it. */
+  body?: BodyId | null;
+  /** What it stands on; `null` in the air. */
+  ground?: CharacterGround | null;
+  /** What stopped it in the last update. */
+  hits?: readonly CharacterHit[];
+}
+
+/** A character with its middle at a place; all metres. */
+export declare function character(x: number, y: number, height: number, radius: number): Character;
 
 export interface CastHit {
   shape: ShapeId;
@@ -335,16 +457,17 @@ export declare class World {
   addTiles(grid: Record<string, unknown>): TileGridId;
   setTile(grid: TileGridId, x: number, y: number, value: number): void;
   removeTiles(grid: TileGridId): void;
-  explode(explosion: { center: Vec; radius: number; falloff: number; impulse_per_metre: number }): void;
+  /** Impulses away from a point, on what the filter shows. */
+  explode(explosion: { center: Vec; radius: number; falloff: number; impulse_per_metre: number }, filter?: QueryFilter): void;
   /** Call it before every step in which the water is there. */
-  applyWater(
-    water: { surface: Vec; normal?: Vec; density?: number; flow?: Vec; linear_drag?: number; angular_drag?: number },
-    dt?: number,
-  ): void;
+  applyWater(water: Water, dt?: number, filter?: QueryFilter): void;
   /** Call it before every step in which the force acts. */
-  applyZone(zone: { shape: Shape; pose: unknown; force: unknown; wakes: boolean }, dt?: number): void;
-  /** Moves a character on; call it after a step and keep what it gives. */
-  moveCharacter<T extends object>(character: T, input: { walk?: number; jump?: number; drop?: boolean }, dt?: number): T;
+  applyZone(zone: Zone, dt?: number, filter?: QueryFilter): void;
+  /**
+   * Moves a character on; call it after a step and keep what it gives. `walk` and `jump` are metres a second; `drop` lets it
+   * fall through the one-way platforms that it stands on.
+   */
+  moveCharacter(character: Character, input: { walk?: number; jump?: number; drop?: boolean }, dt?: number): Character;
   /** Any command of a recording, as JSON; the handles of what it made. */
   apply(command: Record<string, unknown>): number[];
 
@@ -387,9 +510,12 @@ export declare class World {
 
   /** Hash of the whole state, 16 hexadecimal digits: the same on every platform. */
   hash(): string;
-  /** The whole world as bytes. */
+  /** The whole world as bytes; without the script of the scene that it was loaded from. */
   save(): Uint8Array;
-  /** Goes back to a frame of {@link World.save} in place. */
+  /**
+   * Goes back to a frame of {@link World.save} in place. A script is not in a frame: it goes on from where it is.
+   * {@link World.clone} and {@link World.goTo} take it along.
+   */
   restore(frame: Uint8Array): void;
   /** What differs from an earlier frame: 80 to 250 bytes a moving body. */
   deltaFrom(frame: Uint8Array): Uint8Array;
@@ -411,7 +537,10 @@ export declare class World {
   validate(): void;
 }
 
-/** A body of a world. Reading a body that has been removed throws. */
+/**
+ * A body of a world. Reading a body that has been removed throws. So does a method that is given fewer numbers than it takes,
+ * something else, or a number that is not finite or too large.
+ */
 export declare class Body {
   readonly world: World;
   readonly id: BodyId;

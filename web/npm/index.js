@@ -78,16 +78,19 @@ function writable(name, value) {
   return value;
 }
 
+/** A filter as the module takes it. */
+function sees({ category, mask, group, sensors, excludeBody } = {}) {
+  const kinds = Object.entries({ category, mask, group }).filter(([, value]) => value !== undefined);
+  const seen = { sensors: !!sensors };
+  if (kinds.length) seen.filter = { category: ALL, mask: ALL, ...Object.fromEntries(kinds) };
+  if (excludeBody !== undefined) seen.exclude_body = parts(excludeBody);
+  return seen;
+}
+
 /** A question without anything unusual in it is nothing at all. */
 function giveQuestion(filter, shape, angle = 0) {
   const question = {};
-  if (filter) {
-    const { category, mask, group, sensors, excludeBody } = filter;
-    const kinds = Object.entries({ category, mask, group }).filter(([, value]) => value !== undefined);
-    question.filter = { sensors: !!sensors };
-    if (kinds.length) question.filter.filter = { category: ALL, mask: ALL, ...Object.fromEntries(kinds) };
-    if (excludeBody !== undefined) question.filter.exclude_body = parts(excludeBody);
-  }
+  if (filter) question.filter = sees(filter);
   if (shape) Object.assign(question, { shape, angle });
   const text = write(question);
   giveText(text === "{}" ? "" : text);
@@ -106,8 +109,18 @@ function check(done) {
 
 const point = (x, y) => ({ x, y });
 
-/** The parts of a handle. */
+/** The parts of a handle, and the handle of them. */
 const parts = (id) => ({ index: id % 2 ** 24, generation: Math.floor(id / 2 ** 24) });
+const whole = ({ index, generation }) => generation * 2 ** 24 + index;
+
+/** What a method takes: so many numbers. */
+function takes(name, count, given) {
+  const numbers = given.slice(0, count);
+  if (numbers.length === count && numbers.every(Number.isFinite)) return;
+  const wrong = numbers.find((value) => typeof value === "number" && !Number.isFinite(value));
+  const words = `${name} takes ${count} number${count === 1 ? "" : "s"}`;
+  throw new PhysicsError(wrong === undefined ? words : `${words}, all of them finite: ${wrong} is not`);
+}
 
 const forgotten = new FinalizationRegistry((session) => wasm.tp_free(session));
 const own = Symbol("made here");
@@ -299,21 +312,22 @@ export class World {
     this.apply({ remove_tiles: parts(grid) });
   }
 
-  explode(explosion, filter = {}) {
-    this.apply({ explode: [explosion, filter] });
+  explode(explosion, filter) {
+    this.apply({ explode: [explosion, sees(filter)] });
   }
 
-  applyWater(water, dt = this.dt, filter = {}) {
-    this.apply({ apply_water: [water, filter, dt] });
+  applyWater(water, dt = this.dt, filter) {
+    this.apply({ apply_water: [water, sees(filter), dt] });
   }
 
-  applyZone(zone, dt = this.dt, filter = {}) {
-    this.apply({ apply_zone: [zone, filter, dt] });
+  applyZone(zone, dt = this.dt, filter) {
+    this.apply({ apply_zone: [zone, sees(filter), dt] });
   }
 
   moveCharacter(character, input, dt = this.dt) {
-    this.apply({ move_character: [character, input, dt] });
-    return JSON.parse(text());
+    const now = { drift: 0, dropping: false, previous: character.position, ...character };
+    this.apply({ move_character: [withHandles(now, parts), input, dt] });
+    return withHandles(read(text()), whole);
   }
 
   // What there is.
@@ -477,6 +491,24 @@ export class World {
   }
 }
 
+/** A character that stands nowhere yet. */
+export function character(x, y, height, radius) {
+  takes("character", 4, [x, y, height, radius]);
+  if (!engine().tp_character(x, y, height, radius)) throw new PhysicsError(text());
+  return withHandles(read(text()), whole);
+}
+
+/** A character with the handles of bodies and shapes in it given by `change`. */
+function withHandles(character, change) {
+  const changed = (thing) => {
+    if (!thing) return thing;
+    const own = ["body", "shape"].filter((name) => thing[name] != null).map((name) => [name, change(thing[name])]);
+    return { ...thing, ...Object.fromEntries(own) };
+  };
+  const { ground, hits = [], pushed } = character;
+  return { ...changed(character), ground: changed(ground), hits: hits.map(changed), pushed: changed(pushed) };
+}
+
 function hits() {
   const rows = numbers();
   const found = [];
@@ -487,33 +519,33 @@ function hits() {
   return found;
 }
 
-/** Numbers of the module's commands to a body. */
-const COMMANDS = [
-  "setPosition",
-  "setAngle",
-  "setPose",
-  "setVelocity",
-  "setAngularVelocity",
-  "setTarget",
-  "applyForce",
-  "applyForceToCenter",
-  "applyTorque",
-  "applyImpulse",
-  "applyImpulseToCenter",
-  "applyAngularImpulse",
-  "wake",
-  "sleep",
-  "setKind",
-  "setEnabled",
-  "setLocks",
-  "setMass",
-  "setGravityScale",
-  "setDamping",
-  "setCanSleep",
-  "setSleepSpeed",
-  "setBullet",
-  "setUserData",
-];
+/** The module's commands to a body, in the order of their numbers, and how many numbers each takes. */
+const COMMANDS = {
+  setPosition: 2,
+  setAngle: 1,
+  setPose: 3,
+  setVelocity: 2,
+  setAngularVelocity: 1,
+  setTarget: 4,
+  applyForce: 4,
+  applyForceToCenter: 2,
+  applyTorque: 1,
+  applyImpulse: 4,
+  applyImpulseToCenter: 2,
+  applyAngularImpulse: 1,
+  wake: 0,
+  sleep: 0,
+  setKind: 1,
+  setEnabled: 1,
+  setLocks: 3,
+  setMass: 1,
+  setGravityScale: 1,
+  setDamping: 2,
+  setCanSleep: 1,
+  setSleepSpeed: 1,
+  setBullet: 1,
+  setUserData: 1,
+};
 
 export class Body {
   constructor(world, id) {
@@ -628,10 +660,12 @@ const NUMBERS = {
   setMass: (mass) => [mass ?? 0],
 };
 
-COMMANDS.forEach((name, which) => {
+Object.entries(COMMANDS).forEach(([name, count], which) => {
   const numbersOf = NUMBERS[name] ?? ((...all) => all);
   Body.prototype[name] = function (...all) {
-    const [a = 0, b = 0, c = 0, d = 0] = numbersOf(...all);
+    const given = numbersOf(...all);
+    takes(name, count, given);
+    const [a = 0, b = 0, c = 0, d = 0] = given;
     check(wasm.tp_body_command(this.world.session, this.id, which, a, b, c, d));
     return this;
   };

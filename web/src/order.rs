@@ -2,10 +2,11 @@
 
 use crate::handles::Handle;
 use crate::outcome::Outcome;
+use crate::session::Session;
 use crate::shelf::Shelf;
-use crate::with;
+use crate::{with, with_shelf};
 use tiny_physics::record::{BodyCommand, Command, Made};
-use tiny_physics::{BodyId, BodyKind, DVec2, Locks, Pose, Rot, Vec2};
+use tiny_physics::{BodyId, BodyKind, CharacterMover, DVec2, Locks, Pose, Rot, Vec2};
 
 /// Does the command in the input, written as JSON. The numbers are the handles of what it made; a character is text.
 #[unsafe(no_mangle)]
@@ -13,6 +14,15 @@ pub extern "C" fn tp_apply(session: u32) -> bool {
     with(session, |session, shelf| {
         let made = session.apply(shelf.read()?)?;
         answer(&made, shelf)
+    })
+}
+
+/// A new character as text: where its middle is, its height and radius.
+#[unsafe(no_mangle)]
+pub extern "C" fn tp_character(x: f64, y: f64, height: f32, radius: f32) -> bool {
+    with_shelf(|shelf| {
+        let character = CharacterMover::new(DVec2::new(x, y), height, radius);
+        answer(&Made::Character(character), shelf).is_ok()
     })
 }
 
@@ -32,7 +42,8 @@ fn answer(made: &Made, shelf: &mut Shelf) -> Outcome {
     Ok(())
 }
 
-/// Does something to a body: which of [`body_command`]'s, and up to four numbers.
+/// Does something to a body: which of [`body_command`]'s, and up to four numbers. What the engine would pass over in
+/// silence is an error here.
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_body_command(
     session: u32,
@@ -45,7 +56,10 @@ pub extern "C" fn tp_body_command(
 ) -> bool {
     with(session, |session, _| {
         let command = body_command(which, [a, b, c, d]).ok_or("there is no such command")?;
-        session.apply(Command::Body(BodyId::of(body), command)).map(drop)
+        let refused = |session: &Session| session.world().stats().refused_numbers;
+        let before = refused(session);
+        session.apply(Command::Body(BodyId::of(body), command))?;
+        if refused(session) == before { Ok(()) } else { Err("a number is too large".to_owned()) }
     })
 }
 

@@ -25,7 +25,7 @@ JS
 [ "$(node first.js)" = 1.50 ] && echo "ok      Node"
 
 cat > types.ts <<'TS'
-import { init, World, FixedStep, PhysicsError, type BodyDef, type BodyId } from "tiny-physics";
+import { character, init, World, FixedStep, PhysicsError, type BodyDef, type BodyId, type Character, type Scene } from "tiny-physics";
 await init();
 const crate: BodyDef = { position: [0, 1], shapes: [{ shape: { rect: { half_extents: [0.5, 0.5] } } }] };
 const world: World = new World({ settings: { substeps: 8 } });
@@ -39,6 +39,33 @@ try {
 } catch (error) {
   if (error instanceof PhysicsError) console.log(error.message, first);
 }
+const gem: BodyDef = {
+  center: [0, -0.1],
+  inertia: 2,
+  shapes: [
+    {
+      shape: { regular: { count: 6, size: 0.5, radius: 0.1 } },
+      material: { friction_mix: "max", restitution_mix: null },
+      sensor: true,
+      sees_sensors: true,
+    },
+    { shape: { segment: { a: [0, 0], b: [1, 0] } }, link: { previous: [-1, 0], next: null } },
+    { shape: { rect: { half_extents: [1, 1], center: [0, 1], angle: 0.5 } } },
+  ],
+};
+world.addJoint(id, world.addBody(gem), { kind: { weld: {} }, anchors_at: [[0, 0], [1, 0]], enabled: false });
+const scene: Scene = { version: 1, view: [[-1, 0], [1, 2]], bodies: [gem] };
+world.explode({ center: [0, 0], radius: 1, falloff: 1, impulse_per_metre: 1 }, { mask: 2n, excludeBody: id });
+world.applyWater({ surface: [0, 0], area: { min: [-1, -1], max: [1, 1] } }, undefined, { sensors: true });
+world.applyZone({ shape: { circle: { radius: 1 } }, pose: { p: [0, 0], q: { c: 1, s: 0 } }, force: { damping: { linear: 1, angular: 1 } }, wakes: true });
+let hero: Character = { ...character(0, 2, 1.8, 0.3), mass: 80, body: id };
+hero = world.moveCharacter(hero, { walk: 1 });
+if (hero.ground) world.body(hero.ground.body)?.applyImpulseToCenter(0, -hero.velocity[1]);
+console.log(scene.view?.[0][1], hero.hits?.[0]?.normal[0]);
+// @ts-expect-error a zone has one of four forces
+world.applyZone({ shape: { circle: { radius: 1 } }, pose: { p: [0, 0], q: { c: 1, s: 0 } }, force: { push: 1 }, wakes: true });
+// @ts-expect-error a character is made by character
+world.moveCharacter({}, {});
 // @ts-expect-error a circle has a radius
 world.addShape(id, { shape: { circle: {} } });
 // @ts-expect-error there is no such kind

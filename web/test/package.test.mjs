@@ -1,7 +1,9 @@
 // The package as a user sees it: `node --test`.
 import assert from "node:assert/strict";
 import { before, test } from "node:test";
-import { Body, checkRecording, FixedStep, init, PhysicsError, World } from "../npm/index.js";
+import * as engine from "../npm/index.js";
+
+const { Body, checkRecording, FixedStep, init, PhysicsError, World } = engine;
 
 before(() => init());
 
@@ -113,6 +115,107 @@ test("bodies, shapes and joints can be read and changed", () => {
   world.setSettings({ substeps: 8 });
   assert.deepEqual([world.gravity, world.settings.substeps], [{ x: 1, y: 2 }, 8]);
   world.validate();
+});
+
+test("what is no number is refused by the name of the method", () => {
+  const { world, balls } = pile();
+  const body = world.body(balls[0]);
+  const before = world.hash();
+  const wrong = (work, words) => assert.throws(work, (error) => error instanceof PhysicsError && words.test(error.message));
+  wrong(() => body.setVelocity([1, 2]), /setVelocity takes 2 numbers/);
+  wrong(() => body.setPosition({ x: 1, y: 2 }), /setPosition takes 2 numbers/);
+  wrong(() => body.setVelocity(1), /setVelocity takes 2 numbers/);
+  wrong(() => body.applyForce(1, 2), /applyForce takes 4 numbers/);
+  wrong(() => body.setAngle("1"), /setAngle takes 1 number/);
+  wrong(() => body.setVelocity(NaN, 0), /setVelocity/);
+  wrong(() => body.applyImpulseToCenter(0, Infinity), /applyImpulseToCenter/);
+  wrong(() => body.setEnabled(), /setEnabled/);
+  wrong(() => body.setVelocity(1e20, 0), /too large/);
+  wrong(() => body.setPosition(1e300, 0), /too large/);
+  assert.equal(world.hash(), before);
+  body.setLocks().setMass().wake().setVelocity(1, 2);
+  assert.deepEqual(body.velocity, { x: 1, y: 2 });
+});
+
+test("blasts, water and zones act on what a filter shows", () => {
+  const both = () => {
+    const world = new World({ gravity: [0, 0] });
+    return [world, ...[-2, 2].map((x) => world.addBody({ ...ball(x, 0), shapes: [{ ...ball(0, 0).shapes[0], filter: { category: x < 0 ? 2 : 4 } }] }))];
+  };
+  const square = { min: [-9, -9], max: [9, 9] };
+  const forces = {
+    blast: (world, filter) => world.explode({ center: [0, 0], radius: 5, falloff: 1, impulse_per_metre: 10 }, filter),
+    water: (world, filter) => world.applyWater({ surface: [0, 5], flow: [3, 0], area: square }, 1 / 60, filter),
+    zone: (world, filter) => {
+      const zone = { shape: { circle: { radius: 9 } }, pose: { p: [0, 0], q: { c: 1, s: 0 } }, force: { acceleration: [5, 0] }, wakes: true };
+      world.applyZone(zone, 1 / 60, filter);
+    },
+  };
+  const moves = (body) => Math.hypot(body.velocity.x, body.velocity.y) > 0.01;
+  for (const [name, force] of Object.entries(forces)) {
+    for (const [filter, expected] of [
+      [undefined, [true, true]],
+      [{ mask: 4 }, [false, true]],
+      [{ mask: 2n }, [true, false]],
+    ]) {
+      const [world, a, b] = both();
+      force(world, filter);
+      world.step();
+      assert.deepEqual([a, b].map((id) => moves(world.body(id))), expected, `${name} ${filter?.mask}`);
+    }
+    const [world, a, b] = both();
+    force(world, { excludeBody: a });
+    world.step();
+    assert.deepEqual([a, b].map((id) => moves(world.body(id))), [false, true], name);
+  }
+});
+
+test("a character walks, and what it stands on has handles", () => {
+  const world = new World();
+  const ground = world.addBody(floor);
+  let hero = engine.character(0, 2, 1.8, 0.3);
+  assert.deepEqual([hero.position, hero.height, Math.fround(hero.radius), hero.mass], [[0, 2], 1.8, Math.fround(0.3), 70]);
+  for (let i = 0; i < 120; i++) {
+    world.step(1 / 60);
+    hero = world.moveCharacter(hero, { walk: 3 }, 1 / 60);
+  }
+  assert(Math.abs(hero.position[0] - 6) < 0.1, `${hero.position}`);
+  assert.equal(hero.ground.body, ground);
+  assert.equal(hero.ground.shape, world.body(ground).shapes[0]);
+  // It goes along with a body of its own, and does not collide with it.
+  const own = world.addBody({ kind: "kinematic", position: hero.position, shapes: [{ shape: { circle: { radius: 0.3 } } }] });
+  hero = world.moveCharacter({ ...hero, body: own, filter: { mask: 2n ** 64n - 1n } }, { walk: 3 });
+  assert.equal(hero.body, own);
+  assert.equal(world.body(own).position.x, hero.position[0]);
+  // A character in which no more stands than what it is.
+  const { position, velocity, height, radius, max_slope, step_height, snap_distance, push_force, mass, gravity_scale, skin, filter } = hero;
+  const bare = { position, velocity, height, radius, max_slope, step_height, snap_distance, push_force, mass, gravity_scale, skin, filter };
+  assert(world.moveCharacter(bare, {}).position[0] > 5);
+  assert.throws(() => engine.character(0, 2, NaN, 0.3), PhysicsError);
+});
+
+test("a script is not part of a frame, but of a copy and of the history", () => {
+  const scene = () =>
+    World.loadScene({
+      version: 1,
+      gravity: [0, 0],
+      bodies: [ball(0, 0)],
+      script: { timeline: { acts: [{ when: { at: 5 }, deed: { set_velocity: { body: 0, velocity: [1, 0] } } }] } },
+    });
+  const moves = (world) => {
+    run(world, 10);
+    return world.body(world.sceneBodies[0]).velocity.x === 1;
+  };
+  const world = scene();
+  const [frame, copy] = [world.save(), world.clone()];
+  assert(moves(world) && moves(copy));
+  world.restore(frame);
+  assert.equal(moves(world), false);
+  const kept = scene();
+  kept.keepHistory();
+  assert(moves(kept));
+  kept.goTo(0);
+  assert(moves(kept));
 });
 
 test("filters have 64 bits, and what is read can be written", () => {

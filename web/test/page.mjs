@@ -264,6 +264,115 @@ await check(
   "#stack",
 );
 
+/** Opens a ball without gravity at the middle of the page, and what else there is. */
+const openBall = (page, ...more) =>
+  page.evaluate((more) => {
+    const ball = { position: [0, 0], shapes: [{ shape: { circle: { radius: 0.5 } } }] };
+    playground.open(JSON.stringify({ version: 1, gravity: [0, 0], bodies: [ball, ...more] }));
+    Object.assign(playground.camera, { x: 0, y: 0, scale: 60 });
+  }, more);
+
+const ballAt = (page) => page.evaluate(() => playground.world.body(playground.world.sceneBodies[0]).position.x);
+const waitSteps = async (page, steps) => {
+  const from = await page.evaluate(() => playground.at);
+  await page.waitForFunction((until) => playground.at > until, from + steps);
+};
+
+await check(
+  "a finger beside a body drags it",
+  async (page) => {
+    await openBall(page);
+    const from = await placeOf(page, 0);
+    const client = await page.context().newCDPSession(page);
+    const touch = (type, x, y) =>
+      client.send("Input.dispatchTouchEvent", { type, touchPoints: type === "touchEnd" ? [] : [{ x, y }] });
+    await touch("touchStart", from.x - 40, from.y);
+    for (let i = 1; i <= 8; i++) await touch("touchMove", from.x - 40 - 12 * i, from.y);
+    await waitSteps(page, 60);
+    await touch("touchEnd");
+    const x = await ballAt(page);
+    assert(x < -1, `it is at ${x}`);
+  },
+  { hasTouch: true, viewport: { width: 1000, height: 700 } },
+);
+
+await check(
+  "a sensor in front of a body does not hide it",
+  async (page) => {
+    await openBall(page, { kind: "static", shapes: [{ shape: { rect: { half_extents: [4, 4] } }, sensor: true }] });
+    const from = await placeOf(page, 0);
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move(from.x - 150, from.y, { steps: 6 });
+    await waitSteps(page, 60);
+    await page.mouse.up();
+    const x = await ballAt(page);
+    assert(x < -1, `it is at ${x}`);
+    await page.mouse.click(from.x + 100, from.y + 100);
+    assert.equal(await page.evaluate(() => playground.selected.id), await page.evaluate(() => playground.world.sceneBodies[1]));
+  },
+  { viewport: { width: 1000, height: 700 } },
+);
+
+await check("a joint that is cut in the inspector is gone from it", async (page) => {
+  await pause(page);
+  await page.evaluate(() => {
+    const shapes = [{ shape: { circle: { radius: 0.5 } } }];
+    const joints = [{ a: 0, b: 1, kind: { distance: { length: 2 } } }];
+    playground.open(JSON.stringify({ version: 1, bodies: [{ shapes }, { position: [2, 0], shapes }], joints }), { keepPlaying: true });
+    playground.select({ kind: "body", id: playground.world.sceneBodies[0] });
+  });
+  if (!(await page.isVisible("#panel h2"))) await page.click("#open-inspect");
+  assert.equal(await page.locator("summary", { hasText: "Joint: distance" }).count(), 1);
+  await page.click("#panel button:has-text('Cut')");
+  assert.equal(await page.evaluate(() => playground.world.counts().joints), 0);
+  assert.equal(await page.locator("summary", { hasText: "Joint: distance" }).count(), 0);
+});
+
+await check("text that is not right yet is there when one comes back to it", async (page) => {
+  await page.click("#open-scene");
+  await page.click(".cm-content");
+  await page.keyboard.press("Control+a");
+  await page.keyboard.insertText('{ "version": 1, "name": "mine", "weight": 3 }');
+  await page.waitForSelector(".problem:not([hidden])");
+  await page.click("#tab-inspect");
+  await page.click("#tab-scene");
+  assert.match(await page.textContent(".cm-content"), /"weight": 3/);
+  assert.equal(await page.isVisible(".problem"), true);
+  await page.click("#tab-inspect");
+  await page.evaluate(() => playground.open('{ "version": 1, "name": "other" }'));
+  await page.click("#tab-scene");
+  assert.match(await page.textContent(".cm-content"), /"name": "other"/);
+  assert.equal(await page.isVisible(".problem"), false);
+});
+
+await check("where films cannot be recorded that is said", async (page) => {
+  for (const without of ["isTypeSupported", "all"]) {
+    await page.evaluate((without) => {
+      if (without === "all") delete window.MediaRecorder;
+      else MediaRecorder.isTypeSupported = () => false;
+    }, without);
+    await page.click("#save");
+    await page.click("text=Film (WebM)");
+    await page.waitForSelector(".toast.bad");
+    assert.match(await page.textContent(".toast.bad"), /film/);
+    await page.waitForSelector(".toast.bad", { state: "detached" });
+  }
+});
+
+await check(
+  "an animation is as fast as the run",
+  async (page) => {
+    await openBall(page);
+    await pause(page);
+    const before = await page.evaluate(() => playground.at);
+    await page.click("#save");
+    await Promise.all([page.waitForEvent("download", { timeout: 120_000 }), page.click("text=Animation (GIF)")]);
+    assert.equal((await page.evaluate(() => playground.at)) - before, 4 * 60);
+  },
+  { viewport: { width: 480, height: 360 } },
+);
+
 await check("memory stays flat over 20,000 steps", async (page) => {
   await pause(page);
   const run = (budget, early, steps) =>

@@ -33,6 +33,8 @@ const colours = HighlightStyle.define([
 export function editor(app, root) {
   let own = false;
   let timer;
+  /** The scene that was last shown; what has been written since stays until another is opened. */
+  let shown;
   const problem = h("p.problem", { hidden: true, role: "alert" });
 
   const view = new EditorView({
@@ -90,6 +92,7 @@ export function editor(app, root) {
     const text = view.state.doc.toString();
     try {
       app.open(text, { keepCamera: app.scene !== undefined, keepPlaying: true });
+      shown = text;
       report();
     } catch (error) {
       report(error.message);
@@ -119,6 +122,8 @@ export function editor(app, root) {
   }
 
   function show() {
+    if (app.source === shown) return;
+    shown = app.source;
     if (view.state.doc.toString() !== app.source) load(app.source);
   }
 

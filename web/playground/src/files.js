@@ -105,9 +105,10 @@ async function gif(app, name) {
   toast(`Recording ${SECONDS} seconds…`);
   const was = app.playing;
   app.setPlaying(false);
-  const each = Math.max(1, Math.round(0.04 / app.world.dt));
-  for (let i = 0; i < SECONDS * 25; i++) {
-    for (let k = 0; k < each; k++) app.advance();
+  let made = 0;
+  for (let i = 1; i <= SECONDS * 25; i++) {
+    // Steps and pictures have lengths of their own: as many as are due by then.
+    for (const due = Math.round((0.04 * i) / app.world.dt); made < due; made++) app.advance();
     app.draw();
     context.drawImage(canvas, 0, 0, width, height);
     const { data } = context.getImageData(0, 0, width, height);
@@ -123,13 +124,18 @@ async function gif(app, name) {
   toast("Animation saved");
 }
 
+const WEBM = "video/webm";
+
 function webm(app, name) {
+  if (!globalThis.MediaRecorder?.isTypeSupported(WEBM)) {
+    return toast("This browser cannot record a film: save an animation (GIF) instead.", "bad");
+  }
   const stream = app.renderer.canvas.captureStream(60);
-  const recorder = new MediaRecorder(stream, { mimeType: "video/webm", videoBitsPerSecond: 8_000_000 });
+  const recorder = new MediaRecorder(stream, { mimeType: WEBM, videoBitsPerSecond: 8_000_000 });
   const parts = [];
   recorder.ondataavailable = ({ data }) => parts.push(data);
   recorder.onstop = () => {
-    download(name, new Blob(parts, { type: "video/webm" }));
+    download(name, new Blob(parts, { type: WEBM }));
     toast("Film saved");
   };
   toast(`Recording ${SECONDS} seconds…`);

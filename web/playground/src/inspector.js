@@ -161,7 +161,7 @@ export function inspector(app, root) {
         "div.row",
         {},
         h("button.wide", { onclick: set }, icon("check"), "Set"),
-        h("button.wide", { onclick: () => app.act(() => world.removeJoint(id)) && rebuild() }, icon("scissors"), "Cut"),
+        h("button.wide", { onclick: () => (app.act(() => world.removeJoint(id)), rebuild()) }, icon("scissors"), "Cut"),
       ),
     );
   }

@@ -117,11 +117,30 @@ export function tools(app) {
   }
 
   /** A finger is not a mouse: what is near counts, too. */
+  const reach = (event) => (event?.pointerType === "touch" ? 18 : 5) / app.camera.scale;
+
+  /** The body at a point: what is solid comes before sensors, then what moves, then what came later. */
   function bodyAt({ x, y }, event) {
-    const shapes = app.world.overlapPoint(x, y, { sensors: true });
-    if (shapes.length) return app.world.shape(shapes.at(-1)).body;
-    const reach = (event?.pointerType === "touch" ? 18 : 5) / app.camera.scale;
-    return app.world.closestPoint(x, y, reach)?.body;
+    const { world } = app;
+    const found = world.overlapPoint(x, y, { sensors: true }).map((id) => world.shape(id));
+    if (!found.length) return world.closestPoint(x, y, reach(event))?.body;
+    const rank = ({ sensor, body }) => 2 * !sensor + (world.body(body).kind === "dynamic");
+    return found.reduce((best, next) => (rank(next) >= rank(best) ? next : best)).body;
+  }
+
+  /** Where a body is held: at the pointer, or where it is nearest, a little further in. */
+  function holdAt(body, start, event) {
+    const { world } = app;
+    const near = world.closestPoint(start.x, start.y, reach(event));
+    if (near?.body !== body || near.distance === 0) return start;
+    const towards = ({ x, y }) => {
+      const [dx, dy] = [x - near.point.x, y - near.point.y];
+      const part = 0.01 / Math.max(Math.hypot(dx, dy), 0.01);
+      return { x: near.point.x + part * dx, y: near.point.y + part * dy };
+    };
+    const across = { x: 2 * near.point.x - start.x, y: 2 * near.point.y - start.y };
+    const holds = ({ x, y }) => world.overlapPoint(x, y).some((shape) => world.shape(shape).body === body);
+    return [towards(across), towards(world.body(body).center)].find(holds) ?? start;
   }
 
   function line(a, b, colour = ACCENT, width = 2) {
@@ -169,7 +188,8 @@ export function tools(app) {
       if (app.playing) {
         // Held in the past, the run goes on from there.
         app.act((world) => world.forgetLater());
-        app.world.grab(start.x, start.y);
+        const { x, y } = holdAt(body, start, event);
+        app.world.grab(x, y);
       }
       return {
         move: (now) => {
