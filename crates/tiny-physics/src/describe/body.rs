@@ -76,7 +76,7 @@ described! {
         pub inertia: Option<f32> = None,
         /// May its island fall asleep?
         pub can_sleep: bool = true,
-        /// Does it start awake?
+        /// Does it start awake? A kinematic body with a velocity always does.
         pub awake: bool = true,
         /// Speed below which it counts as at rest, metres a second; multiplied by
         /// [`Settings::length_unit`](crate::Settings::length_unit).

@@ -279,10 +279,11 @@ impl JointDef {
     }
 
     /// Pulls anchor B to a point of the world with a spring of 5 hertz, damping ratio 0.7, and at most
-    /// `max_force` newtons.
+    /// `max_force` newtons. The bodies still collide: A may be the ground that B lies on.
     pub fn mouse(target: impl Into<DVec2>, max_force: f32) -> Self {
         let spring = Spring { hertz: 5.0, damping_ratio: 0.7 };
-        Self::new(JointKind::Mouse { target: target.into(), spring, max_force })
+        let kind = JointKind::Mouse { target: target.into(), spring, max_force };
+        Self { collide_connected: true, ..Self::new(kind) }
     }
 
     /// Only keeps the bodies from colliding.

@@ -161,7 +161,7 @@ impl World {
 
     /// Lets water act on all awake dynamic bodies whose shapes the filter shows, during the next step, which is
     /// `dt` seconds long: buoyancy (against the world's gravity) at the centre of the part under water, and
-    /// drag. Bodies that sleep are left alone, so what floats at rest may sleep.
+    /// drag. Bodies that sleep are left alone, so what floats at rest may sleep: wake it where the water goes.
     ///
     /// ```
     /// use tiny_physics::{QueryFilter, RigidBody, Shape, ShapeDef, Vec2, Water, World};

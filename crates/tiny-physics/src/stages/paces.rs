@@ -292,7 +292,8 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         island.pace = island.pace.max(info.pace);
         island.stirred |= info.stirred > 0.0;
         island.struck |= info.stirred > STIRRED_TIME;
-        island.joined += usize::from(info.first_joint != NULL);
+        let acts = |(joint, _)| joints.records[joint as usize].place != Place::Asleep;
+        island.joined += usize::from(joints.of_body(info.first_joint).any(acts));
     }
     for record in joints.tying().filter(|record| !may_drive(&record.def)) {
         if bodies.is_solved(record.body_a) && bodies.is_solved(record.body_b) {

@@ -6,8 +6,10 @@
 //! one wakes the ring.
 
 use super::islands::{self, Islands, Stores};
-use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, Bucket, Contacts, Graph, Joints, NULL, Place, flags, next_edge};
+use crate::describe::{BodyKind, JointKind, Motor};
+use crate::dynamics::{
+    Bodies, Bucket, Contacts, Graph, JointRecord, Joints, NULL, Place, flags, next_edge,
+};
 use crate::math::Vec2;
 use crate::simd::BLOCK;
 use std::collections::BTreeSet;
@@ -65,6 +67,11 @@ pub(crate) fn find_resting(
             }
         }
     }
+    for record in joints.tying().filter(|record| is_driven(bodies, record)) {
+        for body in [record.body_a, record.body_b] {
+            restless[body as usize] |= bodies.is_dynamic(body);
+        }
+    }
     for &body in &bodies.awake {
         let rested = bodies.infos[body as usize].sleep_time >= time_to_sleep;
         if !rested || restless[body as usize] {
@@ -99,6 +106,31 @@ fn carried(bucket: &Bucket) -> impl Iterator<Item = (u32, u32)> + '_ {
     (0..bucket.contacts.len()).filter(belts).filter(runs).map(|slot| bucket.bodies(slot))
 }
 
+/// Does a motor move its bodies? However slowly it does, they do not rest.
+fn is_driven(bodies: &Bodies, record: &JointRecord) -> bool {
+    let runs = |motor: Option<Motor>| motor.map_or(0.0, |motor| motor.speed.abs());
+    let (turn, way) = match record.def.kind {
+        JointKind::Revolute { motor, .. } | JointKind::Wheel { motor, .. } => (runs(motor), 0.0),
+        JointKind::Distance { motor, .. } | JointKind::Prismatic { motor, .. } => {
+            (0.0, runs(motor))
+        }
+        JointKind::Motor { velocity, angular_velocity, .. } => {
+            (angular_velocity.abs(), velocity.length())
+        }
+        _ => return false,
+    };
+    let (a, b) = (record.body_a, record.body_b);
+    let of_anchor = |body: u32, anchor: Vec2| {
+        let arm = anchor - bodies.infos[body as usize].local_center;
+        let arm = bodies.poses[body as usize].q.rotate(arm);
+        bodies.velocity(body) + arm.perp() * bodies.angular_velocity(body)
+    };
+    let spin = bodies.angular_velocity(b) - bodies.angular_velocity(a);
+    let speed = of_anchor(b, record.def.anchor_b) - of_anchor(a, record.def.anchor_a);
+    let goes = |told: f32, now: f32| told > 0.0 && now >= 0.5 * told;
+    goes(turn, spin.abs()) || goes(way, speed.length())
+}
+
 /// May what lies on a body that is not dynamic sleep? Not on a kinematic one that moves or stays awake.
 fn rests(bodies: &Bodies, index: u32, time_to_sleep: f32) -> bool {
     let info = &bodies.infos[index as usize];
@@ -129,6 +161,7 @@ pub(crate) fn island_of(
         let joined = joints
             .of_body(info.first_joint)
             .map(|(joint, _)| &joints.records[joint as usize])
+            .filter(|joint| joint.place != Place::Asleep)
             .flat_map(|joint| [joint.body_a, joint.body_b]);
         for other in touching.chain(joined) {
             if !bodies.is_dynamic(other) && is_awake(other) {

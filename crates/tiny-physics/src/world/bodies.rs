@@ -125,23 +125,33 @@ impl BodyMut<'_> {
     /// Sets the velocity of the centre of mass, metres a second. Nothing happens to a static body.
     pub fn set_velocity(&mut self, velocity: impl Into<Vec2>) {
         let velocity = velocity.into();
-        if self.info().kind != BodyKind::Static && self.accept(&[velocity.x, velocity.y]) {
-            self.world.state.bodies.set_velocity(self.index, velocity);
+        let stays = velocity == Vec2::ZERO && self.is_parked();
+        if self.info().kind != BodyKind::Static && !stays && self.accept(&[velocity.x, velocity.y])
+        {
             self.wake_riders(velocity != Vec2::ZERO);
+            self.world.state.bodies.set_velocity(self.index, velocity);
         }
     }
 
     /// Sets the angular velocity, radians a second. Nothing happens to a static body.
     pub fn set_angular_velocity(&mut self, radians_per_second: f32) {
-        if self.info().kind != BodyKind::Static && self.accept(&[radians_per_second]) {
-            self.world.state.bodies.set_angular_velocity(self.index, radians_per_second);
+        let stays = radians_per_second == 0.0 && self.is_parked();
+        if self.info().kind != BodyKind::Static && !stays && self.accept(&[radians_per_second]) {
             self.wake_riders(radians_per_second != 0.0);
+            self.world.state.bodies.set_angular_velocity(self.index, radians_per_second);
         }
+    }
+
+    /// Is it a platform that stands still?
+    fn is_parked(&self) -> bool {
+        let body = self.as_ref();
+        let still = body.velocity() == Vec2::ZERO && body.angular_velocity() == 0.0;
+        still && body.kind() == BodyKind::Kinematic
     }
 
     /// Wakes what touches a platform that begins to move.
     fn wake_riders(&mut self, moves: bool) {
-        if moves && self.info().kind == BodyKind::Kinematic {
+        if moves && self.is_parked() {
             self.world.wake_neighbours(self.index);
         }
     }

@@ -160,7 +160,9 @@ impl BodyMut<'_> {
         let rotation = target.q.normalized();
         let end = target.p + rotation.rotate(body.local_center());
         let velocity = end.relative_to(body.center()) * (1.0 / dt);
-        let spin = rotation.angle_from(body.rotation()) * (1.0 / dt);
+        let turn = rotation.angle_from(body.rotation());
+        // What rounding leaves may turn it by so little that it is left again.
+        let spin = if turn.abs() <= 4.0 * f32::EPSILON { 0.0 } else { turn * (1.0 / dt) };
         let rests = velocity == Vec2::ZERO && spin == 0.0;
         let rested = body.velocity() == Vec2::ZERO && body.angular_velocity() == 0.0;
         if !(rests && rested) {

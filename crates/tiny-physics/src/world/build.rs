@@ -23,12 +23,15 @@ impl World {
     pub fn add_body(&mut self, body: RigidBody) -> Result<BodyId, Error> {
         check_body(&body)?;
         let moving = body.kind != BodyKind::Static && body.enabled;
+        // What lies on a platform goes by its velocity.
+        let goes = body.velocity != Vec2::ZERO || body.angular_velocity != 0.0;
+        let awake = moving && (body.awake || body.kind == BodyKind::Kinematic && goes);
         let rotation = Rot::from_angle(body.angle);
         let info = BodyInfo {
             fixed_mass: Given::new(body.mass),
             fixed_center: GivenPoint::new(body.center),
             fixed_inertia: Given::new(body.inertia),
-            awake: moving && body.awake,
+            awake,
             ..BodyInfo::default().take_over(&body)
         };
         let index = self.state.bodies.insert(info, Pose::new(body.position, rotation));
@@ -42,7 +45,7 @@ impl World {
             self.state.bodies.set_velocity(index, body.velocity);
             self.state.bodies.set_angular_velocity(index, body.angular_velocity);
         }
-        if moving && body.awake {
+        if awake {
             self.state.bodies.push_awake(index);
         } else if moving {
             self.state.bodies.infos[index as usize].island_next = index;

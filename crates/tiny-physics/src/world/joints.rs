@@ -3,7 +3,7 @@
 use super::World;
 use super::events::JointBreak;
 use super::ids::{BodyId, JointId};
-use crate::describe::{JointDef, JointKind};
+use crate::describe::{BodyKind, JointDef, JointKind};
 use crate::dynamics::{JointRecord, NULL, REFINEMENT};
 use crate::error::Error;
 use crate::math::{DVec2, Rot, Vec2};
@@ -172,7 +172,7 @@ impl World {
     pub fn set_joint(&mut self, id: JointId, def: JointDef) -> Result<(), Error> {
         let index = self.joint_index(id)?;
         let record = &self.state.joints.records[index as usize];
-        let (a, b) = (record.body_a, record.body_b);
+        let (a, b, before) = (record.body_a, record.body_b, record.def);
         let def = self.place_joint(a, b, def)?;
         self.stats.pushes += 1;
         self.wake_index(a);
@@ -181,10 +181,11 @@ impl World {
         if self.state.bodies.infos[a as usize].awake || self.state.bodies.infos[b as usize].awake {
             self.state.place_joint(index);
         }
-        if def.collide_connected || !def.enabled {
-            self.buffer_shapes(self.smaller(a, b));
-        } else {
-            self.part_bodies(a, b);
+        let parts = |def: &JointDef| def.enabled && !def.collide_connected;
+        match (parts(&before), parts(&def)) {
+            (true, false) => self.buffer_shapes(self.smaller(a, b)),
+            (false, true) => self.part_bodies(a, b),
+            _ => {}
         }
         Ok(())
     }
@@ -254,10 +255,13 @@ impl World {
         self.scratch.solver.broken.found = broken;
     }
 
-    /// The one of two bodies that has fewer shapes: what concerns a pair is found from either.
+    /// The one of two bodies that has less around it, a dynamic one rather than ground: what concerns a pair is found from either.
     fn smaller(&self, a: u32, b: u32) -> u32 {
-        let count = |body: u32| self.state.bodies.infos[body as usize].shape_count;
-        if count(b) < count(a) { b } else { a }
+        let weigh = |body: u32| {
+            let info = &self.state.bodies.infos[body as usize];
+            (info.kind != BodyKind::Dynamic, info.shape_count)
+        };
+        if weigh(b) < weigh(a) { b } else { a }
     }
 
     /// Destroys the contacts between two bodies.

@@ -84,6 +84,29 @@ fn a_joint_to_a_large_level() {
 }
 
 #[test]
+fn a_motor_on_ground_that_much_lies_on() {
+    stays_equal("speeds set", |count| {
+        let mut world = world();
+        let ground = add_ground(&mut world);
+        for i in 0..count {
+            add(&mut world, 0.1 * i as f32 - 40.0, 0.04, circle(0.04));
+        }
+        let arms = [45.0, 47.0].map(|x| {
+            let arm = add(&mut world, x, 3.0, rect(0.5, 0.1));
+            let hinge = JointDef::revolute().anchor_at(Vec2::new(x, 3.0)).motor(1.0, 9.0);
+            let hinge = JointDef { collide_connected: x > 46.0, ..hinge };
+            world.add_joint(ground, arm, hinge).unwrap()
+        });
+        run(&mut world, 2);
+        counted(|| {
+            for arm in arms {
+                world.joint_mut(arm).unwrap().set_motor_speed(2.0).unwrap();
+            }
+        })
+    });
+}
+
+#[test]
 fn one_body_put_to_sleep_among_many() {
     stays_equal("sleep", |count| {
         let mut world = world();

@@ -394,3 +394,24 @@ fn bodies_put_into_each_other_part_slowly() {
         }
     }
 }
+
+/// A joint that is off or only a filter leaves a stack what it is.
+#[test]
+fn a_joint_that_does_nothing_leaves_a_stack_fine() {
+    let sink = |joint: Option<JointDef>| {
+        let mut world = world();
+        let ground = add_ground(&mut world);
+        let crates: Vec<BodyId> =
+            (0..15).map(|i| add(&mut world, 0.0, 0.5 + i as f32, rect(0.5, 0.5))).collect();
+        if let Some(joint) = joint {
+            let joint = JointDef { collide_connected: true, ..joint };
+            world.add_joint(ground, crates[7], joint).unwrap();
+        }
+        run(&mut world, 60);
+        14.5 - y(&world, crates[14])
+    };
+    let without = sink(None);
+    for joint in [JointDef { enabled: false, ..JointDef::revolute() }, JointDef::filter()] {
+        assert!((sink(Some(joint)) - without).abs() < 1.0e-4, "{} {without}", sink(Some(joint)));
+    }
+}

@@ -1,7 +1,7 @@
 //! What changes from outside wakes those whom it concerns, and no others.
 
 use super::*;
-use crate::describe::{JointDef, Material, Tile, TileForm, TileGrid};
+use crate::describe::{JointDef, JointKind, Material, Tile, TileForm, TileGrid};
 
 /// A crate that sleeps on the ground at x.
 fn sleeper(world: &mut World, x: f32) -> BodyId {
@@ -279,4 +279,123 @@ fn what_was_added_asleep_falls_when_its_support_goes() {
         run(&mut other, 60);
         assert!(y(&other, crates[1]) < 1.0, "{i}: crate below");
     }
+}
+
+/// However slowly a motor moves something, that does not rest; where it can go no further, it may.
+#[test]
+fn no_motor_is_too_slow_to_go_on() {
+    let drive = JointKind::Motor {
+        velocity: Vec2::new(0.0, 0.03),
+        angular_velocity: 0.0,
+        max_force: 1.0e4,
+        max_torque: 1.0e4,
+        linear_spring: None,
+        max_spring_force: 0.0,
+        angular_spring: None,
+        max_spring_torque: 0.0,
+    };
+    let motors = [
+        (JointDef::prismatic(Vec2::Y).motor(0.03, 1.0e4), 0.3, 0.0),
+        (JointDef::new(drive), 0.3, 0.0),
+        (JointDef::revolute().motor(0.02, 1.0e4), 0.0, 0.2),
+        (JointDef::prismatic(Vec2::Y).motor(0.001, 1.0e4), 0.01, 0.0),
+    ];
+    for (i, (motor, way, turn)) in motors.into_iter().enumerate() {
+        let mut world = world();
+        let base = world.add_body(RigidBody::fixed()).unwrap();
+        let lift = add(&mut world, 0.0, 0.0, rect(0.5, 0.05));
+        world.add_joint(base, lift, motor).unwrap();
+        run(&mut world, 600);
+        let body = world.body(lift).unwrap();
+        assert!(
+            (body.position().y - way).abs() < 0.05 * way + 1.0e-4,
+            "{i}: {:?}",
+            body.position()
+        );
+        assert!((body.angle() - turn).abs() < 0.05 * turn + 1.0e-4, "{i}: {}", body.angle());
+    }
+    let mut world = world();
+    let base = world.add_body(RigidBody::fixed()).unwrap();
+    let lift = add(&mut world, 0.0, 0.0, rect(0.5, 0.05));
+    let motor = JointDef::prismatic(Vec2::Y).motor(0.03, 100.0).limits(0.0, 0.1);
+    world.add_joint(base, lift, motor).unwrap();
+    run(&mut world, 600);
+    assert!(!is_awake(&world, lift) && (y(&world, lift) - 0.1).abs() < 0.01);
+}
+
+#[test]
+fn a_platform_that_is_led_comes_to_rest_at_any_angle() {
+    for i in 0..400 {
+        let angle = -3.14 + 6.28 * (i as f32 * 0.618_034).fract();
+        let start = if i % 2 == 0 { angle } else { 0.37 * i as f32 };
+        let mut world = World::new(Vec2::ZERO);
+        let lift = RigidBody::kinematic().angle(start).shape(rect(3.0, 0.2));
+        let lift = world.add_body(lift).unwrap();
+        for _ in 0..60 {
+            let target = Transform::from_angle(Vec2::new(1.0, 2.0), angle);
+            world.body_mut(lift).unwrap().set_target(target, DT);
+            world.step(DT);
+        }
+        assert!(
+            !is_awake(&world, lift),
+            "{angle}: {}",
+            world.body(lift).unwrap().angular_velocity()
+        );
+    }
+}
+
+/// What moves near sleepers wakes what it meets, and what it carried as it set off.
+#[test]
+fn a_platform_that_goes_by_wakes_nobody() {
+    let mut world = world();
+    add_ground(&mut world);
+    let beside = sleeper(&mut world, 0.0);
+    let lift = RigidBody::kinematic().position(Vec2::new(1.05, -0.5)).shape(rect(0.5, 0.5));
+    let lift = world.add_body(lift.velocity(Vec2::new(0.0, 0.5))).unwrap();
+    let woken = (0..240).filter(|_| {
+        let mut lift = world.body_mut(lift).unwrap();
+        lift.set_velocity(Vec2::new(0.0, 0.5));
+        lift.set_angular_velocity(0.0);
+        world.step(DT);
+        is_awake(&world, beside)
+    });
+    assert!(woken.count() < 60);
+    // Told again that it stands still it sleeps on with what lies on it.
+    let mut world = self::world();
+    let lift = RigidBody::kinematic().position(Vec2::new(0.0, -0.5)).shape(rect(3.0, 0.5));
+    let lift = world.add_body(lift).unwrap();
+    let rider = add(&mut world, 0.0, 0.5, rect(0.5, 0.5));
+    let mut awake = 0;
+    for _ in 0..600 {
+        let mut body = world.body_mut(lift).unwrap();
+        body.set_velocity(Vec2::ZERO);
+        body.set_angular_velocity(0.0);
+        world.step(DT);
+        awake += u32::from(is_awake(&world, rider));
+    }
+    assert!(awake < 120, "{awake}");
+}
+
+#[test]
+fn joints_that_do_nothing_put_nobody_to_sleep() {
+    for joint in [JointDef { enabled: false, ..JointDef::rope(3.0) }, JointDef::filter()] {
+        let mut world = world();
+        add_ground(&mut world);
+        let crate_ = add(&mut world, 0.0, 0.5, rect(0.5, 0.5));
+        let player = add(&mut world, 0.0, 9.0, circle(0.5));
+        world.add_joint(player, crate_, joint).unwrap();
+        run(&mut world, 10);
+        world.body_mut(crate_).unwrap().sleep();
+        assert!(!is_awake(&world, crate_) && is_awake(&world, player));
+    }
+}
+
+/// It moves or it stands, but is no belt.
+#[test]
+fn a_platform_added_asleep_with_a_velocity_moves() {
+    let mut world = world();
+    let lift = RigidBody::kinematic().shape(rect(3.0, 0.5)).velocity(Vec2::new(2.0, 0.0)).asleep();
+    let lift = world.add_body(lift).unwrap();
+    run(&mut world, 60);
+    assert!((world.body(lift).unwrap().position().x - 2.0).abs() < 0.01);
 }
