@@ -69,7 +69,7 @@ const SPECULATIVE_DISTANCE: f32 = 0.02;
 const FAT_MARGIN: f32 = 0.1;
 /// Bodies awake and contacts between them from which a step is shared among threads: a thousand crates gain nothing yet, fewer
 /// lose. Tests share every step, so that small worlds try the threads, too.
-const LEAST_SHARED: usize = if cfg!(debug_assertions) { 0 } else { 2048 };
+const LEAST_SHARED: usize = if cfg!(debug_assertions) { 1 } else { 2048 };
 
 /// A world of bodies.
 ///

@@ -326,7 +326,7 @@ fn no_motor_is_too_slow_to_go_on() {
 #[test]
 fn a_platform_that_is_led_comes_to_rest_at_any_angle() {
     for i in 0..400 {
-        let angle = -3.14 + 6.28 * (i as f32 * 0.618_034).fract();
+        let angle = core::f32::consts::PI * (2.0 * (i as f32 * 0.618_034).fract() - 1.0);
         let start = if i % 2 == 0 { angle } else { 0.37 * i as f32 };
         let mut world = World::new(Vec2::ZERO);
         let lift = RigidBody::kinematic().angle(start).shape(rect(3.0, 0.2));
