@@ -260,7 +260,8 @@ impl World {
         self.inner.kinetic_energy()
     }
 
-    /// Seconds that each stage of the last step took, and counts, as a dictionary.
+    /// Bytes that the world holds, and seconds of each stage of the last step, as a dictionary. The seconds are 0: stages are timed
+    /// by programs in Rust alone.
     fn stats<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (stats, found) = (self.inner.stats(), PyDict::new(py));
         for stage in Stage::ALL {

@@ -67,8 +67,8 @@ described! {
         pub locks: Locks = Locks::default(),
         /// Its shapes.
         pub shapes: Vec<ShapeDef> = Vec::new(),
-        /// Total mass, kilograms. `None` takes it from the densities of the shapes; `Some` scales that mass
-        /// and its moment of inertia to the value.
+        /// Total mass, kilograms. `None` takes it from the densities of the shapes, or 1 where these give none; `Some` scales
+        /// that mass and its moment of inertia to the value.
         pub mass: Option<f32> = None,
         /// Centre of mass in the body's frame, metres. `None` takes it from the shapes.
         pub center: Option<Vec2> = None,

@@ -355,7 +355,8 @@ impl JointDef {
         self.angles(angle, angle)
     }
 
-    /// Sets the spring where the kind has one (both springs of a weld).
+    /// Sets the spring where the kind has one (both springs of a weld). Those of [`JointKind::Motor`] are set in its fields, with the
+    /// greatest force and torque of each.
     pub fn spring(mut self, hertz: f32, damping_ratio: f32) -> Self {
         self.kind.set_spring(Some(Spring { hertz, damping_ratio }));
         self

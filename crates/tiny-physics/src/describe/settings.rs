@@ -72,8 +72,8 @@ described! {
         pub contact_hertz: f32 = 240.0,
         /// Contact damping ratio, no unit.
         pub contact_damping_ratio: f32 = 3.0,
-        /// Greatest speed at which overlap is pushed out, metres a second. What a contact needs to carry its load
-        /// is not bounded.
+        /// Greatest speed at which overlap is pushed out, metres a second; multiplied by [`Settings::length_unit`], as the next three
+        /// are. What a contact needs to carry its load is not bounded.
         pub push_speed: f32 = 0.4,
         /// Approach speed below which nothing bounces that lay on the other already, or that forces would soon bring back,
         /// metres a second. What just touches and has nothing to press it on, as a ball on a table without gravity or one
@@ -87,7 +87,7 @@ described! {
         pub sleep: bool = true,
         /// Time at rest before an island sleeps, seconds.
         pub time_to_sleep: f32 = 0.5,
-        /// Are fast bodies swept against the motions of static and kinematic shapes?
+        /// Is what is fast looked out for: swept against what stands and what is led, met in time by what moves?
         pub continuous: bool = true,
         /// Friction of a pair from the frictions of its shapes, for contacts that begin from now on.
         pub friction_mix: Mix = Mix::GeometricMean,

@@ -62,7 +62,7 @@ described! {
         pub material: Material = default,
         /// What it collides with.
         pub filter: Filter = default,
-        /// A sensor sees what overlaps it and collides with nothing.
+        /// A sensor sees what overlaps it and collides with nothing. It has mass by its density as any shape.
         pub sensor: bool = default,
         /// Does this sensor see other sensors too?
         pub sees_sensors: bool = default,

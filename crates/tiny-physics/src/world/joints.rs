@@ -128,7 +128,7 @@ impl<'a> JointRef<'a> {
 
 impl World {
     /// Joins two bodies. Contacts between them end unless [`JointDef::collide_connected`] is set. Where one of them is awake,
-    /// both are then; two that sleep sleep on, so that a level can be built asleep: [`BodyMut::wake`] what is to move.
+    /// both are then; two that sleep sleep on, so that a level can be built asleep: [`BodyMut::wake`](super::BodyMut::wake) what is to move.
     ///
     /// # Errors
     /// A handle is stale, the bodies are the same one, or a number in the description is out of range.

@@ -155,7 +155,7 @@ impl World {
     }
 
     /// The tile map that a body belongs to: for contacts and hits, together with
-    /// [`TileGrid::cell_at`].
+    /// [`TileGrid::cell_at`] a little below the surface, which is the border of two cells.
     pub fn tiles_of(&self, body: BodyId) -> Option<TileGridId> {
         let (_, index) = self.state.tiles.owners[self.state.tiles.place_of(body).ok()?];
         let slot = self.state.tiles.slots.get(index as usize)?;

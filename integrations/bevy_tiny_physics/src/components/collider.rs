@@ -124,7 +124,7 @@ impl From<Shape> for Collider {
 #[derive(Component, Clone, Copy, PartialEq, Debug)]
 pub struct Friction(pub f32);
 
-/// Restitution of an entity's shapes: 0 does not bounce, 1 bounces for ever.
+/// Restitution of an entity's shapes: 0 does not bounce, 1 bounces for ever. Of two that meet the smaller counts.
 #[derive(Component, Clone, Copy, PartialEq, Debug)]
 pub struct Restitution(pub f32);
 

@@ -5,7 +5,7 @@ use crate::describe::Filter;
 use crate::world::{BodyId, ShapeId};
 use core::fmt;
 
-/// Decides which shapes a query sees. The default sees everything but sensors.
+/// Decides which shapes a query sees. The default sees everything but sensors and shapes whose own mask is 0.
 ///
 /// ```
 /// use tiny_physics::QueryFilter;
