@@ -30,6 +30,12 @@ impl Mix {
     /// The coefficient of a pair.
     #[inline]
     pub fn apply(self, a: f32, b: f32) -> f32 {
+        // Infinite coefficients times no load are no number.
+        self.of_numbers(a, b).clamp(f32::MIN, f32::MAX)
+    }
+
+    #[inline]
+    fn of_numbers(self, a: f32, b: f32) -> f32 {
         match self {
             Self::GeometricMean => (a * b).sqrt(),
             Self::Average => 0.5 * (a + b),

@@ -36,11 +36,12 @@ pub fn shape_cast(a: &Shape, b: &Shape, b_in_a: Transform, translation: Vec2) ->
 }
 
 fn core_cast(a: &Core, b: &Core, translation: Vec2) -> Option<CastHit> {
-    let touch = TOUCH + rounding(a, b, translation);
     let mut fraction = 0.0;
     let mut last = None;
     for _ in 0..MAX_ITERATIONS {
-        let moved = b.transformed(Transform::new(translation * fraction, Rot::IDENTITY));
+        let way = translation * fraction;
+        let touch = TOUCH + rounding(a, b, way);
+        let moved = b.transformed(Transform::new(way, Rot::IDENTITY));
         let gap = core_distance(a, &moved);
         let hit = CastHit { fraction, normal: gap.normal, point: gap.point_a, converged: true };
         if gap.separation <= touch {
@@ -59,9 +60,9 @@ fn core_cast(a: &Core, b: &Core, translation: Vec2) -> Option<CastHit> {
     last.map(|hit| CastHit { converged: false, ..hit })
 }
 
-/// What rounding makes of a gap between cores of this size, metres.
-fn rounding(a: &Core, b: &Core, translation: Vec2) -> f32 {
-    1.0e-6 * (a.reach(Vec2::ZERO) + b.reach(Vec2::ZERO) + translation.length())
+/// What rounding makes of a gap between cores of this size after such a way, metres.
+fn rounding(a: &Core, b: &Core, way: Vec2) -> f32 {
+    1.0e-6 * (a.reach(Vec2::ZERO) + b.reach(Vec2::ZERO) + way.length())
 }
 
 #[cfg(test)]
@@ -84,6 +85,21 @@ mod tests {
         assert_eq!(shape_cast(&rect, &circle, at(5.0, 0.0), Vec2::new(f32::NAN, 0.0)), None);
         let inside = shape_cast(&rect, &circle, at(1.2, 0.0), Vec2::X).unwrap();
         assert_eq!((inside.fraction, inside.normal), (0.0, Vec2::X));
+    }
+
+    /// How far it would go on says nothing of where it hits, nor of what it passes by.
+    #[test]
+    fn long_casts_are_as_exact_as_short_ones() {
+        let at = |x, y| Transform::new(Vec2::new(x, y), Rot::IDENTITY);
+        let (wall, circle) = (Shape::rect(1.0, 20.0).unwrap(), Shape::circle(0.5).unwrap());
+        let floor = Shape::rect(20.0, 1.0).unwrap();
+        for length in [20.0, 1.0e3, 1.0e5, 1.0e7] {
+            let down = Vec2::new(0.0, -length);
+            assert_eq!(shape_cast(&wall, &circle, at(1.5 + 0.05, 10.0), down), None, "{length}");
+            let hit = shape_cast(&floor, &circle, at(0.0, 11.5), down).unwrap();
+            let gap = 10.0 - length * hit.fraction;
+            assert!((-1.0e-4..3.0e-4).contains(&gap) && hit.converged, "{length}: {gap}");
+        }
     }
 
     proptest! {

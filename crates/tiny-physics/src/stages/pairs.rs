@@ -410,9 +410,11 @@ pub(crate) fn mix_materials(contact: &mut Contact, settings: &Settings, shapes: 
     contact.rolling_resistance = larger(
         material_a.rolling_resistance * radius(a),
         material_b.rolling_resistance * radius(b),
-    );
+    )
+    .clamp(0.0, f32::MAX);
     // The solver's tangent points along the surface of A; a belt goes the other way round B.
-    contact.tangent_speed = -(material_a.tangent_speed + material_b.tangent_speed);
+    let speed = material_a.tangent_speed + material_b.tangent_speed;
+    contact.tangent_speed = -speed.clamp(f32::MIN, f32::MAX);
 }
 
 fn larger(a: f32, b: f32) -> f32 {

@@ -229,7 +229,12 @@ impl World {
     /// where it is.
     pub(super) fn update_mass(&mut self, index: u32) {
         let origin = self.state.bodies.origin_pose(index);
-        let (total, never_turns) = self.sum_masses(index);
+        let (mut total, never_turns) = self.sum_masses(index, None);
+        let given = self.state.bodies.infos[index as usize].fixed_mass.get();
+        if given.is_some() && total.mass == 0.0 {
+            // Shapes without density still say how a mass is spread.
+            total = self.sum_masses(index, Some(1.0)).0;
+        }
         let info = &mut self.state.bodies.infos[index as usize];
         info.never_turns = never_turns;
         let dynamic = info.kind == BodyKind::Dynamic;
@@ -285,13 +290,14 @@ impl World {
         boxes::update(bodies, shapes, broad_phase, index);
     }
 
-    /// Mass properties of all shapes in the body's frame, and whether one of them must not turn.
-    fn sum_masses(&self, index: u32) -> (MassProperties, bool) {
+    /// Mass properties of all shapes in the body's frame, by their densities or one for all, and whether one of them must not turn.
+    fn sum_masses(&self, index: u32, density: Option<f32>) -> (MassProperties, bool) {
         let mut never_turns = false;
         let parts = self.state.shapes_of(index).map(|i| {
             let record = &self.state.shapes.records[i as usize];
             never_turns |= matches!(record.shape, Shape::Aabb { .. });
-            record.shape.mass_properties(record.material.density).transformed(record.local)
+            let density = density.unwrap_or(record.material.density);
+            record.shape.mass_properties(density).transformed(record.local)
         });
         let parts: Vec<MassProperties> = parts.collect();
         (MassProperties::combined(&parts), never_turns)

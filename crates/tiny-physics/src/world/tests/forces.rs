@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Explosion, ForceZone, Water, Wind, ZoneForce};
+use crate::{Explosion, ForceZone, Mix, Water, Wind, ZoneForce};
 use core::f32::consts::PI;
 
 #[test]
@@ -217,6 +217,47 @@ fn no_drag_of_water_is_too_strong_for_a_step() {
                 );
                 assert!(turns >= -1.0e-4 && turns <= w + 1.0e-4, "{pieces}: {w} {turns}");
             }
+        }
+    }
+}
+
+/// The outline says how a mass is spread, whatever density it has.
+#[test]
+fn a_mass_given_to_shapes_without_density_turns() {
+    for shape in [circle(0.4), rect(0.5, 0.2)] {
+        let inertia = |density: f32| {
+            let mut world = World::new(Vec2::ZERO);
+            let shape = shape.clone().density(density).offset(Vec2::new(0.3, 0.0));
+            let body = world.add_body(RigidBody::dynamic().shape(shape).mass(2.0)).unwrap();
+            let body = world.body(body).unwrap();
+            (body.mass(), body.inertia(), body.center().x)
+        };
+        let (none, some) = (inertia(0.0), inertia(3.0));
+        assert!(none.1 > 0.01 && (none.1 - some.1).abs() < 1.0e-4, "{none:?} {some:?}");
+        assert!(none.0 == some.0 && (none.2 - some.2).abs() < 1.0e-5);
+    }
+}
+
+/// As large as numbers go: it holds, and is a number.
+#[test]
+fn endless_friction_holds() {
+    let materials: [fn(ShapeDef) -> ShapeDef; 3] = [
+        |shape| shape.friction(f32::MAX),
+        |shape| shape.rolling_resistance(f32::MAX),
+        |shape| shape.friction(1.0e30).rolling_resistance(1.0e30),
+    ];
+    for (i, material) in materials.into_iter().enumerate() {
+        for mix in [Mix::GeometricMean, Mix::Average, Mix::Multiply, Mix::Max] {
+            let mut world = world();
+            world.settings.friction_mix = mix;
+            let ground = RigidBody::fixed().position(Vec2::new(0.0, -1.0));
+            world.add_body(ground.shape(material(rect(50.0, 1.0)))).unwrap();
+            let low = add(&mut world, 0.0, 2.0, material(circle(1.5)));
+            let high = add(&mut world, 5.0, 3.0, material(rect(0.5, 0.5)));
+            run(&mut world, 180);
+            assert_eq!(world.stats().frozen_bodies, 0, "{i} {mix:?}");
+            assert!((y(&world, low) - 1.5).abs() < 0.02, "{i} {mix:?}: {}", y(&world, low));
+            assert!((y(&world, high) - 0.5).abs() < 0.02, "{i} {mix:?}: {}", y(&world, high));
         }
     }
 }
