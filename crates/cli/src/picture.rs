@@ -106,7 +106,8 @@ impl Follower {
         let mut camera = Camera::fit_between(framing.min, framing.max, size, room);
         if simulation.world().gravity.y < 0.0 {
             // There is more to see above ground than below.
-            let all = (size.1 - room[0] - room[1]) as f32 / camera.scale;
+            let height = size.1.saturating_sub(room[0] + room[1]).max(size.1 / 2);
+            let all = height as f32 / camera.scale;
             let spare = (all - framing.max.relative_to(framing.min).y).max(0.0);
             camera.center += Vec2::new(0.0, ABOVE * spare);
         }

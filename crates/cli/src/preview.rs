@@ -65,7 +65,7 @@ impl Preview {
                     }
                 });
             }
-            if first < last && step >= first && (step - first).is_multiple_of(between) {
+            if step >= first && (step - first).is_multiple_of(between) {
                 moments.push((simulation.world().clone(), simulation.middle_of_motion()));
             }
         }

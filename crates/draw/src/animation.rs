@@ -11,8 +11,9 @@ use std::io::Write;
 pub struct Animation<W: Write> {
     state: State<W>,
     colors: Option<ColorTable>,
-    /// Hundredths of a second.
-    delay: u16,
+    /// Milliseconds of a frame, and those that frames so far have been shown too short: a GIF counts in hundredths of a second.
+    delay: u32,
+    owed: u32,
 }
 
 /// The header needs the first frame's size and colours.
@@ -33,8 +34,16 @@ impl<W: Write> Animation<W> {
     /// An endless animation that shows each frame for `delay_ms` milliseconds; players treat less
     /// than 20 as 100.
     pub fn new(writer: W, delay_ms: u32) -> Self {
-        let delay = (delay_ms.clamp(20, 60_000) + 5) / 10;
-        Self { state: State::Waiting(writer), colors: None, delay: delay as u16 }
+        let delay = delay_ms.clamp(20, 60_000);
+        Self { state: State::Waiting(writer), colors: None, delay, owed: 0 }
+    }
+
+    /// The delay of the next frame, hundredths of a second.
+    fn next_delay(&mut self) -> u16 {
+        self.owed += self.delay;
+        let delay = self.owed / 10;
+        self.owed %= 10;
+        delay as u16
     }
 
     /// Sets the colours, where not those of the first frame and of debug drawings.
@@ -48,16 +57,17 @@ impl<W: Write> Animation<W> {
     /// # Errors
     /// A frame of another size, or what the writer says.
     pub fn add(&mut self, canvas: &Canvas) -> Result<(), DrawError> {
+        let delay = self.next_delay();
         match core::mem::replace(&mut self.state, State::Failed) {
             State::Waiting(writer) => {
                 let own = || ColorTable::for_frames(canvas.rgb());
                 let table = self.colors.take().unwrap_or_else(own);
                 let mut running = Running::start(writer, canvas, table)?;
-                running.write_first(canvas, self.delay)?;
+                running.write_first(canvas, delay)?;
                 self.state = State::Running(Box::new(running));
             }
             State::Running(mut running) => {
-                running.write_change(canvas, self.delay)?;
+                running.write_change(canvas, delay)?;
                 self.state = State::Running(running);
             }
             State::Failed => return Err(DrawError::Encode("an earlier frame failed".into())),
@@ -187,6 +197,20 @@ mod tests {
         let pose = Transform::from_angle(Vec2::new(x, 0.0), 0.0);
         canvas.circle(&pose, 1.0, Color::rgb(76, 158, 248));
         canvas
+    }
+
+    /// Hundredths of a second that are cut off one frame are given to the next.
+    #[test]
+    fn frames_take_as_long_together_as_they_should() {
+        let mut animation = Animation::new(Vec::new(), 33);
+        (0..30).for_each(|i| animation.add(&frame(0.1 * i as f32)).unwrap());
+        let bytes = animation.finish().unwrap();
+        let mut decoder = gif::DecodeOptions::new().read_info(bytes.as_slice()).unwrap();
+        let mut shown = 0;
+        while let Some(part) = decoder.read_next_frame().unwrap() {
+            shown += u32::from(part.delay);
+        }
+        assert_eq!(shown, 99);
     }
 
     #[test]

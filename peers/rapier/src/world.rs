@@ -22,6 +22,8 @@ pub struct Rapier {
     belts: Belts,
     bodies: Vec<RigidBodyHandle>,
     joints: Vec<Option<ImpulseJointHandle>>,
+    /// Bodies with forces of the step to come.
+    pushed: Vec<usize>,
 }
 
 impl Engine for Rapier {
@@ -43,6 +45,7 @@ impl Engine for Rapier {
             belts: Belts::default(),
             bodies: Vec::new(),
             joints: Vec::new(),
+            pushed: Vec::new(),
         })
     }
 
@@ -161,6 +164,19 @@ impl Host for Rapier {
         }
     }
 
+    fn set_angular_velocity(&mut self, body: usize, radians_per_second: f32) {
+        if let Some(body) = self.world.bodies.get_mut(self.bodies[body]) {
+            body.set_angvel(radians_per_second, true);
+        }
+    }
+
+    fn apply_force(&mut self, body: usize, newtons: Vec2) {
+        self.pushed.push(body);
+        if let Some(body) = self.world.bodies.get_mut(self.bodies[body]) {
+            body.add_force(vector(newtons), true);
+        }
+    }
+
     fn position(&self, body: usize) -> DVec2 {
         let body = self.world.bodies.get(self.bodies[body]);
         body.map_or(DVec2::ZERO, |body| {
@@ -180,6 +196,12 @@ impl Host for Rapier {
     fn step(&mut self, dt: f32) {
         self.world.integration_parameters.dt = dt;
         self.world.step_with_events(&self.belts, &());
+        // Forces here are of one step, Rapier's until they are reset.
+        for body in self.pushed.drain(..) {
+            if let Some(body) = self.world.bodies.get_mut(self.bodies[body]) {
+                body.reset_forces(false);
+            }
+        }
     }
 
     fn ray_cast(&mut self, origin: Vec2, translation: Vec2, mask: u64) -> Option<f32> {

@@ -32,6 +32,11 @@ pub fn run(args: &RenderArgs) -> Outcome {
     let format = format_of(&args.output)?;
     let scene = source::open(&args.scene, args.world.seed)?;
     let steps = args.steps.unwrap_or(scene.steps);
+    if args.from > steps {
+        let range =
+            format!("the run has {steps} steps, of which none comes after --from {}", args.from);
+        return Err(Failure::new(range).hint("raise --steps"));
+    }
     let size = args.size.unwrap_or(match format {
         Format::Png => (1280, 720),
         Format::Gif => (640, 360),
@@ -124,8 +129,7 @@ impl Film {
             progress.at(step);
         }
         progress.finish();
-        let first = self.from.next_multiple_of(every);
-        report(&numbered(path, first), &format!("and so on, {count} pictures"))
+        report(&numbered(path, self.from), &format!("and so on, {count} pictures"))
     }
 
     fn write_png(&self, path: &Path) -> Outcome {

@@ -171,7 +171,8 @@ fn check_teleport(
     let Some(own) = first_solid(look.world, body) else { return true };
     let filter = QueryFilter { filter: own.filter(), ..QueryFilter::new() }.exclude(track.id);
     let into = entered(look, &own, -way, start, &filter);
-    let through = look.world.ray_cast(from, way, &filter);
+    let meets = |id: ShapeId| look.world.shape(id).is_some_and(|s| collide(look.world, &own, &s));
+    let through = look.world.ray_cast(from, way, &filter.predicate(&meets));
     let Some(hit) = into.or(through.map(|hit| hit.shape)) else { return true };
     let word = if into.is_some() { "into" } else { "through" };
     // One that comes to a free place far away is let in anew.

@@ -126,7 +126,7 @@ fn never_sleeps(
     touches: &[Touch],
     findings: &mut Findings,
 ) {
-    if track.speed > 2.0 * body.sleep_speed().max(0.05 * look.unit) {
+    if track.speed > 2.0 * body.sleep_speed().max(0.05) * look.unit {
         return;
     }
     let figure = figure("awake at rest for", track.still, AWAKE, " s");

@@ -26,9 +26,13 @@ pub fn shrink(scene: &Scene, tries: u32, shows: &mut dyn FnMut(&Scene) -> bool) 
         }
         share = if chunk == 1 { best.bodies.len().max(1) } else { 2 * share };
     }
-    for smaller in
-        [without_deeds(&best), with_steps(&best, best.steps / 2), with_steps(&best, best.steps / 4)]
-    {
+    let smaller: [fn(&Scene) -> Scene; 3] = [
+        without_deeds,
+        |scene| with_steps(scene, scene.steps / 2),
+        |scene| with_steps(scene, scene.steps / 2),
+    ];
+    for smaller in smaller {
+        let smaller = smaller(&best);
         if smaller != best && shows(&smaller) {
             best = smaller;
         }
@@ -69,5 +73,5 @@ fn without_deeds(scene: &Scene) -> Scene {
 }
 
 fn with_steps(scene: &Scene, steps: u32) -> Scene {
-    Scene { steps: steps.max(60), ..scene.clone() }
+    Scene { steps: steps.max(60).min(scene.steps), ..scene.clone() }
 }

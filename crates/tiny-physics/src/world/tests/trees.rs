@@ -464,3 +464,31 @@ fn a_hinge_spring_goes_to_its_target_inside_the_limits() {
         assert!((angle + 2.5).abs() < 0.02, "{chained}: {angle}");
     }
 }
+
+/// What motors hold against gravity stays where it is, and is not said to move.
+#[test]
+fn motors_in_a_tree_hold_an_arm_still() {
+    for (links, substeps, hinged) in [(2, 4, true), (4, 4, true), (2, 1, true), (2, 4, false)] {
+        let mut world = sleepless();
+        world.settings.substeps = substeps;
+        let wall = world.add_body(RigidBody::fixed()).unwrap();
+        let mut before = (wall, Vec2::ZERO);
+        let mut last = wall;
+        for i in 0..links {
+            last = add_bar(&mut world, i as f32 + 0.5, 0.0, 0.0);
+            let joint =
+                if hinged || i > 0 { JointDef::revolute() } else { JointDef::prismatic(Vec2::Y) };
+            let joint = joint.anchors(before.1, Vec2::new(-0.5, 0.0)).motor(0.0, 1.0e6);
+            world.add_joint(before.0, last, joint).unwrap();
+            before = (last, Vec2::new(0.5, 0.0));
+        }
+        run(&mut world, 60);
+        assert_eq!(in_trees(&world), links);
+        let start = world.body(last).unwrap().position();
+        run(&mut world, 300);
+        let body = world.body(last).unwrap();
+        let way = (body.position() - start).length();
+        assert!(way < 0.02, "{links} {substeps} {hinged}: {way} in 5 s");
+        assert!(body.velocity().length() < 0.005, "{links} {substeps}: {:?}", body.velocity());
+    }
+}

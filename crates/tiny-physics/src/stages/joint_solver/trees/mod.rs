@@ -162,13 +162,14 @@ fn run_tree<S: Simd>(
         Pass::WarmStart => {
             if is_jointed(tree.pace) {
                 rows::damp(tree);
-            } else {
+            }
+            if swings_freely(tree) {
                 kick(simd, tree, -1.0);
             }
             warm_start(simd, tree);
         }
         _ => {
-            if moved && !is_jointed(tree.pace) {
+            if moved && swings_freely(tree) {
                 kick(simd, tree, 1.0);
             }
             drive(simd, tree, &rates);
@@ -176,6 +177,16 @@ fn run_tree<S: Simd>(
         }
     }
     rows::store(tree, bodies);
+}
+
+/// May forces act half before and half after a substep? What motors and springs hold would move by the difference in each.
+#[inline(always)]
+fn swings_freely(tree: &JointTree) -> bool {
+    let drives = |axis: &TreeAxis| {
+        let turns = axis.motor.is_some_and(|[_, most, _]| most != 0.0);
+        turns || axis.axis.motor_max != 0.0 || axis.axis.push != 0.0
+    };
+    !is_jointed(tree.pace) && !tree.axes.iter().any(drives)
 }
 
 /// Adds or takes away half of what forces add in a substep: they act half before it and half after it, which
