@@ -132,6 +132,10 @@ impl Simulation {
         })
     }
 
+    /// Gives a world the threads and the level that were asked for, and lets it time its stages.
+    ///
+    /// # Errors
+    /// This machine has no such level.
     pub fn equip(world: &mut World, how: &WorldArgs) -> Outcome {
         world.set_threads(usize::from(how.threads));
         world.time_stages(true);

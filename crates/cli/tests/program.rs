@@ -338,6 +338,49 @@ fn pictures_and_animations_are_what_they_should_be() {
 }
 
 #[test]
+fn parts_of_a_run_are_shown_under_their_names() {
+    let series = scratch("part.png");
+    let said = good(&[
+        "render",
+        "seed_demo",
+        "--steps",
+        "80",
+        "--from",
+        "60",
+        "--every",
+        "7",
+        "-o",
+        series.to_str().unwrap(),
+    ]);
+    let first = series
+        .with_file_name(format!("{}_00060.png", series.file_stem().unwrap().to_str().unwrap()));
+    assert!(said.contains(first.to_str().unwrap()) && first.exists(), "{said}");
+    // One step is an animation, too; none is refused, and what was there stays.
+    let film = scratch("part.gif");
+    let film = film.to_str().unwrap();
+    good(&["render", "seed_demo", "--steps", "5", "--from", "5", "--size", "64x64", "-o", film]);
+    let before = std::fs::read(film).unwrap();
+    assert!(before.len() > 100);
+    let said = bad(&["render", "seed_demo", "--steps", "5", "--from", "6", "-o", film]);
+    assert!(said.contains("--from 6"), "{said}");
+    assert_eq!(std::fs::read(film).unwrap(), before);
+}
+
+/// Where notes take more room than there is, the scene is in the picture all the same.
+#[test]
+fn small_pictures_show_something() {
+    let picture = |gravity: &str| {
+        let file = scratch(gravity);
+        let size = ["--size", "128x128", "--style", "debug", "--steps", "100"];
+        let path = file.to_str().unwrap();
+        good(&[&["render", "seed_demo"][..], &size, &["-o", path]].concat());
+        std::fs::read(path).unwrap().len()
+    };
+    // With the notes alone it has 1 kB less.
+    assert!(picture("small.png") > 2000, "{}", picture("small.png"));
+}
+
+#[test]
 fn without_a_display_view_says_so() {
     if cfg!(all(unix, not(target_os = "macos"))) {
         let error = bad(&["view", "seed_demo"]);

@@ -31,6 +31,11 @@ impl<'a> Look<'a> {
         self.world.gravity.normalized()
     }
 
+    /// Does the surface of a shape run?
+    pub(crate) fn is_belt(&self, id: ShapeId) -> bool {
+        self.world.shape(id).is_some_and(|shape| shape.material().tangent_speed != 0.0)
+    }
+
     fn body(&self, id: BodyId) -> Who<BodyId> {
         Who { id, user_data: self.world.body(id).map_or(0, |body| body.user_data()) }
     }

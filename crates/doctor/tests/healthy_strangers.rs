@@ -53,6 +53,8 @@ fn healthy() -> Vec<Healthy> {
         pixels(),
         conveyor(),
         fast_belt(),
+        sliding_door(),
+        one_way_lift(),
         fountain(),
         explosion(),
         rafts(),
@@ -358,6 +360,37 @@ fn fast_belt() -> Healthy {
     add(&mut world, RigidBody::fixed().position(Vec2::new(0.0, 1.0)).shape(belt));
     add(&mut world, plank(0.3, 0.3, 0.0, 1.5));
     left_alone("a crate is put on a belt that runs at 6 m/s", 200, world)
+}
+
+/// A kinematic door that the game moves by its place, into the frame of the wall.
+fn sliding_door() -> Healthy {
+    let mut world = earth();
+    ground(&mut world);
+    block(&mut world, 3.0, 1.5, 1.0, 1.5);
+    let shape = Shape::rect(0.4, 1.0).unwrap();
+    let door = RigidBody::kinematic().position(Vec2::new(0.0, 1.1)).shape(shape);
+    let door = add(&mut world, door);
+    with(
+        "a door is put a bit further in each step, into the wall",
+        60,
+        world,
+        move |world, step| {
+            let place = Vec2::new(0.05 * step as f32, 1.1);
+            world.body_mut(door).unwrap().set_position(place);
+        },
+    )
+}
+
+/// What is put up through a one-way plank goes through nothing that it collides with.
+fn one_way_lift() -> Healthy {
+    let mut world = World::new(Vec2::ZERO);
+    let plank = ShapeDef::new(Shape::rect(3.0, 0.05).unwrap()).one_way(Vec2::Y);
+    add(&mut world, RigidBody::fixed().position(Vec2::new(0.0, 1.0)).shape(plank));
+    let hero = add(&mut world, ball(0.3, 0.0, 0.0));
+    with("a hero is lifted through a plank by its place", 40, world, move |world, step| {
+        let place = Vec2::new(0.0, 0.1 * step as f32);
+        world.body_mut(hero).unwrap().set_position(place);
+    })
 }
 
 /// A ball pool that fills from a spout; what is too much is taken out by handle.

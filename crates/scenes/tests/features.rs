@@ -163,3 +163,22 @@ fn water_between_two_ends_bears_what_is_in_it_alone() {
     assert!(height(wet).abs() < 0.1, "{}", height(wet));
     assert!(height(dry) < -50.0, "{}", height(dry));
 }
+
+/// Of a body of several shapes the first that is described is the one that a script changes.
+#[test]
+fn a_script_changes_the_first_shape() {
+    let (small, large) = (Shape::circle(0.1).unwrap(), Shape::circle(0.7).unwrap());
+    let other = ShapeDef::new(Shape::rect(0.2, 0.3).unwrap()).offset(Vec2::new(3.0, 0.0));
+    let body = RigidBody::dynamic().shape(small).shape(other.clone());
+    let act = Act { when: When::At(2), deed: Deed::SetShape { body: 0, shape: large } };
+    let script = Script::Timeline(Timeline { acts: vec![act] });
+    let scene = Scene { bodies: vec![body], steps: 5, script: Some(script), ..Scene::default() };
+    let mut run = Run::start(&scene).unwrap();
+    while !run.is_done() {
+        run.step();
+    }
+    let body = run.world().body(run.host().body_id(run.bodies()[0]).unwrap()).unwrap();
+    let shapes: Vec<Shape> =
+        body.shapes().map(|id| *run.world().shape(id).unwrap().shape()).collect();
+    assert_eq!(shapes, [large, other.shape]);
+}

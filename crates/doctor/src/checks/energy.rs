@@ -2,7 +2,7 @@
 
 use crate::look::{About, Findings, Look, Sighting, Words, figure};
 use crate::{Code, Severity};
-use tiny_physics::{Body, BodyId, BodyKind, JointId};
+use tiny_physics::{Body, BodyId, BodyKind, ContactView, JointId};
 
 /// Steps between two sums.
 const EVERY: u64 = 8;
@@ -32,12 +32,6 @@ pub(crate) struct Memory {
     weighed: f64,
     /// Pushes by the user before the energy was least.
     pushes: u64,
-}
-
-/// Does a belt run under anything?
-fn any_belt(look: &Look<'_>) -> bool {
-    let runs = |id| look.world.shape(id).is_some_and(|s| s.material().tangent_speed != 0.0);
-    look.world.contacts().any(|contact| runs(contact.shape_a) || runs(contact.shape_b))
 }
 
 impl Memory {
@@ -103,7 +97,9 @@ impl Memory {
         if self.growing < GROWING || gain <= FACTOR * scale {
             return;
         }
-        if any_belt(look) {
+        let on_belt =
+            |contact: ContactView| look.is_belt(contact.shape_a) || look.is_belt(contact.shape_b);
+        if look.world.contacts().any(on_belt) {
             self.reset();
         } else {
             self.report(look, gain, FACTOR * scale, findings);

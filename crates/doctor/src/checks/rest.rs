@@ -224,8 +224,5 @@ fn what_keeps_awake(
 }
 
 fn belt(look: &Look<'_>, touch: &Touch) -> bool {
-    [touch.own, touch.shape]
-        .into_iter()
-        .filter_map(|id| look.world.shape(id))
-        .any(|shape| shape.material().tangent_speed != 0.0)
+    look.is_belt(touch.own) || look.is_belt(touch.shape)
 }

@@ -169,18 +169,17 @@ impl Memory {
                 island.lean_on([row[Slot::VX], row[Slot::VY]]);
             }
         });
-        let hung = |hangs: fn(&JointKind) -> bool| {
-            let all = records().filter(move |record| hangs(&record.def.kind));
-            all.flat_map(|record| [record.body_a, record.body_b]).filter(|&body| is_here(body))
-        };
-        // Pulleys hang from the world.
-        for body in hung(|kind| matches!(kind, JointKind::Pulley { .. })) {
-            islands[numbers[sets.root(body) as usize] as usize].lean_on([0.0, 0.0]);
-        }
-        // Gears turn against it: those on nothing else have no motion of their own as a whole.
-        for body in hung(|kind| matches!(kind, JointKind::Gear { .. })) {
-            let island = &mut islands[numbers[sets.root(body) as usize] as usize];
-            island.driven |= island.ground.is_none();
+        for record in records() {
+            for body in [record.body_a, record.body_b].into_iter().filter(|&body| is_here(body)) {
+                let island = &mut islands[numbers[sets.root(body) as usize] as usize];
+                match record.def.kind {
+                    // Hangs from the world.
+                    JointKind::Pulley { .. } => island.lean_on([0.0, 0.0]),
+                    // Turns against it: what leans on nothing else has no motion of its own as a whole.
+                    JointKind::Gear { .. } => island.driven |= island.ground.is_none(),
+                    _ => {}
+                }
+            }
         }
         members.retain(|&(_, island)| !islands[island as usize].driven);
         let is_free = |&&(_, island): &&(u32, u32)| islands[island as usize].ground.is_none();

@@ -172,12 +172,7 @@ impl Scene<'_> {
         for shape in self.shapes.of_body(info.first_shape) {
             let record = &self.shapes.records[shape as usize];
             let moving = sweep.child(record.central);
-            let mut meet = |other: u32| {
-                work::note();
-                for pair in [(shape, other), (other, shape)] {
-                    overlaps.extend(self.on_the_way(fast, (shape, &moving), other, pair));
-                }
-            };
+            let mut meet = |other: u32| self.meet(fast, (shape, &moving), other, overlaps);
             if !record.sensor && self.sensors.shapes.len() <= FEW {
                 // These are looked at themselves, not all that is near.
                 let sensors = self.sensors.shapes.iter().zip(boxes);
@@ -211,20 +206,21 @@ impl Scene<'_> {
         ways.sort_by(|a, b| a.0.min.x.total_cmp(&b.0.min.x));
         for (i, (path, a, sees_a)) in ways.iter().enumerate() {
             let near = ways[i + 1..].iter().take_while(|(other, ..)| other.min.x <= path.max.x);
-            for (_, b, _) in
-                near.filter(|(other, _, sees)| (*sees_a || *sees) && path.overlaps(other))
-            {
-                let sweep = a.seen_from(a.start);
-                for shape in shapes(a) {
-                    let moving = sweep.child(self.shapes.records[shape as usize].central);
-                    for other in shapes(b) {
-                        work::note();
-                        for pair in [(shape, other), (other, shape)] {
-                            overlaps.extend(self.on_the_way(a, (shape, &moving), other, pair));
-                        }
-                    }
-                }
+            let near = near.filter(|(other, _, sees)| (*sees_a || *sees) && path.overlaps(other));
+            let theirs: Vec<u32> = near.flat_map(|(_, b, _)| shapes(b)).collect();
+            let sweep = a.seen_from(a.start);
+            for shape in shapes(a) {
+                let moving = sweep.child(self.shapes.records[shape as usize].central);
+                theirs.iter().for_each(|&other| self.meet(a, (shape, &moving), other, overlaps));
             }
+        }
+    }
+
+    /// Appends the overlaps that a swept shape and another had on the way, whichever is the sensor.
+    fn meet(&self, fast: &FastBody, swept: (u32, &Sweep), other: u32, overlaps: &mut Vec<Overlap>) {
+        work::note();
+        for pair in [(swept.0, other), (other, swept.0)] {
+            overlaps.extend(self.on_the_way(fast, swept, other, pair));
         }
     }
 

@@ -6,7 +6,7 @@
 //! one wakes the ring.
 
 use super::islands::{self, Islands, Stores};
-use crate::describe::{BodyKind, JointKind, Motor};
+use crate::describe::{BodyKind, JointKind};
 use crate::dynamics::{
     Bodies, Bucket, Contacts, Graph, JointRecord, Joints, NULL, Place, flags, next_edge,
 };
@@ -108,16 +108,12 @@ fn carried(bucket: &Bucket) -> impl Iterator<Item = (u32, u32)> + '_ {
 
 /// Does a motor move its bodies? However slowly it does, they do not rest.
 fn is_driven(bodies: &Bodies, record: &JointRecord) -> bool {
-    let runs = |motor: Option<Motor>| motor.map_or(0.0, |motor| motor.speed.abs());
-    let (turn, way) = match record.def.kind {
-        JointKind::Revolute { motor, .. } | JointKind::Wheel { motor, .. } => (runs(motor), 0.0),
-        JointKind::Distance { motor, .. } | JointKind::Prismatic { motor, .. } => {
-            (0.0, runs(motor))
-        }
-        JointKind::Motor { velocity, angular_velocity, .. } => {
-            (angular_velocity.abs(), velocity.length())
-        }
-        _ => return false,
+    let kind = record.def.kind;
+    let own = kind.motor().filter(|motor| motor.max > 0.0).map_or(0.0, |motor| motor.speed.abs());
+    let (turn, way) = match kind {
+        JointKind::Motor { velocity, max_force, .. } if max_force > 0.0 => (own, velocity.length()),
+        JointKind::Distance { .. } | JointKind::Prismatic { .. } => (0.0, own),
+        _ => (own, 0.0),
     };
     let (a, b) = (record.body_a, record.body_b);
     let of_anchor = |body: u32, anchor: Vec2| {
