@@ -147,6 +147,7 @@ fn side(lower: &mut [f32], upper: &mut [f32]) -> Option<(f32, f32)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::picture::Follower;
 
     #[test]
     fn what_flies_away_does_not_make_the_picture_small() {
@@ -174,5 +175,20 @@ mod tests {
         assert!(preview("wrecking_ball").framing.max.x > 9.0);
         let car = preview("car").framing;
         assert!(car.goes_on && car.max.relative_to(car.min).x < 60.0);
+    }
+
+    /// Where notes take more room than a picture has, the scene is in it all the same.
+    #[test]
+    fn small_pictures_show_the_scene() {
+        let how = WorldArgs { seed: 1, threads: 1, simd: None };
+        let scene = tiny_physics_scenes::find("seed_demo").unwrap().build(Default::default());
+        let simulation = Simulation::new(scene, &how).unwrap();
+        let framing = simulation.framing();
+        for height in [64, 128, 139, 140, 720] {
+            let camera = Follower::on(&simulation, &framing, (128, height), [61, 78]).camera;
+            let half = 0.5 * f64::from(height as f32 / camera.scale);
+            let (low, high) = (camera.center.y - half, camera.center.y + half);
+            assert!(low < framing.max.y && high > framing.min.y, "{height}: {low} to {high}");
+        }
     }
 }

@@ -366,20 +366,6 @@ fn parts_of_a_run_are_shown_under_their_names() {
     assert_eq!(std::fs::read(film).unwrap(), before);
 }
 
-/// Where notes take more room than there is, the scene is in the picture all the same.
-#[test]
-fn small_pictures_show_something() {
-    let picture = |gravity: &str| {
-        let file = scratch(gravity);
-        let size = ["--size", "128x128", "--style", "debug", "--steps", "100"];
-        let path = file.to_str().unwrap();
-        good(&[&["render", "seed_demo"][..], &size, &["-o", path]].concat());
-        std::fs::read(path).unwrap().len()
-    };
-    // With the notes alone it has 1 kB less.
-    assert!(picture("small.png") > 2000, "{}", picture("small.png"));
-}
-
 #[test]
 fn without_a_display_view_says_so() {
     if cfg!(all(unix, not(target_os = "macos"))) {
