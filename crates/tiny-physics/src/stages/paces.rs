@@ -248,7 +248,8 @@ impl Island {
     fn grant(&mut self, rules: Rules, budget: &mut usize) {
         let visible = VISIBLE[usize::from(self.bodies >= LARGE)];
         let wanted = (1..JOINTED).rev().find(|&pace| {
-            let keeps = pace <= usize::from(self.pace);
+            // Those of joined bodies come after the refined ones.
+            let keeps = (pace..JOINTED).contains(&usize::from(self.pace));
             let least = if keeps { 0.5 } else { 1.0 } * visible[pace] * rules.length_unit;
             let waits = self.lively
                 || self.stirred && self.strain < visible[JOINTED - 1] * rules.length_unit;

@@ -8,6 +8,7 @@ use crate::dynamics::{JointRecord, NULL, REFINEMENT};
 use crate::error::Error;
 use crate::math::{DVec2, Rot, Vec2};
 use crate::stages::joint_solver;
+use crate::stages::passivity::may_drive;
 
 /// A joint of the world, to read.
 #[derive(Clone, Copy)]
@@ -178,6 +179,9 @@ impl World {
         self.wake_index(a);
         self.wake_index(b);
         self.state.joint_graph.update(&mut self.state.bodies, &mut self.state.joints, index, &def);
+        if may_drive(&before) != may_drive(&def) {
+            self.state.graph.news = self.state.graph.news.saturating_add(1);
+        }
         if self.state.bodies.infos[a as usize].awake || self.state.bodies.infos[b as usize].awake {
             self.state.place_joint(index);
         }

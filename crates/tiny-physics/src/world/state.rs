@@ -7,7 +7,8 @@ use super::tiles::TileGrids;
 use crate::broad_phase::BroadPhase;
 use crate::codec::store;
 use crate::dynamics::{
-    Bodies, Contact, Contacts, Graph, JointGraph, JointRecord, Joints, Sensors, Shapes, Waiting,
+    Bodies, Contact, Contacts, Graph, JointGraph, JointRecord, Joints, Place, Sensors, Shapes,
+    Waiting,
 };
 use crate::error::Error;
 use crate::math::Vec2;
@@ -83,10 +84,12 @@ impl State {
         self.contacts.remove(&mut self.bodies, index);
     }
 
-    /// Gives an awake joint lanes.
+    /// Gives an awake joint lanes, unless it has some.
     pub(super) fn place_joint(&mut self, index: u32) {
-        self.joint_graph.insert(&mut self.bodies, &mut self.joints, index);
-        self.graph.news = self.graph.news.saturating_add(1);
+        if self.joints.records[index as usize].place == Place::Asleep {
+            self.joint_graph.insert(&mut self.bodies, &mut self.joints, index);
+            self.graph.news = self.graph.news.saturating_add(1);
+        }
     }
 
     /// Takes a joint's lanes away; its impulses live on.

@@ -228,3 +228,22 @@ fn what_is_locked_reflects_as_a_wall_does() {
     assert!((world.body(ball).unwrap().velocity().x + 5.0).abs() < 0.02);
     assert_eq!(world.body(block).unwrap().velocity(), Vec2::ZERO);
 }
+
+/// Sliders hold what cannot turn along their direction alone: a torque that does nothing was told, grew, and could break them.
+#[test]
+fn sliders_of_what_cannot_turn_have_no_torque() {
+    let mut world = World::new(Vec2::new(0.0, -10.0));
+    world.settings.sleep = false;
+    let post = world.add_body(RigidBody::fixed()).unwrap();
+    let crate_ = Shape::rect(0.5, 0.5).unwrap();
+    let body = RigidBody::dynamic().shape(crate_).lock_rotation().angle(0.2);
+    let body = world.add_body(body).unwrap();
+    let def = JointDef::prismatic(Vec2::X).break_at(1000.0, 1.0);
+    let joint = world.add_joint(post, body, def).unwrap();
+    for _ in 0..120 {
+        world.step(1.0 / 60.0);
+        let joint = world.joint(joint).expect("nothing breaks it");
+        assert_eq!(joint.torque(), 0.0);
+        assert!((joint.force().y - 10.0).abs() < 0.1, "{}", joint.force());
+    }
+}

@@ -47,7 +47,6 @@ impl<L: Lanes> Rows<L> {
     fn rigid_mass(&self, stride: &Stride<L>, pair: &Pair<L>, held: L) -> Symmetric<L> {
         let (ia, ib) = (pair.a[Slot::INV_INERTIA], pair.b[Slot::INV_INERTIA]);
         let angular = pair.inv_inertia();
-        // Bodies that cannot turn keep their angle by themselves.
         let angular = L::select(angular.gt(stride.zero), angular, stride.one);
         let both = held * (ia * self.across.arm_a + ib * self.across.arm_b);
         Symmetric::invert(stride, pair.inv_mass_along(&self.across), both, angular)
@@ -144,11 +143,14 @@ impl JointKernel for SliderBlock {
             let motor = self.solve_motor(stride, pair, wheel);
             pair.apply([stride.zero; 2], motor, motor);
         }
-        let held = stride.one - wheel;
+        // Bodies that cannot turn keep their angle by themselves.
+        let turns = L::select(pair.inv_inertia().gt(stride.zero), stride.one, stride.zero);
+        let held = turns * (stride.one - wheel);
         let soft = Soft::<L, BIAS>::load(stride, &self.soft);
         let direction = pair.direction(stride, &self.direction);
         let jacobians = Rows::new(pair, direction);
         let [across, angular] = stride.load2(&self.rigid.impulse_x, &self.rigid.impulse_y);
+        let angular = turns * angular;
         let error = dot(pair.gap, jacobians.across.direction);
         let angle = pair.angle(stride, &self.angle);
         let [on_axis, on_angle] = jacobians.coupling(pair);

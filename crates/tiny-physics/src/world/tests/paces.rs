@@ -415,3 +415,31 @@ fn a_joint_that_does_nothing_leaves_a_stack_fine() {
         assert!((sink(Some(joint)) - without).abs() < 1.0e-4, "{} {without}", sink(Some(joint)));
     }
 }
+
+/// Twenty motors whose speed is set in every frame: the paces of all islands were chosen anew in every step for that.
+#[test]
+fn motors_that_are_set_are_no_news() {
+    let mut world = floored();
+    let wheel = ShapeDef::new(Shape::circle(0.3).unwrap());
+    let motor = |speed: f32| JointDef::revolute().motor(speed, 5.0);
+    let motors: Vec<_> = (0..20)
+        .map(|i| {
+            let place = DVec2::new(f64::from(i) * 2.0, 3.0);
+            let wheel =
+                world.add_body(RigidBody::dynamic().shape(wheel.clone()).position(place)).unwrap();
+            let post = world.add_body(RigidBody::fixed().position(place)).unwrap();
+            world.add_joint(post, wheel, motor(1.0)).unwrap()
+        })
+        .collect();
+    steps(&mut world, 9);
+    for i in 0..16 {
+        for &id in &motors {
+            world.set_joint(id, motor(1.0 + 0.1 * i as f32)).unwrap();
+        }
+        assert_eq!(world.state.graph.news, 0);
+        world.step(DT);
+    }
+    // One that stops, whose island may be watched now, is.
+    world.set_joint(motors[0], motor(0.0)).unwrap();
+    assert_eq!(world.state.graph.news, 1);
+}
