@@ -304,3 +304,73 @@ fn a_slope_of_any_angle_leaves_walls_walls() {
         assert!(hero.position.y < 1.2 && hero.position.x < 2.0, "{slope}: {:?}", hero.position);
     }
 }
+
+fn slope(world: &mut World, corners: &[(f32, f32)]) {
+    let hull: Vec<_> = corners.iter().map(|&(x, y)| Vec2::new(x, y)).collect();
+    world.add_body(RigidBody::fixed().shape(Shape::hull(&hull).unwrap())).unwrap();
+}
+
+/// Jumped against and walked into, a slope that is too steep is a wall: it carried up who did, by 11 m/s at 80 degrees.
+#[test]
+fn steep_slopes_are_not_climbed_from_the_air() {
+    let dt = 1.0 / 60.0;
+    for (run, rise) in [(2.0, 5.1), (0.9, 5.1), (3.5, 5.1)] {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let floor = RigidBody::fixed().position(Vec2::new(0.0, -0.5));
+        world.add_body(floor.shape(Shape::rect(20.0, 0.5).unwrap())).unwrap();
+        slope(&mut world, &[(2.0, 0.0), (2.0 + run, rise), (2.0 + run, 0.0)]);
+        let mut mover = CharacterMover::new(Vec2::new(0.0, 0.91), 1.8, 0.3);
+        for i in 0..240 {
+            world.step(dt);
+            let jump = if i % 60 == 20 { 5.0 } else { 0.0 };
+            mover.update(&mut world, MoverInput { walk: 3.0, jump, ..MoverInput::default() }, dt);
+            assert!(mover.position.y < 0.91 + 1.8, "{run}: {} in step {i}", mover.position);
+        }
+    }
+}
+
+/// It slides down by its weight, at any rate of frames alike: it crept, the slower the more frames there were.
+#[test]
+fn steep_slopes_are_slid_down() {
+    for hertz in [30, 60, 120] {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        slope(&mut world, &[(0.0, 0.0), (8.0, 20.4), (8.0, 0.0)]);
+        let mut mover = CharacterMover::new(Vec2::new(6.0, 17.0), 1.8, 0.3);
+        settle(&mut world, &mut mover, hertz / 2, 1.0 / hertz as f32);
+        let before = mover.position;
+        settle(&mut world, &mut mover, hertz / 2, 1.0 / hertz as f32);
+        let way = mover.position.relative_to(before);
+        assert!((way.x / way.y - 8.0 / 20.4).abs() < 0.01, "{hertz}: {way:?}");
+        // 9.3 m/s^2 along it, from when it met it.
+        assert!((2.0..4.0).contains(&way.length()), "{hertz}: {way:?}");
+    }
+}
+
+/// What is drawn follows updates, not what the game has set since.
+#[test]
+fn teleports_and_other_sizes_are_not_drawn_as_motion() {
+    let mut world = World::new(Vec2::new(0.0, -10.0));
+    world.add_body(RigidBody::fixed().shape(Shape::rect(200.0, 0.5).unwrap())).unwrap();
+    let mut mover = CharacterMover::new(Vec2::new(0.0, 1.5), 1.8, 0.3);
+    settle(&mut world, &mut mover, 60, 1.0 / 60.0);
+    assert!(mover.resize(&world, 1.0, 0.3));
+    let drawn = mover.interpolated_position(0.0);
+    assert!((drawn.y - mover.position.y).abs() < 0.01, "{drawn} and {}", mover.position);
+    mover.position.x = 100.0;
+    assert_eq!(mover.interpolated_position(0.5), mover.position);
+    settle(&mut world, &mut mover, 1, 1.0 / 60.0);
+    assert!((mover.interpolated_position(0.5).x - 100.0).abs() < 1.0e-3);
+}
+
+/// A direction is a direction, however long.
+#[test]
+fn one_way_platforms_hold_it_whatever_the_length_of_their_direction() {
+    for length in [0.25, 1.0, 10.0] {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let plank = ShapeDef::new(Shape::rect(3.0, 0.1).unwrap()).one_way(Vec2::Y * length);
+        world.add_body(RigidBody::fixed().shape(plank)).unwrap();
+        let mut mover = CharacterMover::new(Vec2::new(0.0, 1.5), 1.8, 0.3);
+        settle(&mut world, &mut mover, 60, 1.0 / 60.0);
+        assert!((mover.position.y - 1.01).abs() < 0.01, "{length}: {}", mover.position);
+    }
+}

@@ -126,16 +126,14 @@ impl Joints {
 
     /// Does no joint between the two bodies forbid them to collide?
     pub(crate) fn may_collide(&self, bodies: &Bodies, a: u32, b: u32) -> bool {
-        let first = |body: u32| bodies.infos[body as usize].first_joint;
-        if first(a) == NULL || first(b) == NULL {
-            return true;
-        }
-        // Every joint of a static body may be a long list; that of a dynamic one is short.
-        let (body, other) = if bodies.is_dynamic(a) { (a, b) } else { (b, a) };
-        self.of_body(first(body)).all(|(index, _)| {
-            let record = &self.records[index as usize];
-            record.other(body) != other || record.def.collide_connected || !record.def.enabled
-        })
+        let parts = |body: u32, other: u32| {
+            self.of_body(bodies.infos[body as usize].first_joint).map(move |(index, _)| {
+                let record = &self.records[index as usize];
+                record.other(body) == other && !record.def.collide_connected && record.def.enabled
+            })
+        };
+        // Both lists at once, up to the end of the shorter one: the other may be a hub's.
+        parts(a, b).zip(parts(b, a)).all(|(a, b)| !(a || b))
     }
 
     /// The joints that tie islands together: those in the graph or of class none.

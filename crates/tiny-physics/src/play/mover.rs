@@ -129,6 +129,8 @@ described! {
         ground: Option<MoverGround>,
         /// Where it was before the last update.
         previous: DVec2 = default,
+        /// And after it, or after it moved by itself since: elsewhere it was teleported.
+        arrived: DVec2 = default,
         /// What stopped it in the last update.
         hits: Vec<MoverHit> = default,
         /// The velocity with which the next update leaves the ground.
@@ -206,6 +208,7 @@ impl CharacterMover {
             body: None,
             ground: None,
             previous: position,
+            arrived: position,
             hits: Vec::new(),
             launched: None,
             drift: 0.0,
@@ -263,6 +266,7 @@ impl CharacterMover {
             }
             self.fall(world, frame, input.walk, carried * -dt);
         }
+        self.arrived = self.position;
         self.weigh(world, frame);
         self.lead_body(world);
     }
@@ -396,7 +400,7 @@ impl CharacterMover {
         let vertical = up * self.velocity.dot(up) + right * (speed + self.drift);
         let mut velocity = vertical + gravity * time;
         let mut rest = vertical * time + gravity * (0.5 * time * time) + extra;
-        let mut left = time;
+        let (mut left, mut walk) = (time, speed);
         for _ in 0..MAX_CASTS {
             let Some(hit) = self.cast(world, frame, rest, None) else {
                 self.position += rest;
@@ -414,12 +418,21 @@ impl CharacterMover {
                 return;
             }
             rest -= hit.normal * hit.normal.dot(rest);
-            if self.drift * right.dot(hit.normal) < -PARALLEL {
-                self.drift = 0.0;
+            // What walks against a slope is not carried up by it.
+            let steep = hit.normal.dot(up) > 0.0;
+            if steep && walk * right.dot(hit.normal) < 0.0 {
+                velocity -= right * walk;
+                walk = 0.0;
             }
             let into = hit.normal.dot(velocity);
             if into < 0.0 {
                 velocity -= hit.normal * into;
+            }
+            if steep {
+                // It slides on, faster and faster.
+                self.drift = velocity.dot(right) - walk;
+            } else if self.drift * right.dot(hit.normal) < -PARALLEL {
+                self.drift = 0.0;
             }
             self.push(world, frame, &hit, (right * speed).dot(-hit.normal), 1.0);
         }
@@ -724,7 +737,7 @@ impl CharacterMover {
         }
         let pose = Pose::new(self.position, Rot::IDENTITY);
         let gap = distance(obstacle.shape(), &self.capsule(frame.up, 0.0), pose.relative_to(place));
-        gap.separation >= -0.5 * self.skin && place.q.rotate(gap.normal).dot(way) > 0.3
+        gap.separation >= -0.5 * self.skin && place.q.rotate(gap.normal).dot(way.normalized()) > 0.3
     }
 }
 

@@ -58,8 +58,11 @@ impl CharacterMover {
     }
 
     /// Where it is to be drawn between its places before (`alpha` 0) and after (1) the last update: see
-    /// [`FixedStep::alpha`](crate::FixedStep::alpha). World, metres.
+    /// [`FixedStep::alpha`](crate::FixedStep::alpha). Where it was teleported since, it is there. World, metres.
     pub fn interpolated_position(&self, alpha: f32) -> DVec2 {
+        if self.position != self.arrived {
+            return self.position;
+        }
         let alpha = if alpha.is_finite() { alpha.clamp(0.0, 1.0) } else { 1.0 };
         self.previous.lerp(self.position, alpha.into())
     }
@@ -88,6 +91,7 @@ impl CharacterMover {
             }
             self.hits.push(hit);
         }
+        self.arrived = self.position;
         self.position.relative_to(start)
     }
 
@@ -106,7 +110,10 @@ impl CharacterMover {
     /// happens, and it says so by `false`, where there is no room, or a number makes no sense.
     pub fn resize(&mut self, world: &World, height: f32, radius: f32) -> bool {
         let rise = Frame::of(world).up * (0.5 * (height - self.height));
-        let grown = Self { height, radius, position: self.position + rise, ..self.clone() };
+        let mut grown = Self { height, radius, ..self.clone() };
+        for place in [&mut grown.position, &mut grown.previous, &mut grown.arrived] {
+            *place += rise;
+        }
         let sound =
             height.is_finite() && radius > 0.0 && grown.capsule(Vec2::Y, 0.0).validate().is_ok();
         if sound && grown.fits(world) {
