@@ -244,7 +244,7 @@ impl Picture {
         };
         match shape {
             Shape::Circle { radius } => rounded(frame.p, frame.q, Vec2::ZERO, *radius),
-            Shape::Aabb { half_extents } => rounded(frame.p, Rot::IDENTITY, *half_extents, 0.0),
+            Shape::Aabb { half_extents } => rounded(frame.p, frame.q, *half_extents, 0.0),
             Shape::Capsule { a, b, radius } => along(*a, *b, *radius),
             Shape::Segment { a, b } => along(*a, *b, 0.0),
             Shape::Polygon(polygon) => match polygon.as_rect() {

@@ -14,8 +14,7 @@ impl Camera {
             Shape::Circle { radius } => self.circle_path(pose, *radius),
             Shape::Aabb { half_extents: h } => {
                 let corners = [-*h, Vec2::new(h.x, -h.y), *h, Vec2::new(-h.x, h.y)];
-                let upright = Transform { p: pose.p, ..Transform::IDENTITY };
-                self.polygon_path(&upright, &corners, 0.0)
+                self.polygon_path(pose, &corners, 0.0)
             }
             Shape::Capsule { a, b, radius } => {
                 self.capsule_path(pose.apply(*a), pose.apply(*b), *radius)

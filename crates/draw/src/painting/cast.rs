@@ -218,7 +218,7 @@ fn look(body: &Body<'_>, camera: &Camera, frame: Transform, groups: &Groups) -> 
             angle: 0.0 - frame.q.angle(),
         },
         Shape::Aabb { half_extents: h } => {
-            let at = |x: f32, y: f32| camera.to_pixels(frame.p + Vec2::new(x, y));
+            let at = |x: f32, y: f32| pixel(Vec2::new(x, y));
             Look::Crate { corners: [at(-h.x, -h.y), at(h.x, -h.y), at(h.x, h.y), at(-h.x, h.y)] }
         }
         Shape::Capsule { a, b, radius } if is_link(body) => {

@@ -571,10 +571,6 @@ impl Graph {
             let key = key(place, class);
             self.buckets[key].take_out(place, slot, SharedSlice::new(&mut contacts.records));
             self.buckets.close(key);
-            // What moves into the hole may come from a fresh block.
-            if place != IDLE && !self.fresh.is_empty() {
-                self.fresh.push((place as u8, class as u8, slot / BLOCK as u32));
-            }
         }
     }
 
@@ -590,6 +586,10 @@ impl Graph {
             self.touching -= 1;
             let ends = [contact.body_a, contact.body_b];
             give_colour_back(bodies, ends, place, |info| &mut info.contact_colours);
+            // What moves into the hole may come from a fresh block.
+            if !self.fresh.is_empty() {
+                self.fresh.push((place as u8, contact.class as u8, slot / BLOCK as u32));
+            }
         }
         Some((place, slot))
     }

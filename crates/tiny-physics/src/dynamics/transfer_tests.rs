@@ -122,19 +122,28 @@ fn many_at_once_are_as_one_by_one() {
 /// What moves into a hole takes along that its constraint is not written yet.
 #[test]
 fn contacts_that_move_within_their_bucket_stay_fresh() {
+    check_fresh(|stores, index| {
+        let Stores { bodies, contacts, graph } = stores;
+        graph.remove(bodies, contacts, index);
+    });
+    check_fresh(|stores, index| stores.remove(&Team::alone(), [index].into_iter()));
+}
+
+fn check_fresh(remove: impl Fn(&mut Stores, u32)) {
     const COUNT: u32 = 900;
     let mut stores = Stores::new(COUNT as usize);
-    let Stores { bodies, contacts, graph } = &mut stores;
     for index in 0..COUNT {
         let is_late = index >= COUNT / 2;
+        let Stores { bodies, contacts, graph } = &mut stores;
         if index == COUNT / 2 {
             graph.clear_fresh();
         }
         graph.insert(bodies, contacts, index);
         if is_late && index % 3 == 0 {
-            graph.remove(bodies, contacts, index - COUNT / 2);
+            remove(&mut stores, index - COUNT / 2);
         }
     }
+    let Stores { contacts, graph, .. } = &mut stores;
     graph.sort_fresh();
     let mut moved = 0;
     for index in COUNT / 2..COUNT {

@@ -63,7 +63,7 @@ impl Polygon {
         Error::check_finite_vec("rotation", rotation.x_axis())?;
         let frame = Transform::new(center, rotation.normalized());
         let corners = box_corners(Vec2::new(half_width, half_height));
-        Self::from_loop(&corners.map(|corner| frame.apply(corner)))
+        Self::convex(&corners.map(|corner| frame.apply(corner)))
     }
 
     /// The convex hull of any number of points in any order.

@@ -267,7 +267,7 @@ impl BodyMut<'_> {
     /// acts 1/2 * density * drag * width * u^2 along the velocity u of the air past it, and that is limited so
     /// that no wind is too strong for a step.
     pub fn apply_wind(&mut self, wind: &Wind, dt: f32) {
-        let mass = self.as_ref().mass();
+        let (mass, inertia) = (self.as_ref().mass(), self.as_ref().inertia());
         let finite = wind.velocity.is_finite() && wind.density.is_finite() && wind.drag.is_finite();
         if !finite || !dt.is_finite() {
             self.refuse();
@@ -289,10 +289,11 @@ impl BodyMut<'_> {
             let (way, speed) = past.direction_and_length();
             let width = shape.width_across(frame.q.unrotate(way));
             let strength = 0.5 * wind.density * wind.drag * width * speed;
-            rate += strength;
+            let arm = point.relative_to(body.center()).length_sq();
+            rate += strength / mass + if inertia > 0.0 { strength * arm / inertia } else { 0.0 };
             forces.push((past * strength, point));
         }
-        let scale = 1.0 / (1.0 + dt * rate / mass);
+        let scale = 1.0 / (1.0 + dt * rate);
         for (force, point) in forces {
             self.apply_force(force * scale, point);
         }

@@ -6,7 +6,7 @@ use super::descriptions::MAX_COORDINATE;
 use super::ids::{BodyId, ShapeId};
 use super::state::State;
 use crate::describe::BodyKind;
-use crate::dynamics::BodyInfo;
+use crate::dynamics::{BodyInfo, NULL};
 use crate::math::{DVec2, Pose, Rot, Vec2};
 use crate::stages::sleep;
 
@@ -223,6 +223,10 @@ impl BodyMut<'_> {
             let State { bodies, contacts, joints, .. } = &self.world.state;
             let island = sleep::island_of(self.index, bodies, contacts, joints);
             self.world.put_to_sleep(&island);
+            // Sensors have to look once more at what was fast.
+            for &body in island.iter().filter(|&&body| body != NULL) {
+                self.world.mark_shapes_changed(body);
+            }
         }
     }
 

@@ -106,11 +106,11 @@ impl World {
                     info.alive && !info.awake && info.enabled && info.kind != BodyKind::Static
                 })
             };
-            ensure(
-                next == NULL || !info.alive || (!info.awake && sleeps(next)),
-                "an island is broken",
-            )?;
-            if info.alive && next != NULL {
+            // What sleeps is in a ring, if alone: no other body leads where one does, so none is open.
+            let rings = info.alive && next != NULL;
+            ensure((moves && !info.awake) == rings, "an island is open")?;
+            ensure(!rings || sleeps(next), "an island is broken")?;
+            if rings {
                 let once = !core::mem::replace(&mut follows[next as usize], true);
                 ensure(once, "two bodies of islands lead to one")?;
             }

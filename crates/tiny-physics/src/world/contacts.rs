@@ -128,7 +128,11 @@ impl World {
         let surface = &bucket.surfaces[block];
         let totals = contact.hit_events.then_some([surface.total_1[lane], surface.total_2[lane]]);
         let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
-        let center = self.state.bodies.poses[contact.body_a as usize].p;
+        // Of a contact that was foreseen the bodies have some way to go, or have gone on from it: the slower one less.
+        let [a, b] = [contact.body_a, contact.body_b];
+        let speed = |body: u32| self.state.bodies.velocity(body).length_sq();
+        let from_b = speed(b) < speed(a);
+        let center = self.state.bodies.poses[if from_b { b } else { a } as usize].p;
         let mut points = [ContactPoint {
             position: DVec2::ZERO,
             separation: 0.0,
@@ -143,7 +147,11 @@ impl World {
                 continue;
             }
             // r x n and r x t = -(r . n) give the anchor back.
-            let (across, along) = (point.normal_arm_a[lane], -point.tangent_arm_a[lane]);
+            let (across, along) = if from_b {
+                (point.normal_arm_b[lane], -point.tangent_arm_b[lane])
+            } else {
+                (point.normal_arm_a[lane], -point.tangent_arm_a[lane])
+            };
             let anchor = normal * along + Vec2::new(normal.y, -normal.x) * across;
             points[count] = ContactPoint {
                 position: center + anchor,
@@ -343,10 +351,33 @@ impl World {
 
     /// Wakes the island of a body; with a kinematic body, also what rests on it or hangs on it.
     pub(super) fn wake_index(&mut self, index: u32) {
+        if !self.wake_island(index) {
+            return;
+        }
+        // A list, as kinematic bodies may hang on each other in a long chain.
+        let mut carried = self.carried_by(index);
+        while let Some(body) = carried.pop() {
+            if self.wake_island(body) {
+                carried.extend(self.carried_by(body));
+            }
+        }
+    }
+
+    /// What rests on a body and what hangs on it, the first one last.
+    fn carried_by(&self, index: u32) -> Vec<u32> {
+        let contacts = self.state.contacts_of(index).map(|(_, contact)| contact.other(index));
+        let joints = self.state.joints_of(index).map(|(_, joint)| joint.other(index));
+        let mut others: Vec<u32> = contacts.chain(joints).collect();
+        others.reverse();
+        others
+    }
+
+    /// Wakes the island of a body. Is that a kinematic one that slept, so that what it carries is to wake, too?
+    fn wake_island(&mut self, index: u32) -> bool {
         let (mut woken, scale) = (core::mem::take(&mut self.scratch.woken), self.kept_scale());
         let (stores, hinges) = self.sleep_stores();
         sleep::wake(index, stores, 1.0 / scale, &mut woken, hinges);
-        // Not where it was awake already or is not enabled: this calls itself.
+        // Not where it was awake already or is not enabled.
         let info = &self.state.bodies.infos[index as usize];
         let starts_to_carry = info.kind == BodyKind::Kinematic && !woken.is_empty();
         for &body in &woken {
@@ -354,10 +385,7 @@ impl World {
             self.state.events.pending_woke.push(body);
         }
         self.scratch.woken = woken;
-        if starts_to_carry {
-            self.wake_neighbours(index);
-            self.wake_joined(index);
-        }
+        starts_to_carry
     }
 
     /// Puts islands (each ended by NULL) to sleep.

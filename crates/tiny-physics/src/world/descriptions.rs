@@ -42,7 +42,7 @@ pub(super) fn check_given(name: &'static str, given: Option<f32>) -> Result<(), 
 
 pub(super) fn check_shape(shape: &ShapeDef) -> Result<(), Error> {
     shape.shape.validate()?;
-    Error::check_finite_vec("offset", shape.offset)?;
+    check_point("offset", shape.offset)?;
     Error::check_finite("angle", shape.angle)?;
     Error::check_not_negative("density", shape.material.density)?;
     if shape.material.density != 0.0 {

@@ -7,8 +7,8 @@ use super::state::State;
 use crate::describe::{Filter, Material, ShapeDef};
 use crate::dynamics::NULL;
 use crate::error::Error;
-use crate::geometry::Shape;
 use crate::geometry::manifold::ShapeClass;
+use crate::geometry::{Shape, check_point};
 use crate::math::{Transform, Vec2};
 use crate::stages::pairs;
 
@@ -63,10 +63,10 @@ impl ShapeMut<'_> {
     /// body follow, its contacts begin anew.
     ///
     /// # Errors
-    /// A number is not finite.
+    /// A number is not finite, or the offset beyond 1e6.
     pub fn set_local(&mut self, offset: impl Into<Vec2>, angle: f32) -> Result<(), Error> {
         let offset = offset.into();
-        Error::check_finite_vec("offset", offset)?;
+        check_point("offset", offset)?;
         Error::check_finite("angle", angle)?;
         self.replace(|record| record.local = Transform::from_angle(offset, angle));
         Ok(())

@@ -185,3 +185,68 @@ fn polygons_of_many_corners_are_split() {
     let area = 12.0 * (0.2618_f32).sin();
     assert!((world.body(wheel).unwrap().mass() - area).abs() < 1e-3);
 }
+
+/// A sail on an arm is blown no faster than the wind.
+#[test]
+fn no_wind_is_too_strong_for_what_is_lopsided() {
+    let mut world = World::new((0.0, 0.0));
+    let hub = ShapeDef::new(Shape::circle(0.2).unwrap()).density(50.0);
+    let sail = ShapeDef::new(Shape::rect(0.05, 0.5).unwrap()).density(0.1).offset((0.0, 2.0));
+    let body = world.add_body(RigidBody::dynamic().shape(hub).shape(sail)).unwrap();
+    let wind = Wind { velocity: Vec2::new(20.0, 0.0), ..Wind::default() };
+    for _ in 0..60 {
+        world.body_mut(body).unwrap().apply_wind(&wind, DT);
+        world.step(DT);
+        let spin = world.body(body).unwrap().angular_velocity();
+        assert!(spin.abs() < 10.0, "{spin}");
+    }
+}
+
+/// Kinematic bodies that hang on each other in a chain wake all, however many.
+#[test]
+fn long_chains_of_platforms_wake() {
+    let mut world = World::new((0.0, 0.0));
+    let add = |world: &mut World| world.add_body(RigidBody::kinematic().asleep()).unwrap();
+    let all: Vec<_> = (0..50_000).map(|_| add(&mut world)).collect();
+    for pair in all.windows(2) {
+        world.add_joint(pair[0], pair[1], JointDef::filter()).unwrap();
+    }
+    world.body_mut(all[0]).unwrap().wake();
+    assert!(all.iter().all(|&body| world.body(body).unwrap().is_awake()));
+}
+
+/// Places beyond what positions have room for are refused: two shapes far off on both sides had a centre between them that was none.
+#[test]
+fn shapes_far_off_their_body_are_refused() {
+    let mut world = World::new((0.0, 0.0));
+    let ball = || ShapeDef::new(Shape::circle(0.5).unwrap());
+    let far = RigidBody::dynamic().shape(ball().offset((3e38, 0.0)));
+    assert!(world.add_body(far).is_err());
+    let body = world.add_body(RigidBody::dynamic().shape(ball())).unwrap();
+    let shape = world.body(body).unwrap().shapes().next().unwrap();
+    assert!(world.shape_mut(shape).unwrap().set_local((-3e38, 0.0), 0.0).is_err());
+    assert!(Polygon::turned_rect(9e5, 9e5, Vec2::ZERO, Rot::from_angle(0.8)).is_err());
+    let seen = |world: &World| world.shapes_seen(&QueryFilter::new()).count();
+    assert_eq!(seen(&world), 1);
+    world.body_mut(body).unwrap().set_enabled(false);
+    assert_eq!(seen(&world), 0);
+}
+
+/// What flew through a gate in one step and is put to sleep behind it is no longer in it.
+#[test]
+fn what_sleeps_behind_a_gate_has_left_it() {
+    let mut world = World::new((0.0, 0.0));
+    let gate = ShapeDef::new(Shape::rect(0.01, 1.0).unwrap()).sensor();
+    world.add_body(RigidBody::fixed().shape(gate)).unwrap();
+    let ball = RigidBody::dynamic().position((-0.15, 0.0)).velocity((18.0, 0.0));
+    let ball = world.add_body(ball.shape(Shape::circle(0.05).unwrap())).unwrap();
+    world.step(DT);
+    assert_eq!(world.events().sensor_begin().len(), 1);
+    world.body_mut(ball).unwrap().sleep();
+    let mut ends = 0;
+    for _ in 0..3 {
+        world.step(DT);
+        ends += world.events().sensor_end().len();
+    }
+    assert_eq!(ends, 1);
+}

@@ -187,3 +187,25 @@ fn sensors_see_sensors_when_asked() {
         assert_eq!(ended, 3);
     }
 }
+
+/// Where a foreseen hit is told to be does not depend on which of the two bodies is on its way.
+#[test]
+fn hits_are_where_they_are() {
+    for sides in [3, 6] {
+        let mut world = World::new((0.0, 0.0));
+        let floor = Shape::rect(20.0, 1.0).unwrap();
+        world.add_body(RigidBody::fixed().position((0.0, -1.0)).shape(floor)).unwrap();
+        let shape = ShapeDef::new(Shape::regular(sides, 0.5).unwrap()).events();
+        let body = RigidBody::dynamic().position((0.0, 1.2)).velocity((0.0, -30.0));
+        world.add_body(body.shape(shape)).unwrap();
+        let mut hits = 0;
+        for _ in 0..5 {
+            world.step(DT);
+            for hit in world.events().hits() {
+                assert!(hit.position.y.abs() < 0.05, "{sides}: {}", hit.position);
+                hits += 1;
+            }
+        }
+        assert!(hits > 0);
+    }
+}

@@ -13,11 +13,13 @@ impl DynamicTree {
     /// Says what is wrong, and at which node.
     pub fn validate(&self) -> Result<(), String> {
         let (mut leaves, mut inner) = (0, 0);
+        let mut seen = vec![false; self.nodes.len()];
         let mut stack: Vec<u32> = [self.root].into_iter().filter(|&root| root != NONE).collect();
         while let Some(index) = stack.pop() {
             let node =
                 self.nodes.get(index as usize).ok_or(format!("node {index} is not there"))?;
             inner += 1;
+            seen[index as usize] = true;
             let mut count = 0;
             for lane in 0..WIDTH {
                 let child = node.child[lane];
@@ -48,6 +50,9 @@ impl DynamicTree {
         let mut free = self.free;
         while free != NONE {
             inner += 1;
+            if core::mem::replace(&mut seen[free as usize], true) {
+                return Err(format!("node {free} is free and is not"));
+            }
             free = self.nodes[free as usize].parent;
         }
         if leaves != self.count || known != self.count || inner != self.nodes.len() {
@@ -110,5 +115,27 @@ impl DynamicTree {
             return Err(format!("node {child} is not in the box its parent has for it"));
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Boxes, Node};
+    use super::*;
+    use crate::math::Vec2;
+
+    /// What is handed out again while it holds boxes would be overwritten.
+    #[test]
+    fn free_nodes_that_are_in_use_are_refused() {
+        let mut tree = DynamicTree::new();
+        for id in 0..WIDTH as u32 {
+            let place = Vec2::new(2.0 * id as f32, 0.0);
+            tree.insert(id, Aabb::new(place, place + Vec2::new(1.0, 1.0)), 1);
+        }
+        assert_eq!(tree.check_loaded(), Ok(()));
+        tree.boxes.push(Boxes::EMPTY);
+        tree.nodes.push(Node::new(0));
+        tree.free = tree.root;
+        assert!(tree.check_loaded().is_err());
     }
 }

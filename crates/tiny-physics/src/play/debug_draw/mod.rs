@@ -25,7 +25,7 @@
 mod world;
 
 use crate::codec::described;
-use crate::{Aabb, BodyKind, DVec2, Rot, Shape, Transform, Vec2};
+use crate::{Aabb, BodyKind, DVec2, Shape, Transform, Vec2};
 
 described! {
     /// A colour: red, green, blue and opacity, 0 to 255 each, sRGB, not premultiplied.
@@ -251,8 +251,7 @@ pub fn draw_shape(draw: &mut dyn DebugDraw, shape: &Shape, pose: &Transform, col
     match shape {
         Shape::Circle { radius } => draw.circle(pose, *radius, color),
         Shape::Aabb { half_extents } => {
-            let upright = Transform::new(pose.p, Rot::IDENTITY);
-            draw.polygon(&upright, &box_corners(*half_extents), 0.0, color);
+            draw.polygon(pose, &box_corners(*half_extents), 0.0, color);
         }
         Shape::Capsule { a, b, radius } => {
             draw.capsule(pose.apply(*a), pose.apply(*b), *radius, color);
@@ -280,7 +279,7 @@ fn box_corners(half: Vec2) -> [Vec2; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Polygon;
+    use crate::{Polygon, Rot};
 
     #[derive(Default)]
     struct Log(Vec<String>);

@@ -337,7 +337,10 @@ impl World {
         filter: &'a QueryFilter<'a>,
     ) -> impl Iterator<Item = ShapeId> + 'a {
         let finder = Finder { world: self, filter };
-        self.shape_ids().filter(move |shape| finder.sees(shape.index))
+        let there = |shape: &ShapeId| {
+            self.state.shapes.records[shape.index as usize].proxy != crate::dynamics::NULL
+        };
+        self.shape_ids().filter(move |shape| there(shape) && finder.sees(shape.index))
     }
 
     /// The shapes that hold a point, in index order.

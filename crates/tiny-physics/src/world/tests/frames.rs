@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::describe::JointDef;
-use crate::dynamics::Slot;
+use crate::dynamics::{NULL, Slot};
 
 /// Two crates that sleep on each other, two that swing from a floor.
 fn sleepers() -> (World, [BodyId; 3]) {
@@ -40,6 +40,13 @@ fn islands_that_run_into_themselves_are_refused() {
         state.bodies.infos[upper].island_next = upper as u32;
         state.bodies.infos[lower].island_next = upper as u32;
     });
+}
+
+/// Two bodies awake twice would be one that two threads write.
+#[test]
+fn open_islands_are_refused() {
+    refused(|state, [_, lower, _]| state.bodies.infos[lower].island_next = NULL);
+    refused(|state, [_, _, upper]| state.bodies.infos[upper].island_next = NULL);
 }
 
 #[test]
