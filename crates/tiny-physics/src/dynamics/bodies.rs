@@ -254,7 +254,7 @@ impl Bodies {
     pub(crate) fn remove(&mut self, index: u32) {
         self.count -= 1;
         self.set_pace(index, PLAIN as u8);
-        self.pressed.retain(|&(body, _)| body != index);
+        self.disturb(index);
         self.infos[index as usize] = BodyInfo::default();
         self.rows[index as usize] = [0.0; 8];
         self.free.push(index);
@@ -264,6 +264,19 @@ impl Bodies {
     #[inline]
     pub(crate) fn is_dynamic(&self, index: u32) -> bool {
         self.infos[index as usize].kind == BodyKind::Dynamic
+    }
+
+    /// The user moves a body: what was known of how it rests, rocks and is pressed on holds no longer.
+    pub(crate) fn disturb(&mut self, index: u32) {
+        self.pressed.retain(|&(body, _)| body != index);
+        self.swings[index as usize] = 0;
+        self.infos[index as usize].sleep_time = 0.0;
+    }
+
+    /// Is a body under way that nothing but the user moves?
+    pub(crate) fn is_driven(&self, index: u32) -> bool {
+        let moves = self.velocity(index) != Vec2::ZERO || self.angular_velocity(index) != 0.0;
+        moves && !self.is_dynamic(index)
     }
 
     /// Gives a body its pace.

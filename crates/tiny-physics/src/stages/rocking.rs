@@ -30,7 +30,9 @@ pub(crate) fn resist(bodies: &mut Bodies, graph: &Graph, (dt, length_unit): (f32
     for (_, bucket) in graph.touching_buckets() {
         for slot in (0..bucket.contacts.len()).filter(|&slot| bears(bucket, slot)) {
             let (a, b) = bucket.bodies(slot);
-            if [a, b].iter().any(|&body| bodies.swings[body as usize] > ENOUGH) {
+            // What a machine moves to and fro does not rock.
+            let driven = [a, b].iter().any(|&body| bodies.is_driven(body));
+            if !driven && [a, b].iter().any(|&body| bodies.swings[body as usize] > ENOUGH) {
                 slow(bodies, a, b, lost);
             }
         }

@@ -117,6 +117,7 @@ impl BodyMut<'_> {
         world.note_ground_of(index);
         world.state.bodies.set_origin_pose(index, pose.p, pose.q.normalized());
         world.state.bodies.infos[index as usize].calm = 0;
+        world.state.bodies.disturb(index);
         world.mark_shapes_changed(index);
         world.update_boxes(index);
         world.note_ground_of(index);
@@ -129,7 +130,7 @@ impl BodyMut<'_> {
         if self.info().kind != BodyKind::Static && !stays && self.accept(&[velocity.x, velocity.y])
         {
             self.wake_riders(velocity != Vec2::ZERO);
-            self.world.state.bodies.set_velocity(self.index, velocity);
+            self.give_velocity(velocity, self.as_ref().angular_velocity());
         }
     }
 
@@ -138,7 +139,7 @@ impl BodyMut<'_> {
         let stays = radians_per_second == 0.0 && self.is_parked();
         if self.info().kind != BodyKind::Static && !stays && self.accept(&[radians_per_second]) {
             self.wake_riders(radians_per_second != 0.0);
-            self.world.state.bodies.set_angular_velocity(self.index, radians_per_second);
+            self.give_velocity(self.as_ref().velocity(), radians_per_second);
         }
     }
 
@@ -206,8 +207,16 @@ impl BodyMut<'_> {
         let velocity = bodies.velocity(index) + linear * inv_mass;
         let turning = bodies.angular_velocity(index) + angular * inv_inertia;
         if self.is_dynamic() && self.accept(&[velocity.x, velocity.y, turning]) {
-            self.world.state.bodies.set_velocity(index, velocity);
-            self.world.state.bodies.set_angular_velocity(index, turning);
+            self.give_velocity(velocity, turning);
+        }
+    }
+
+    fn give_velocity(&mut self, velocity: Vec2, turning: f32) {
+        let (index, bodies) = (self.index, &mut self.world.state.bodies);
+        if (velocity, turning) != (bodies.velocity(index), bodies.angular_velocity(index)) {
+            bodies.set_velocity(index, velocity);
+            bodies.set_angular_velocity(index, turning);
+            bodies.disturb(index);
         }
     }
 

@@ -250,3 +250,66 @@ fn what_sleeps_behind_a_gate_has_left_it() {
     }
     assert_eq!(ends, 1);
 }
+
+/// What lies under a heavy load is pushed as what it is: it took the load's momentum along, a hundred times what was given.
+#[test]
+fn impulses_under_a_load_are_no_more_than_impulses() {
+    let mut world = World::new((0.0, -9.8));
+    world.settings.sleep = false;
+    let ice = |shape: Shape, friction: f32| ShapeDef::new(shape).friction(friction);
+    let floor = RigidBody::fixed().position((0.0, -0.5));
+    world.add_body(floor.shape(ice(Shape::rect(50.0, 0.5).unwrap(), 0.0))).unwrap();
+    let crate_ = |mass: f32, y: f64| {
+        let shape = ice(Shape::rect(0.5, 0.5).unwrap(), 0.2);
+        RigidBody::dynamic().shape(shape).mass(mass).position((0.0, y))
+    };
+    let light = world.add_body(crate_(1.0, 0.5)).unwrap();
+    let heavy = world.add_body(crate_(100.0, 2.0)).unwrap();
+    steps(&mut world, 90);
+    world.body_mut(light).unwrap().apply_impulse_to_center((1.0, 0.0));
+    let momentum = |world: &World| {
+        let of = |body: BodyId| {
+            let body = world.body(body).unwrap();
+            body.velocity() * body.mass()
+        };
+        of(light) + of(heavy)
+    };
+    let before = momentum(&world).x;
+    steps(&mut world, 60);
+    let after = momentum(&world).x;
+    assert!((before - 1.0).abs() < 0.05 && after.abs() < 2.0, "{before} then {after}");
+}
+
+/// What is pushed a little in every step gets going, however slow it is at first.
+#[test]
+fn impulses_in_every_step_add_up() {
+    let mut world = World::new((0.0, 0.0));
+    let ball = RigidBody::dynamic().shape(Shape::circle(0.5).unwrap()).mass(1.0);
+    let ball = world.add_body(ball).unwrap();
+    for _ in 0..600 {
+        world.body_mut(ball).unwrap().apply_impulse_to_center((0.05 * DT, 0.0));
+        world.step(DT);
+    }
+    let speed = world.body(ball).unwrap().velocity().x;
+    assert!((speed - 0.5).abs() < 0.01, "{speed}");
+}
+
+/// What a platform takes to and fro rolls on it as on the ground: it was braked until it went along.
+#[test]
+fn balls_roll_on_platforms_that_go_to_and_fro() {
+    let mut world = World::new((0.0, -10.0));
+    let platform = RigidBody::kinematic().shape(Shape::rect(4.0, 0.1).unwrap());
+    let platform = world.add_body(platform).unwrap();
+    let shape = ShapeDef::new(Shape::circle(0.3).unwrap()).friction(0.6);
+    let ball = world.add_body(RigidBody::dynamic().shape(shape).position((0.0, 0.4))).unwrap();
+    let mut peak = 0.0_f32;
+    for i in 0..1200 {
+        let speed = 0.4 * (std::f32::consts::PI * i as f32 * DT / 2.0).sin();
+        world.body_mut(platform).unwrap().set_velocity((speed, 0.0));
+        world.step(DT);
+        if i > 720 {
+            peak = peak.max(world.body(ball).unwrap().velocity().x.abs());
+        }
+    }
+    assert!((peak - 0.133).abs() < 0.02, "{peak}");
+}
