@@ -268,15 +268,11 @@ impl Bodies {
 
     /// The user moves a body: what was known of how it rests, rocks and is pressed on holds no longer.
     pub(crate) fn disturb(&mut self, index: u32) {
-        self.pressed.retain(|&(body, _)| body != index);
+        if let Ok(at) = self.pressed.binary_search_by_key(&index, |&(body, _)| body) {
+            self.pressed.remove(at);
+        }
         self.swings[index as usize] = 0;
         self.infos[index as usize].sleep_time = 0.0;
-    }
-
-    /// Is a body under way that nothing but the user moves?
-    pub(crate) fn is_driven(&self, index: u32) -> bool {
-        let moves = self.velocity(index) != Vec2::ZERO || self.angular_velocity(index) != 0.0;
-        moves && !self.is_dynamic(index)
     }
 
     /// Gives a body its pace.

@@ -122,28 +122,19 @@ fn many_at_once_are_as_one_by_one() {
 /// What moves into a hole takes along that its constraint is not written yet.
 #[test]
 fn contacts_that_move_within_their_bucket_stay_fresh() {
-    check_fresh(|stores, index| {
-        let Stores { bodies, contacts, graph } = stores;
-        graph.remove(bodies, contacts, index);
-    });
-    check_fresh(|stores, index| stores.remove(&Team::alone(), [index].into_iter()));
-}
-
-fn check_fresh(remove: impl Fn(&mut Stores, u32)) {
     const COUNT: u32 = 900;
     let mut stores = Stores::new(COUNT as usize);
+    let Stores { bodies, contacts, graph } = &mut stores;
     for index in 0..COUNT {
         let is_late = index >= COUNT / 2;
-        let Stores { bodies, contacts, graph } = &mut stores;
         if index == COUNT / 2 {
             graph.clear_fresh();
         }
         graph.insert(bodies, contacts, index);
         if is_late && index % 3 == 0 {
-            remove(&mut stores, index - COUNT / 2);
+            graph.remove(bodies, contacts, index - COUNT / 2);
         }
     }
-    let Stores { contacts, graph, .. } = &mut stores;
     graph.sort_fresh();
     let mut moved = 0;
     for index in COUNT / 2..COUNT {
@@ -156,6 +147,41 @@ fn check_fresh(remove: impl Fn(&mut Stores, u32)) {
         }
     }
     assert!(moved > 200, "{moved} contacts to look at");
+}
+
+/// The same from one block into another, where nothing but the hole tells.
+#[test]
+fn holes_in_other_blocks_become_fresh() {
+    for at_once in [false, true] {
+        let mut stores = Stores::new(3000);
+        stores.insert(&Team::alone(), 0..3000);
+        let long = |(place, bucket): &(usize, &Bucket)| {
+            *place != IDLE && bucket.contacts.len() > crate::simd::BLOCK
+        };
+        let (first, last) = {
+            let mut buckets = stores.graph.touching_buckets().filter(long);
+            let (_, bucket) = buckets.next().expect("a bucket of several blocks");
+            (bucket.contacts[0], *bucket.contacts.last().unwrap())
+        };
+        let Stores { bodies, contacts, graph } = &mut stores;
+        graph.clear_fresh();
+        graph.mark_touching(&contacts.records[last as usize], true);
+        if at_once {
+            Transfers::default().remove(
+                &Team::alone(),
+                graph,
+                bodies,
+                contacts,
+                [first].into_iter(),
+            );
+        } else {
+            graph.remove(bodies, contacts, first);
+        }
+        graph.sort_fresh();
+        let contact = &contacts.records[last as usize];
+        let Place::Graph { colour, slot: 0 } = contact.place else { panic!("{last} is elsewhere") };
+        assert!(graph.fresh().contains(&(colour, contact.class as u8, 0)), "{at_once}");
+    }
 }
 
 #[test]

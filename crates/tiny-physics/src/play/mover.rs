@@ -417,13 +417,14 @@ impl CharacterMover {
                 self.land(world, frame, &hit, speed, left);
                 return;
             }
-            rest -= hit.normal * hit.normal.dot(rest);
-            // What walks against a slope is not carried up by it.
+            // A slope is a wall to who walks against it, and carries nobody up.
             let steep = hit.normal.dot(up) > 0.0;
             if steep && walk * right.dot(hit.normal) < 0.0 {
+                rest -= right * (walk * left);
                 velocity -= right * walk;
                 walk = 0.0;
             }
+            rest -= hit.normal * hit.normal.dot(rest);
             let into = hit.normal.dot(velocity);
             if into < 0.0 {
                 velocity -= hit.normal * into;

@@ -7,6 +7,7 @@
 use super::rests::is_calm;
 use super::sway;
 use crate::dynamics::{Bodies, Bucket, Graph, NULL};
+use crate::math::Vec2;
 use crate::simd::BLOCK;
 
 /// So often has what rocks turned back.
@@ -30,9 +31,8 @@ pub(crate) fn resist(bodies: &mut Bodies, graph: &Graph, (dt, length_unit): (f32
     for (_, bucket) in graph.touching_buckets() {
         for slot in (0..bucket.contacts.len()).filter(|&slot| bears(bucket, slot)) {
             let (a, b) = bucket.bodies(slot);
-            // What a machine moves to and fro does not rock.
-            let driven = [a, b].iter().any(|&body| bodies.is_driven(body));
-            if !driven && [a, b].iter().any(|&body| bodies.swings[body as usize] > ENOUGH) {
+            let rocks = |&body: &u32| bodies.swings[body as usize] > ENOUGH;
+            if [a, b].iter().any(rocks) && ![a, b].iter().any(|&body| is_led(bodies, body)) {
                 slow(bodies, a, b, lost);
             }
         }
@@ -53,6 +53,12 @@ fn swings(bodies: &Bodies, body: u32, length_unit: f32) -> u8 {
         u8::MAX => u8::MAX - 1,
         _ => swings + 1,
     }
+}
+
+/// Does the user alone move a body? What that takes to and fro does not rock.
+fn is_led(bodies: &Bodies, body: u32) -> bool {
+    let moves = bodies.velocity(body) != Vec2::ZERO || bodies.angular_velocity(body) != 0.0;
+    moves && !bodies.is_dynamic(body)
 }
 
 /// Takes away a part of how two bodies turn against each other, at the cost of both.

@@ -112,8 +112,7 @@ impl BodyMut<'_> {
         }
         let (world, index) = (&mut *self.world, self.index);
         world.wake_index(index);
-        world.wake_neighbours(index);
-        world.wake_joined(index);
+        world.wake_carried(index);
         world.note_ground_of(index);
         world.state.bodies.set_origin_pose(index, pose.p, pose.q.normalized());
         world.state.bodies.infos[index as usize].calm = 0;
@@ -339,13 +338,6 @@ impl World {
     pub(super) fn wake_neighbours(&mut self, index: u32) {
         let contacts = self.state.contacts_of(index);
         let others: Vec<u32> = contacts.map(|(_, contact)| contact.other(index)).collect();
-        others.into_iter().for_each(|other| self.wake_index(other));
-    }
-
-    /// Wakes the islands of bodies that are joined to this one.
-    pub(super) fn wake_joined(&mut self, index: u32) {
-        let joints = self.state.joints_of(index);
-        let others: Vec<u32> = joints.map(|(_, joint)| joint.other(index)).collect();
         others.into_iter().for_each(|other| self.wake_index(other));
     }
 }

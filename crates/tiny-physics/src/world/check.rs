@@ -90,6 +90,8 @@ impl World {
         )?;
         let is_light = |&(body, by): &(u32, f32)| (body as usize) < count && by > 0.0;
         ensure(bodies.pressed.iter().all(is_light), "what is pressed is nothing")?;
+        let in_order = bodies.pressed.is_sorted_by(|a, b| a.0 < b.0);
+        ensure(in_order, "what is pressed is not in order")?;
         let mut follows = vec![false; count];
         for (index, (info, pose)) in bodies.infos.iter().zip(&bodies.poses).enumerate() {
             let moves = info.alive && info.enabled && info.kind != BodyKind::Static;

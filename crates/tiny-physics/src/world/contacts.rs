@@ -128,10 +128,9 @@ impl World {
         let surface = &bucket.surfaces[block];
         let totals = contact.hit_events.then_some([surface.total_1[lane], surface.total_2[lane]]);
         let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
-        // Of a contact that was foreseen the bodies have some way to go, or have gone on from it: the slower one less.
+        // Where one of them stands still, by that one: the other may have gone on from where they met.
         let [a, b] = [contact.body_a, contact.body_b];
-        let speed = |body: u32| self.state.bodies.velocity(body).length_sq();
-        let from_b = speed(b) < speed(a);
+        let from_b = self.state.bodies.infos[b as usize].kind == BodyKind::Static;
         let center = self.state.bodies.poses[if from_b { b } else { a } as usize].p;
         let mut points = [ContactPoint {
             position: DVec2::ZERO,
@@ -173,6 +172,16 @@ impl World {
             rate: self.state.inv_h * refinement,
             dt: self.settings.substeps as f32 / self.state.inv_h,
         }
+    }
+
+    /// The same within the step, while the bodies of contacts that were foreseen still have a way to go.
+    pub(super) fn view_ahead(&self, bucket: &Bucket, slot: usize) -> ContactView {
+        let (mut view, index) = (self.view(bucket, slot), bucket.contacts[slot]);
+        let moves = self.state.bodies.infos[view.body_b.index()].kind != BodyKind::Static;
+        if let Some(foreseen) = self.scratch.predictions.of(index).filter(|_| moves) {
+            view.points.iter_mut().for_each(|point| point.position += foreseen.way);
+        }
+        view
     }
 
     /// Deepest overlap of any awake contact as of the last step, metres; 0 where nothing overlaps.
@@ -221,7 +230,7 @@ impl World {
             }
         }
         let (point, speed) = fastest?;
-        let view = self.view(bucket, slot);
+        let view = self.view_ahead(bucket, slot);
         let contact = &self.state.contacts.records[bucket.contacts[slot] as usize];
         let [mass_a, mass_b] = [contact.body_a, contact.body_b]
             .map(|body| self.state.bodies.infos[body as usize].mass);
@@ -351,10 +360,13 @@ impl World {
 
     /// Wakes the island of a body; with a kinematic body, also what rests on it or hangs on it.
     pub(super) fn wake_index(&mut self, index: u32) {
-        if !self.wake_island(index) {
-            return;
+        if self.wake_island(index) {
+            self.wake_carried(index);
         }
-        // A list, as kinematic bodies may hang on each other in a long chain.
+    }
+
+    /// Wakes what rests on a body and what hangs on it. Kinematic bodies may do so in a long chain: so a list.
+    pub(super) fn wake_carried(&mut self, index: u32) {
         let mut carried = self.carried_by(index);
         while let Some(body) = carried.pop() {
             if self.wake_island(body) {

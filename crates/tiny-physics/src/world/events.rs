@@ -46,7 +46,7 @@ macro_rules! event {
 }
 
 event! {
-    /// Two shapes began to touch.
+    /// Two shapes began to touch: they are closer than 2 cm times the length unit, or will be within the step and pushed each other.
     ContactBegin
     /// First shape of the contact.
     shape_a body_a user_data_a,

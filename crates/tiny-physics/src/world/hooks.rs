@@ -183,7 +183,7 @@ impl World {
             answers.extend(places[range].iter().map(|&at| {
                 let mut rules = world.rules(at);
                 let bucket = world.state.graph.bucket(at.0.into(), at.1);
-                hook(world, &world.view(bucket, at.2 as usize), &mut rules);
+                hook(world, &world.view_ahead(bucket, at.2 as usize), &mut rules);
                 rules
             }));
         });

@@ -188,24 +188,44 @@ fn sensors_see_sensors_when_asked() {
     }
 }
 
-/// Where a foreseen hit is told to be does not depend on which of the two bodies is on its way.
+/// Where a foreseen hit is told to be: on the target's side, whichever body comes, of whichever shape, and wherever it is in
+/// the step then.
 #[test]
 fn hits_are_where_they_are() {
-    for sides in [3, 6] {
-        let mut world = World::new((0.0, 0.0));
-        let floor = Shape::rect(20.0, 1.0).unwrap();
-        world.add_body(RigidBody::fixed().position((0.0, -1.0)).shape(floor)).unwrap();
-        let shape = ShapeDef::new(Shape::regular(sides, 0.5).unwrap()).events();
-        let body = RigidBody::dynamic().position((0.0, 1.2)).velocity((0.0, -30.0));
-        world.add_body(body.shape(shape)).unwrap();
-        let mut hits = 0;
-        for _ in 0..5 {
-            world.step(DT);
-            for hit in world.events().hits() {
-                assert!(hit.position.y.abs() < 0.05, "{sides}: {}", hit.position);
-                hits += 1;
+    let shapes = [
+        Shape::regular(3, 0.5).unwrap(),
+        Shape::regular(6, 0.5).unwrap(),
+        Shape::circle(0.5).unwrap(),
+        Shape::rect(0.5, 0.5).unwrap(),
+    ];
+    let targets = [
+        RigidBody::fixed(),
+        RigidBody::kinematic(),
+        RigidBody::dynamic().mass(0.2),
+        RigidBody::dynamic().mass(0.1),
+    ];
+    for (shape, target, first) in shapes.iter().flat_map(|shape| {
+        targets.iter().flat_map(move |target| [false, true].map(|first| (shape, target, first)))
+    }) {
+        for phase in 0..5 {
+            let mut world = World::new((0.0, 0.0));
+            let floor = target.clone().position((0.0, -1.0)).shape(Shape::rect(20.0, 1.0).unwrap());
+            let comer = RigidBody::dynamic().position((0.0, 1.2 + 0.1 * f64::from(phase)));
+            let comer = comer.mass(0.2).velocity((0.0, -30.0));
+            let comer = comer.shape(ShapeDef::new(*shape).restitution(1.0).events());
+            let both = if first { [comer, floor] } else { [floor, comer] };
+            both.into_iter().for_each(|body| _ = world.add_body(body).unwrap());
+            let mut hits = 0;
+            for _ in 0..5 {
+                world.step(DT);
+                for hit in world.events().hits() {
+                    let kind = target.kind;
+                    let at = hit.position;
+                    assert!(at.y.abs() < 0.06, "{shape:?} on {kind:?}, {first}, {phase}: {at}");
+                    hits += 1;
+                }
             }
+            assert!(hits > 0);
         }
-        assert!(hits > 0);
     }
 }

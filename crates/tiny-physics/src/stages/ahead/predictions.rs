@@ -38,6 +38,8 @@ pub(crate) struct Prediction {
     pub(crate) normal: Vec2,
     /// From the centre of mass of A to that of B.
     pub(crate) between: Vec2,
+    /// How far that of A has come by then, metres.
+    pub(crate) way: Vec2,
     /// Relative to the centre of mass of A.
     pub(crate) points: [Vec2; 2],
     /// Metres at the start of the step; the largest number for a point that is not there.
@@ -371,6 +373,8 @@ struct Meeting<'a> {
     /// From the centre of mass of A to that of B at the start, and how that changes over the step.
     between: Vec2,
     way: Vec2,
+    /// How far A goes in the step.
+    way_of_a: Vec2,
     /// How far they reach from the centres of mass of their bodies, metres.
     extents: [f32; 2],
     /// The same of their bodies: less for a polygon, in whose box there is room.
@@ -484,6 +488,7 @@ impl Look<'_> {
             between: pose_b.p.relative_to(pose_a.p),
             turned: [pose_a.q, pose_b.q],
             way: courses[1].motion - courses[0].motion,
+            way_of_a: courses[0].motion,
             extents: [shapes.reach(shape_a), shapes.reach(shape_b)],
             disks: both.map(|body| bodies.infos[body as usize].max_extent),
         }
@@ -585,6 +590,7 @@ impl Meeting<'_> {
         let mut prediction = Prediction {
             normal,
             between,
+            way: self.way_of_a * fraction,
             points: [Vec2::ZERO; 2],
             separation: [f32::MAX; 2],
             id: [0.0; 2],

@@ -173,3 +173,25 @@ fn chains_that_go() {
         counted(|| chain.remove(&mut world).unwrap())
     });
 }
+
+/// Whether two bodies are joined is looked for in the list of the one that has fewer joints.
+#[test]
+fn partners_of_a_hub_of_many_joints() {
+    stays_equal("one pair", |count| {
+        let mut world = world();
+        let hub = add(&mut world, 0.0, 0.0, circle(0.5));
+        let spokes: Vec<_> = (0..count)
+            .map(|i| {
+                let spoke = add(&mut world, 3.0 + i as f32, 0.0, circle(0.2));
+                world.add_joint(hub, spoke, JointDef::distance(3.0)).unwrap();
+                spoke
+            })
+            .collect();
+        let [hub, spoke] = [hub, spokes[0]].map(|body| world.body_index(body).unwrap());
+        let State { bodies, joints, .. } = &world.state;
+        counted(|| {
+            assert!(!joints.may_collide(bodies, hub, spoke));
+            assert!(!joints.may_collide(bodies, spoke, hub));
+        })
+    });
+}
