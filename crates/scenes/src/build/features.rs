@@ -276,7 +276,7 @@ const SHAFT: u32 = 6;
 /// A belt carries parcels of three categories to gates that let those of other kinds through; the size is the number of
 /// parcels.
 pub(crate) fn sorting(options: Options) -> Scene {
-    let count = options.size_or(36, 2000);
+    let count = options.size_or(30, 2000);
     let text = "A belt carries parcels; each gate holds one kind and lets the others fall.";
     let mut scene = scene("sorting", text);
     scene.view = Some((Vec2::new(-9.0, -1.0), Vec2::new(17.2, 15.8)));

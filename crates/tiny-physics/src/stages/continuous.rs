@@ -456,10 +456,8 @@ impl Search<'_> {
             return None;
         }
         // One-way platforms stop only what comes from their solid side.
-        let solid_along = |way: Vec2| {
-            one_way::is_solid_side(other, -way, turn)
-                && one_way::is_solid_side(record, way, self.fast.start.q)
-        };
+        let solid_along =
+            |way: Vec2| one_way::are_solid_along([record, other], [self.fast.start.q, turn], way);
         let toi = impact_within(&record.shape, &moving, &other.shape, &motion, (0.0, first), slop)?;
         let hit = matches!(toi.state, ToiState::Hit | ToiState::Limit);
         let there = |f: f32| moving.at(f).relative_to(motion.at(f));

@@ -352,8 +352,9 @@ impl<L: Lanes> Ahead<L> {
         limit: L,
     ) -> u32 {
         let thickness = |half: [L; 3]| half[0].min(half[1]) + half[2];
-        let part = L::splat(token, HARMLESS) * thickness(pair.a).min(thickness(pair.b));
-        let least = part.max(limit * L::splat(token, SLIGHT));
+        let [a, b] = [thickness(pair.a), thickness(pair.b)];
+        let slight = (limit * L::splat(token, SLIGHT)).min((a + b) * L::splat(token, 0.5));
+        let least = slight.max(L::splat(token, HARMLESS) * a.min(b));
         let along =
             now.manifold.normal[0] * self.linear[0] + now.manifold.normal[1] * self.linear[1];
         // No turn takes the disks around them closer.

@@ -55,16 +55,22 @@ pub(crate) fn may_begin(
     ]
     .map(|way| way.dot(normal));
     let came = if came > 0.0 { came } else { 0.0 };
-    let turn = |body: u32| bodies.poses[body as usize].q;
-    let sides = [(a, normal, turn(contact.body_a)), (b, -normal, turn(contact.body_b))];
+    let turned = [contact.body_a, contact.body_b].map(|body| bodies.poses[body as usize].q);
     (came > 0.0 || closing >= -PARTING_SPEED * length_unit)
         && depth <= LINEAR_SLOP * length_unit + came
-        && sides.into_iter().all(|(platform, outward, q)| is_solid_side(platform, outward, q))
+        && are_solid_along([a, b], turned, normal)
 }
 
-/// Does a normal out of a shape point out of its solid side? `q` is the rotation of its body.
-pub(crate) fn is_solid_side(shape: &ShapeRecord, outward: Vec2, q: Rot) -> bool {
-    shape
-        .one_way
-        .is_none_or(|direction| q.rotate(direction.normalized()).dot(outward) >= LEAST_COSINE)
+/// Does a normal from A to B point out of the solid sides of both? `turned` are the rotations of their bodies.
+pub(crate) fn are_solid_along([a, b]: [&ShapeRecord; 2], turned: [Rot; 2], normal: Vec2) -> bool {
+    let is_solid = |shape: &ShapeRecord, q: Rot, outward: Vec2| {
+        let along = |way: Vec2| q.rotate(way.normalized()).dot(outward);
+        shape.one_way.is_none_or(|way| along(way) >= LEAST_COSINE)
+    };
+    is_solid(a, turned[0], normal) && is_solid(b, turned[1], -normal)
+}
+
+/// Does one let pass what moves by `way` relative to it? `q` is the rotation of its body.
+pub(crate) fn lets_pass(shape: &ShapeRecord, q: Rot, way: Vec2) -> bool {
+    shape.one_way.is_some_and(|direction| q.rotate(direction).dot(way) >= 0.0)
 }

@@ -518,5 +518,5 @@ pub(crate) fn lets_pass(
         let outside = Vec2::new(way.y, 0.0 - way.x);
         return outside.dot(place.unapply(middle()) - a) < 0.0;
     }
-    record.one_way.is_some_and(|way| body_rotation.rotate(way).dot(motion) >= 0.0)
+    one_way::lets_pass(record, body_rotation, motion)
 }

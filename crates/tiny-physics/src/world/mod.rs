@@ -223,9 +223,10 @@ impl World {
 
     /// Lets the boxes of fast bodies reach as far as they will go.
     fn reach_ahead(&mut self, team: &Team, lengths: Lengths) {
-        // Nothing is fast where nothing is to be swept.
-        let limit = if self.settings.continuous { self.contact_reach() } else { f32::MAX };
-        let limits = (lengths.dt, limit);
+        if !self.settings.continuous {
+            return self.scratch.ways.of_shapes.clear();
+        }
+        let limits = (lengths.dt, self.contact_reach());
         let State { bodies, shapes, broad_phase, .. } = &mut self.state;
         ahead::reach(team, bodies, shapes, broad_phase, limits, &mut self.scratch.ways);
     }
@@ -294,32 +295,9 @@ impl World {
 
     /// Predicts contacts that will be made in the step.
     fn predict(&mut self, team: &Team, lengths: Lengths) {
-        let settings = (self.level, self.contact_reach(), self.settings.length_unit);
-        loop {
-            let State { bodies, shapes, contacts, joints, broad_phase, graph, waiting, .. } =
-                &mut self.state;
-            let Scratch { predictions, search, ways, .. } = &mut self.scratch;
-            let narrow_phase = narrow_context::Context::new(
-                bodies,
-                shapes,
-                broad_phase,
-                settings,
-                false,
-                (lengths.dt, false, false),
-            );
-            let scene =
-                ahead::Scene { bodies, shapes, contacts, graph, narrow_phase, dt: lengths.dt };
-            if !predictions.round(team, scene) {
-                break;
-            }
-            predictions.reach((bodies, lengths.dt), shapes, broad_phase, ways);
-            let (custom, reach, ways) = (self.hooks.pair_filter(), settings.1, &ways.of_shapes);
-            let partners =
-                pairs::Partners { shapes, bodies, contacts, joints, custom, reach, ways };
-            let waiting = &waiting.pairs;
-            let around = ahead::Around { broad_phase, graph, waiting, partners, dt: lengths.dt };
-            predictions.look_again(team, around, &mut search.pairs);
-            self.add_candidates(team);
+        while self.predict_round(team, lengths) {
+            self.wake_struck(team, lengths);
+            self.look_again(team, lengths);
         }
         let Self { state: State { contacts, graph, .. }, scratch, .. } = self;
         let ahead::Predictions { contacts: predicted, fresh, .. } = &mut scratch.predictions;
@@ -332,6 +310,44 @@ impl World {
         }
         self.stats.predicted_contacts = predicted.len();
         self.stats.squeezed_bodies = 0;
+    }
+
+    /// Looks for the impacts of candidates. Do they take bodies so far off their ways that there is to be another round?
+    fn predict_round(&mut self, team: &Team, lengths: Lengths) -> bool {
+        let settings = (self.level, self.contact_reach(), self.settings.length_unit);
+        let step = (lengths.dt, false, false);
+        let State { bodies, shapes, contacts, broad_phase, graph, .. } = &mut self.state;
+        let narrow_phase =
+            narrow_context::Context::new(bodies, shapes, broad_phase, settings, false, step);
+        let scene = ahead::Scene { bodies, shapes, contacts, graph, narrow_phase, dt: lengths.dt };
+        self.scratch.predictions.round(team, scene)
+    }
+
+    /// Wakes what is struck, with all that it may hit in turn.
+    fn wake_struck(&mut self, team: &Team, lengths: Lengths) {
+        let awake = self.state.bodies.awake.len();
+        for place in 0..self.scratch.predictions.struck.len() {
+            self.wake_index(self.scratch.predictions.struck[place].body);
+        }
+        if self.state.bodies.awake.len() > awake {
+            self.update_fresh_manifolds(team, lengths);
+            self.scratch.schedule.fill(&self.state.graph, narrow_phase::CHUNK);
+        }
+    }
+
+    /// Looks for what they may meet on their new ways.
+    fn look_again(&mut self, team: &Team, lengths: Lengths) {
+        let reach = self.contact_reach();
+        let State { bodies, shapes, contacts, joints, broad_phase, graph, waiting, .. } =
+            &mut self.state;
+        let Scratch { predictions, search, ways, .. } = &mut self.scratch;
+        predictions.reach((bodies, lengths.dt), shapes, broad_phase, ways);
+        let (custom, ways) = (self.hooks.pair_filter(), &ways.of_shapes);
+        let partners = pairs::Partners { shapes, bodies, contacts, joints, custom, reach, ways };
+        let waiting = &waiting.pairs;
+        let around = ahead::Around { broad_phase, graph, waiting, partners, dt: lengths.dt };
+        predictions.look_again(team, around, &mut search.pairs);
+        self.add_candidates(team);
     }
 
     /// Predicted contacts that pushed have begun; those that did not have never been.
@@ -389,7 +405,9 @@ impl World {
         let mut changes = core::mem::take(&mut self.scratch.changes);
         let Scratch { schedule, found_changes, .. } = &mut self.scratch;
         touching::find_changes(team, &self.state.graph, schedule, found_changes, &mut changes);
-        changes.began.retain(|&index| self.may_begin(index));
+        let predictions = &self.scratch.predictions;
+        let is_foreseen = |index| predictions.of(index).is_some();
+        changes.began.retain(|&index| is_foreseen(index) || self.may_begin(index));
         self.transfer(team, &changes);
         self.assign_paces(lengths);
         self.stats.contacts_begun = changes.began.len();

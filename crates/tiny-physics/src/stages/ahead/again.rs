@@ -20,8 +20,8 @@ const HEAD_ON: f32 = 0.7;
 
 /// A body that was taken off its way.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Struck {
-    pub(super) body: u32,
+pub(crate) struct Struck {
+    pub(crate) body: u32,
     /// How far, in half thicknesses of its own.
     pub(super) astray: f32,
 }

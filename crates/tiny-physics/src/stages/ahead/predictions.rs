@@ -13,6 +13,7 @@ use crate::simd::Row;
 use crate::stages::ahead::{Found, HARMLESS, SLIGHT, Ways};
 use crate::stages::boxes;
 use crate::stages::narrow_context::Context;
+use crate::stages::one_way;
 use crate::stages::surfaces::{self, LanePoints};
 use crate::threads::Team;
 
@@ -85,7 +86,7 @@ pub(crate) struct Predictions {
     places: Vec<u32>,
     courses: Courses,
     /// What the last round took off its way.
-    struck: Vec<Struck>,
+    pub(crate) struck: Vec<Struck>,
     pub(crate) squeezed: Squeezed,
     rounds: usize,
     /// Bodies that may still be looked at again in this step.
@@ -395,7 +396,7 @@ impl Look<'_> {
             return Some(Hit { prediction, ..hit });
         }
         let meeting = self.meeting(contact);
-        if !meeting.comes_near() {
+        if !meeting.comes_near() || meeting.is_let_pass() {
             return None;
         }
         let [a, b] = meeting.shapes;
@@ -407,12 +408,13 @@ impl Look<'_> {
         }
         let slop = LINEAR_SLOP * self.length_unit();
         let apart = meeting.apart_until(slop);
-        if meeting.is_special() || apart >= 1.0 {
+        if apart >= 1.0 {
             return None;
         }
         let sweeps = meeting.sweeps();
         let toi = impact_within(&a.shape, &sweeps[0], &b.shape, &sweeps[1], (apart, 1.0), slop)?;
-        if toi.state == ToiState::Touching {
+        let is_solid = one_way::are_solid_along(meeting.shapes, meeting.turned, toi.normal);
+        if toi.state == ToiState::Touching || !is_solid {
             return None;
         }
         let frames = sweeps.map(|sweep| sweep.at(toi.fraction));
@@ -453,9 +455,6 @@ impl Look<'_> {
             return None;
         }
         let meeting = self.meeting(contact);
-        if meeting.is_special() {
-            return None;
-        }
         let frames = meeting.sweeps().map(|sweep| sweep.at(0.0));
         let manifold = self.correct(contact, &meeting, &frames)?;
         (manifold.count == 2).then(|| meeting.predict(&manifold, &frames[0], 0.0))
@@ -520,9 +519,10 @@ impl Look<'_> {
 }
 
 impl Meeting<'_> {
-    /// Is one of the shapes one-way or a link of a chain? They have rules of their own.
-    fn is_special(&self) -> bool {
-        self.shapes.iter().any(|record| record.one_way.is_some() || record.link.is_some())
+    /// Is one of the shapes one-way, and lets the other pass?
+    fn is_let_pass(&self) -> bool {
+        let lets = |k: usize, way: Vec2| one_way::lets_pass(self.shapes[k], self.turned[k], way);
+        lets(0, self.way) || lets(1, -self.way)
     }
 
     /// In the frame of shape A.
