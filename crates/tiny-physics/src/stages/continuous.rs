@@ -168,11 +168,6 @@ impl Inner {
         Self { disk: Shape::Circle { radius }, sweep }
     }
 
-    /// How far it reaches from the body's centre of mass.
-    fn reach(&self) -> f32 {
-        self.disk.bounding_radius() + self.sweep.local_center.length()
-    }
-
     /// How the disk moves as the other shape sees it, in the common axes of the start.
     fn relative_way(&self, other: &Sweep) -> Vec2 {
         let middle = |fraction| self.sweep.at(fraction).apply(Vec2::ZERO);
@@ -210,21 +205,6 @@ fn middle_of(record: &ShapeRecord) -> Vec2 {
         ShapeClass::General => record.shape.mass_properties(1.0).center,
         _ => record.box_frame.p,
     })
-}
-
-/// How far the way of a body's centre of mass certainly stays from a shape, given as a rounded box (see
-/// [`Shapes::rows`](crate::dynamics::Shapes)) on something that stands still, metres; 0 on what moves.
-fn clear_room(row: &Row, their: &Sweep, body: &Sweep) -> f32 {
-    if their.angle != 0.0 || their.start != their.end {
-        return 0.0;
-    }
-    let frame = Transform::new(Vec2::new(row[0], row[1]), Rot { c: row[2], s: row[3] });
-    let place = their.at(0.0).compose(frame);
-    let (from, to) = (place.unapply(body.start), place.unapply(body.end));
-    let apart = |a: f32, b: f32| if a * b > 0.0 { a.abs().min(b.abs()) } else { 0.0 };
-    let (x, y) = (apart(from.x, to.x) - row[4], apart(from.y, to.y) - row[5]);
-    let rounding = 1.0e-5 * (place.p.x.abs() + place.p.y.abs() + x.abs() + y.abs());
-    x.max(y) - row[6] - rounding
 }
 
 /// Do the boxes around two shapes show that the search would find no impact on their ways?
@@ -437,10 +417,6 @@ impl Search<'_> {
         let (way, turn) = (their.translation() * rest, their.angle * rest);
         let their = Sweep::new(their.at(course.from), Vec2::ZERO, way, turn);
         let slop = LINEAR_SLOP * length_unit;
-        let room = clear_room(&shapes.rows[index as usize], &their, body) - 2.0 * slop;
-        if room > bodies.infos[self.fast.body as usize].max_extent {
-            return None;
-        }
         // How it moves seen from the other.
         let relative = body.translation() - their.translation();
         let rows = [shape, index].map(|shape| &shapes.rows[shape as usize]);
@@ -475,9 +451,6 @@ impl Search<'_> {
             return None;
         }
         let inner = Inner::new(record, body);
-        if room > inner.reach() {
-            return None;
-        }
         let (fraction, normal) = inner.first_fraction(&other.shape, &motion, first, length_unit)?;
         let lost = self.driving_velocity(inner.relative_way(&motion), normal);
         Some(Meeting { fraction, body: other.body, lost })
@@ -561,18 +534,12 @@ mod tests {
             let other = Shape::rect(half.0, half.1.max(0.01)).unwrap();
             let row = [frame.p.x, frame.p.y, frame.q.c, frame.q.s, half.0, half.1.max(0.01), 0.0, 1.0];
             let (their, body) = (Sweep::fixed(place), Sweep::new(start, Vec2::ZERO, way, turn));
-            let core = shape.core();
-            let extent = core.points().iter().fold(0.0_f32, |most, p| most.max(p.length())) + core.radius;
-            let room = clear_room(&row, &their, &body) - 2.0 * LINEAR_SLOP;
             let toi = impact_within(&shape, &body, &other, &their.child(frame), (0.0, 1.0), LINEAR_SLOP);
-            prop_assert!(room <= extent || toi.is_none(), "{room} {extent} {toi:?}");
             let manifold::RoundedBox { frame: own, half_extents: half, radius } =
                 manifold::RoundedBox::of(&shape);
             let own = [own.p.x, own.p.y, own.q.c, own.q.s, half.x, half.y, radius, 1.0];
             let apart = stay_apart([&own, &row], [&body, &their], LINEAR_SLOP);
             prop_assert!(!apart || toi.is_none(), "{toi:?}");
-            let moves = Sweep::new(place, Vec2::ZERO, Vec2::X, 0.0);
-            prop_assert_eq!(clear_room(&row, &moves, &body), 0.0);
         }
     }
 }
