@@ -1,6 +1,7 @@
 //! How costs grow, in steps along lists: twice as much in the world is no more than about twice the work.
 
 use super::*;
+use crate::broad_phase::DynamicTree;
 use crate::describe::{JointDef, Tile, TileForm, TileGrid};
 use crate::work::counted;
 
@@ -193,5 +194,19 @@ fn partners_of_a_hub_of_many_joints() {
             assert!(!joints.may_collide(bodies, hub, spoke));
             assert!(!joints.may_collide(bodies, spoke, hub));
         })
+    });
+}
+
+/// Few boxes with large numbers are few boxes.
+#[test]
+fn a_tree_of_few_among_many() {
+    stays_equal("built anew", |count| {
+        let mut tree = DynamicTree::new();
+        for id in [3, count, 100 * count] {
+            tree.insert(id, crate::Aabb::from_center(Vec2::ZERO, Vec2::splat(id as f32)), 1);
+        }
+        let work = counted(|| tree.rebuild());
+        assert_eq!((tree.len(), tree.get(count).unwrap().max.x), (3, count as f32));
+        work
     });
 }
