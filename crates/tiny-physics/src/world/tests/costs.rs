@@ -210,3 +210,20 @@ fn a_tree_of_few_among_many() {
         work
     });
 }
+
+#[test]
+fn the_closest_of_many_far_away() {
+    stays_equal("shapes measured", |count| {
+        let mut world = world();
+        level(&mut world, count);
+        for i in 0..count {
+            add(&mut world, i as f32, 0.5, rect(0.5, 0.5));
+        }
+        let filter = crate::QueryFilter::new();
+        counted(|| {
+            for [x, y] in [[-30.0, 70.0], [-900.0, 0.5], [5000.0, 5000.0], [50.0, 2.5]] {
+                world.closest_point(Vec2::new(x, y), f32::INFINITY, &filter).unwrap();
+            }
+        })
+    });
+}
