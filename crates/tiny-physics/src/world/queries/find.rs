@@ -230,10 +230,11 @@ impl Finder<'_> {
     ) {
         self.world.state.broad_phase.query(bounds, self.filter.tree_mask(), |index| {
             let (record, place) = self.place(index);
-            if self.sees(index) && passes(record, place) {
-                return visit(index);
+            if !self.sees(index) {
+                return ControlFlow::Continue(());
             }
-            ControlFlow::Continue(())
+            work::note();
+            if passes(record, place) { visit(index) } else { ControlFlow::Continue(()) }
         });
     }
 

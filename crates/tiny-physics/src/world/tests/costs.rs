@@ -4,6 +4,7 @@ use super::*;
 use crate::broad_phase::DynamicTree;
 use crate::describe::{JointDef, Tile, TileForm, TileGrid};
 use crate::work::counted;
+use crate::{Explosion, ForceZone, Water, ZoneForce};
 
 /// Checks that work in proportion to `n` at most stays so from `n` to `8 n`.
 fn grows_in_proportion(what: &str, mut work: impl FnMut(u32) -> u64) {
@@ -225,5 +226,34 @@ fn the_closest_of_many_far_away() {
                 world.closest_point(Vec2::new(x, y), f32::INFINITY, &filter).unwrap();
             }
         })
+    });
+}
+
+/// Blasts, water and zones do not measure the level in which they act.
+#[test]
+fn forces_in_a_large_level() {
+    stays_equal("shapes measured", |count| {
+        let mut world = world();
+        level(&mut world, count);
+        let ball = add(&mut world, 5.0, 0.5, circle(0.5));
+        world.step(DT);
+        let filter = crate::QueryFilter::new();
+        let area = Some(crate::Aabb::from_center(Vec2::ZERO, Vec2::splat(1000.0)));
+        let zone = ForceZone {
+            shape: Shape::rect(1000.0, 1000.0).unwrap(),
+            pose: Default::default(),
+            force: ZoneForce::Acceleration(Vec2::X),
+            wakes: true,
+        };
+        let blast =
+            Explosion { center: DVec2::ZERO, radius: 1000.0, falloff: 0.0, impulse_per_metre: 1.0 };
+        let work = counted(|| {
+            world.explode(&blast, &filter);
+            world.apply_zone(&zone, &filter, DT);
+            world.apply_water(&Water { area, ..Water::default() }, &filter, DT);
+            world.apply_water(&Water::default(), &filter, DT);
+        });
+        assert!(world.body(ball).unwrap().velocity().x > 0.0);
+        work
     });
 }
