@@ -257,3 +257,26 @@ fn forces_in_a_large_level() {
         work
     });
 }
+
+/// What moves on rails and meets nothing is integrated once a step, whatever else is solved finely.
+#[test]
+fn platforms_beside_a_refined_island() {
+    let mut world = world();
+    add_ground(&mut world);
+    add(&mut world, 0.0, 0.5, rect(0.5, 0.5));
+    let heavy = rect(0.5, 0.5).density(1000.0);
+    add(&mut world, 0.0, 1.5, heavy);
+    for i in 0..100 {
+        let lift = RigidBody::kinematic().position(at(3.0 * i as f32, 50.0).p);
+        world.add_body(lift.shape(rect(0.5, 0.5)).velocity(Vec2::Y)).unwrap();
+    }
+    run(&mut world, 10);
+    assert!(world.state.bodies.any_refined());
+    let State { bodies, .. } = &world.state;
+    let listed = |pace| {
+        let mut listed = Vec::new();
+        counted(|| crate::stages::paces::list_bodies(bodies, pace, &mut listed))
+    };
+    let integrated: u64 = (0..crate::dynamics::PACES).map(listed).sum();
+    assert_eq!(integrated, 102);
+}
