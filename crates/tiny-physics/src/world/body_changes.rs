@@ -8,6 +8,7 @@ use crate::describe::{BodyKind, Locks};
 use crate::dynamics::{Given, GivenPoint, NULL, PLAIN};
 use crate::error::Error;
 use crate::math::{Pose, Vec2};
+use crate::work;
 
 impl<'a> Body<'a> {
     /// Handles of its joints, the newest first.
@@ -240,13 +241,23 @@ impl World {
     /// nothing more where nobody asks. What was removed before is not in it; handles of what is removed
     /// later are stale.
     pub fn moved_bodies(&self) -> &[BodyId] {
+        &self.moved_lists()[0]
+    }
+
+    /// Those, and the kinematic ones of them in index order.
+    pub(super) fn moved_lists(&self) -> &[Vec<BodyId>; 2] {
         self.moved.get_or_init(|| {
             let asleep = self.state.events.fell_asleep.iter().copied();
             let asleep = asleep.filter(|&id| self.body(id).is_some_and(|body| !body.is_awake()));
             let bodies = &self.state.bodies;
             let moved = |&&i: &&u32| bodies.poses[i as usize] != bodies.previous[i as usize];
-            let awake = bodies.awake.iter().filter(moved).map(|&i| self.body_id(i));
-            awake.chain(asleep).collect()
+            let awake = bodies.awake.iter().inspect(|_| work::note());
+            let awake = awake.filter(moved).map(|&i| self.body_id(i));
+            let all: Vec<BodyId> = awake.chain(asleep).collect();
+            let mut machines = all.clone();
+            machines.retain(|body| bodies.infos[body.index()].kind == BodyKind::Kinematic);
+            machines.sort_unstable();
+            [all, machines]
         })
     }
 }

@@ -4,7 +4,7 @@ use super::*;
 use crate::broad_phase::DynamicTree;
 use crate::describe::{JointDef, Tile, TileForm, TileGrid};
 use crate::work::counted;
-use crate::{Explosion, ForceZone, Water, ZoneForce};
+use crate::{CharacterMover, Explosion, ForceZone, MoverInput, Water, ZoneForce};
 
 /// Checks that work in proportion to `n` at most stays so from `n` to `8 n`.
 fn grows_in_proportion(what: &str, mut work: impl FnMut(u32) -> u64) {
@@ -279,4 +279,25 @@ fn platforms_beside_a_refined_island() {
     };
     let integrated: u64 = (0..crate::dynamics::PACES).map(listed).sum();
     assert_eq!(integrated, 102);
+}
+
+/// Only what has moved on rails is looked at by each of many characters.
+#[test]
+fn characters_among_many_bodies() {
+    stays_equal("ten of them", |count| {
+        let mut world = World::new(Vec2::ZERO);
+        for i in 0..count {
+            add(&mut world, 2.0 * i as f32, 9.0, circle(0.5));
+            world.add_body(RigidBody::kinematic().position(at(2.0 * i as f32, 20.0).p)).unwrap();
+        }
+        let lift = RigidBody::kinematic().shape(rect(1.0, 0.1)).velocity(Vec2::Y);
+        world.add_body(lift).unwrap();
+        world.step(DT);
+        let mut hero = CharacterMover::new(Vec2::new(0.0, 2.0), 1.8, 0.3);
+        hero.update(&mut world, MoverInput::default(), DT);
+        let mut others = vec![hero; 10];
+        counted(|| {
+            others.iter_mut().for_each(|one| one.update(&mut world, MoverInput::default(), DT))
+        })
+    });
 }
