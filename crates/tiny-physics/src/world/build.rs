@@ -64,6 +64,7 @@ impl World {
         self.destroy_joints_of(index);
         self.destroy_contacts_of(index, |_, _| true);
         let shapes = self.shapes_of(index);
+        self.end_overlaps_of(|record, _| record.body == index);
         self.unlink_shapes(index, |_| true);
         shapes.into_iter().for_each(|shape| self.forget_shape(shape));
         self.state.bodies.remove_awake(index);
@@ -158,6 +159,7 @@ impl World {
             self.wake_index(body);
             self.destroy_contacts_of(body, |_, c| goes(c.shape_a) || goes(c.shape_b));
         }
+        self.end_overlaps_of(|_, shape| goes(shape));
         bodies.iter().for_each(|&body| self.unlink_shapes(body, goes));
         shapes.iter().for_each(|&shape| self.forget_shape(shape));
         bodies.into_iter().for_each(|body| self.update_mass(body));
@@ -215,10 +217,9 @@ impl World {
         }
     }
 
-    /// Takes a shape out of the world that has no contacts and is in no body's list.
+    /// Takes a shape out of the world that has no contacts and overlaps, and is in no body's list.
     fn forget_shape(&mut self, shape: u32) {
         self.note_ground(shape);
-        self.end_overlaps_of(shape);
         self.state.broad_phase.destroy_proxy(self.state.shapes.proxy(shape));
         self.state.waiting.stale = true;
         self.state.sensors.remove(shape);

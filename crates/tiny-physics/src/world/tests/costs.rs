@@ -301,3 +301,25 @@ fn characters_among_many_bodies() {
         })
     });
 }
+
+#[test]
+fn many_sensors_that_go_at_once() {
+    grows_in_proportion("overlaps ended", |count| {
+        let mut world = world();
+        let level = world.add_body(RigidBody::fixed()).unwrap();
+        let body = world.add_body(RigidBody::fixed()).unwrap();
+        add(&mut world, 0.0, 0.0, circle(1.0));
+        let coin = || rect(0.5, 0.5).sensor();
+        let coins: Vec<_> = (0..count).map(|_| world.add_shape(level, coin()).unwrap()).collect();
+        (0..count).for_each(|_| _ = world.add_shape(body, coin()).unwrap());
+        world.step(DT);
+        assert_eq!(world.state.sensors.overlaps.len(), 2 * count as usize);
+        let work = counted(|| {
+            world.remove_shapes(&coins).unwrap();
+            world.remove_body(body).unwrap();
+        });
+        world.step(DT);
+        assert_eq!(world.events().sensor_end().len(), 2 * count as usize);
+        work
+    });
+}
