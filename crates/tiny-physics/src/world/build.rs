@@ -219,7 +219,7 @@ impl World {
 
     /// Takes a shape out of the world that has no contacts and overlaps, and is in no body's list.
     fn forget_shape(&mut self, shape: u32) {
-        self.note_ground(shape);
+        self.note_ground(shape, true);
         self.state.broad_phase.destroy_proxy(self.state.shapes.proxy(shape));
         self.state.waiting.stale = true;
         self.state.sensors.remove(shape);
@@ -370,21 +370,22 @@ impl World {
         self.state.shapes.records[shape as usize].proxy = proxy.0;
         self.state.shapes.fat[shape as usize] =
             self.state.broad_phase.fat_aabb(proxy).unwrap_or(tight);
-        self.note_ground(shape);
+        self.note_ground(shape, true);
     }
 
-    /// Notes that ground comes, goes or moves where the box of this shape is.
-    pub(super) fn note_ground(&mut self, shape: u32) {
-        let body = self.state.shapes.records[shape as usize].body;
-        let fat = self.state.broad_phase.fat_aabb(self.state.shapes.proxy(shape));
-        if self.state.bodies.infos[body as usize].kind != BodyKind::Dynamic {
-            self.state.shapes.changed_ground.extend(fat);
-        }
-    }
-
-    /// Notes that all ground of a body is about to change, or has changed.
+    /// Notes that all ground of a body is about to move, or has moved. What is kinematic makes surfaces with itself alone.
     pub(super) fn note_ground_of(&mut self, body: u32) {
-        self.shapes_of(body).into_iter().for_each(|shape| self.note_ground(shape));
+        let guards = self.state.bodies.infos[body as usize].kind == BodyKind::Static;
+        self.shapes_of(body).into_iter().for_each(|shape| self.note_ground(shape, guards));
+    }
+
+    /// Notes that ground comes, goes or changes where the box of this shape is, and whether guards may be others.
+    pub(super) fn note_ground(&mut self, shape: u32, guards: bool) {
+        let record = &self.state.shapes.records[shape as usize];
+        if !record.sensor && !self.state.bodies.is_dynamic(record.body) {
+            let fat = self.state.broad_phase.fat_aabb(self.state.shapes.proxy(shape));
+            self.state.shapes.changed_ground.extend(fat.map(|fat| (fat, guards)));
+        }
     }
 }
 

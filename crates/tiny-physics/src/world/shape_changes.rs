@@ -125,7 +125,7 @@ impl ShapeMut<'_> {
         let (category, mask) = filter.reach();
         world.state.broad_phase.set_filter(world.state.shapes.proxy(index), category, mask);
         world.state.sensors.mark_changed(index);
-        world.note_ground(index);
+        world.note_ground(index, true);
         world.destroy_contacts_of(body, |state, contact| {
             let filter = |shape: u32| state.shapes.records[shape as usize].filter;
             !filter(contact.shape_a).collides(&filter(contact.shape_b))
@@ -174,12 +174,12 @@ impl ShapeMut<'_> {
         let body = world.state.shapes.records[index as usize].body;
         world.wake_index(body);
         world.contacts_of(index).into_iter().for_each(|index| world.destroy_contact(index));
+        world.note_ground(index, true);
         change(&mut world.state.shapes.records[index as usize]);
         let record = &mut world.state.shapes.records[index as usize];
         if !matches!(record.shape, Shape::Segment { .. }) {
             record.link = None;
         }
-        world.note_ground(index);
         world.state.shapes.set_touched(index, 0);
         world.state.broad_phase.destroy_proxy(world.state.shapes.proxy(index));
         world.state.shapes.records[index as usize].proxy = NULL;

@@ -323,3 +323,24 @@ fn many_sensors_that_go_at_once() {
         work
     });
 }
+
+/// What moves alone joins no surface: nobody looks at those that it passes.
+#[test]
+fn platforms_and_sensors_put_along_a_level() {
+    stays_equal("put along", |count| {
+        let mut world = world();
+        level(&mut world, count);
+        let long = || rect(count as f32, 0.2).offset(Vec2::new(count as f32, 0.3));
+        let movers = [
+            RigidBody::kinematic().shape(long()),
+            RigidBody::kinematic().shape(long().sensor()),
+            RigidBody::fixed().shape(long().sensor()),
+        ];
+        let movers = movers.map(|body| world.add_body(body).unwrap());
+        world.step(DT);
+        counted(|| {
+            movers.iter().for_each(|body| world.body_mut(*body).unwrap().set_position(Vec2::Y));
+            world.refresh_surfaces();
+        })
+    });
+}
