@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::broad_phase::DynamicTree;
-use crate::describe::{JointDef, Tile, TileForm, TileGrid};
+use crate::describe::{JointDef, Locks, Tile, TileForm, TileGrid};
 use crate::work::counted;
 use crate::{CharacterMover, Explosion, ForceZone, MoverInput, Water, ZoneForce};
 
@@ -342,5 +342,49 @@ fn platforms_and_sensors_put_along_a_level() {
             movers.iter().for_each(|body| world.body_mut(*body).unwrap().set_position(Vec2::Y));
             world.refresh_surfaces();
         })
+    });
+}
+
+#[test]
+fn what_is_set_to_what_it_is() {
+    stays_equal("setters", |count| {
+        let mut world = world();
+        let ground = add_ground(&mut world);
+        for i in 0..count {
+            add(&mut world, 0.1 * i as f32 - 40.0, 0.04, circle(0.04));
+        }
+        let body = add(&mut world, 45.0, 0.5, rect(0.5, 0.5));
+        while world.awake_body_count() > 0 {
+            world.step(DT);
+        }
+        let work = counted(|| {
+            for body in [ground, body] {
+                let shape = shape_of(&world, body);
+                let view = world.shape(shape).unwrap();
+                let (local, material) = (view.local(), view.material());
+                let mut shape = world.shape_mut(shape).unwrap();
+                shape.set_filter(crate::Filter::default());
+                shape.set_sensor(false);
+                shape.set_one_way(None).unwrap();
+                shape.set_local(local.p, local.q.angle()).unwrap();
+                shape.set_material(material).unwrap();
+                shape.set_friction(material.friction).unwrap();
+                shape.set_restitution(material.restitution).unwrap();
+                shape.set_density(material.density).unwrap();
+                let mut body = world.body_mut(body).unwrap();
+                body.set_gravity_scale(1.0);
+                body.set_damping(0.0, -1.0);
+                body.set_locks(Locks::default());
+                body.set_can_sleep(true);
+                body.set_sleep_speed(body.as_ref().sleep_speed());
+                body.set_mass(None).unwrap();
+                body.set_center(None).unwrap();
+                body.set_inertia(None).unwrap();
+            }
+        });
+        assert_eq!(world.awake_body_count(), 0);
+        world.shape_mut(shape_of(&world, ground)).unwrap().set_friction(0.1).unwrap();
+        assert_eq!(world.awake_body_count(), count as usize + 1);
+        work
     });
 }
