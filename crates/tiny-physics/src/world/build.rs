@@ -150,19 +150,21 @@ impl World {
         let mut shapes = shapes?;
         shapes.sort_unstable();
         shapes.dedup();
-        let body_of = |shape: &u32| self.state.shapes.records[*shape as usize].body;
-        let mut bodies: Vec<u32> = shapes.iter().map(body_of).collect();
-        bodies.sort_unstable();
-        bodies.dedup();
+        let body_of = |shape: u32| self.state.shapes.records[shape as usize].body;
+        let mut pairs: Vec<_> = shapes.iter().map(|&shape| (body_of(shape), shape)).collect();
+        pairs.sort_unstable();
+        let parts = || pairs.chunk_by(|a, b| a.0 == b.0).map(|part| (part[0].0, part));
         let goes = |shape: u32| shapes.binary_search(&shape).is_ok();
-        for &body in &bodies {
+        for (body, _) in parts() {
             self.wake_index(body);
             self.destroy_contacts_of(body, |_, c| goes(c.shape_a) || goes(c.shape_b));
         }
         self.end_overlaps_of(|_, shape| goes(shape));
-        bodies.iter().for_each(|&body| self.unlink_shapes(body, goes));
+        parts().for_each(|(body, _)| self.unlink_shapes(body, goes));
+        let told = parts().filter(|(_, part)| part.iter().any(|&(_, shape)| self.tells(shape)));
+        let told: Vec<u32> = told.map(|(body, _)| body).collect();
         shapes.iter().for_each(|&shape| self.forget_shape(shape));
-        bodies.into_iter().for_each(|body| self.update_mass(body));
+        told.into_iter().for_each(|body| self.update_mass(body));
         Ok(())
     }
 
@@ -333,16 +335,32 @@ impl World {
         is_solid
     }
 
-    /// Takes a new shape, the first of its list, into what is known of a body that is not dynamic. Its centre stays
-    /// where it is, so what other shapes have does too.
-    fn settle_shape(&mut self, shape: u32) {
+    /// Takes a shape that is new, or another now, into what is known of a body that is not dynamic. Its centre stays where it is, so what
+    /// other shapes have does too.
+    pub(super) fn settle_shape(&mut self, shape: u32) {
         let State { bodies, shapes, .. } = &mut self.state;
         let record = &shapes.records[shape as usize];
-        bodies.infos[record.body as usize].never_turns |=
-            matches!(record.shape, Shape::Aabb { .. });
-        let is_first =
-            shapes.of_body(record.next).all(|other| shapes.records[other as usize].sensor);
+        let info = &mut bodies.infos[record.body as usize];
+        info.never_turns |= matches!(record.shape, Shape::Aabb { .. });
+        let solid = |other: u32| other != shape && !shapes.records[other as usize].sensor;
+        let is_first = !shapes.of_body(info.first_shape).any(solid);
         self.update_central_frame(shape, is_first);
+    }
+
+    /// Is what is known of a body another without this shape: is it larger or thinner than all others, or alone upright?
+    pub(super) fn tells(&self, shape: u32) -> bool {
+        let State { bodies, shapes, .. } = &self.state;
+        let record = |shape: u32| &shapes.records[shape as usize];
+        let lane = |shape| LaneShape::new(&record(shape).shape, record(shape).central);
+        let (body, own) = (record(shape).body, lane(shape));
+        let info = &bodies.infos[body as usize];
+        let others = || shapes.of_body(info.first_shape).filter(|&other| other != shape);
+        let is_as_thin = |at: u32| !record(at).sensor && lane(at).thickness <= own.thickness;
+        let is_upright = |at: u32| matches!(record(at).shape, Shape::Aabb { .. });
+        bodies.is_dynamic(body)
+            || own.reach >= info.max_extent
+            || !record(shape).sensor && !others().any(is_as_thin)
+            || is_upright(shape) && !others().any(is_upright)
     }
 
     /// Gives a broad-phase leaf to those shapes of an enabled body that have none.
@@ -353,7 +371,7 @@ impl World {
     }
 
     /// Gives a shape a broad-phase leaf, if its body is enabled and it has none.
-    fn create_proxy(&mut self, shape: u32) {
+    pub(super) fn create_proxy(&mut self, shape: u32) {
         let record = &self.state.shapes.records[shape as usize];
         let info = &self.state.bodies.infos[record.body as usize];
         if !info.enabled || record.proxy != NULL {

@@ -189,7 +189,7 @@ impl ShapeMut<'_> {
     /// Replaces the record by one that lets no contact live on.
     fn replace(&mut self, new: ShapeRecord) {
         let (world, index) = (&mut *self.world, self.index);
-        let body = new.body;
+        let (body, told) = (new.body, world.tells(index));
         world.wake_index(body);
         world.contacts_of(index).into_iter().for_each(|index| world.destroy_contact(index));
         world.note_ground(index, true);
@@ -197,10 +197,17 @@ impl ShapeMut<'_> {
         world.state.shapes.set_touched(index, 0);
         world.state.broad_phase.destroy_proxy(world.state.shapes.proxy(index));
         world.state.shapes.records[index as usize].proxy = NULL;
-        world.update_mass(body);
-        world.create_proxies(body);
-        // The centre of mass may be another: the frames of all shapes are computed anew.
-        world.mark_shapes_changed(body);
+        if told {
+            world.update_mass(body);
+        } else {
+            world.settle_shape(index);
+        }
+        world.create_proxy(index);
+        if world.state.bodies.is_dynamic(body) {
+            // The centre of mass may be another: the frames of all shapes are computed anew.
+            world.mark_shapes_changed(body);
+        }
+        world.state.sensors.mark_changed(index);
     }
 }
 
