@@ -37,7 +37,7 @@ mod proxies;
 mod stack;
 mod tree;
 
-pub use cast::BoxCast;
+pub use cast::{BoxCast, Nearest, Search};
 pub use proxies::{BroadPhase, ProxyDef, ProxyId, ProxyKind};
 pub use tree::DynamicTree;
 

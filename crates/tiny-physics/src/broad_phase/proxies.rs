@@ -9,7 +9,7 @@
 
 use super::node_boxes::{Boxes, WIDTH};
 use super::tree::Spare;
-use super::{BoxCast, DynamicTree, clamped, sort_pairs};
+use super::{DynamicTree, Search, clamped, sort_pairs};
 use crate::codec::{Data, Reader, Sink, bad, data_enum, record, store};
 use crate::error::Error;
 use crate::math::{Aabb, Vec2};
@@ -452,18 +452,17 @@ impl BroadPhase {
         });
     }
 
-    /// Calls `visit` with the `user` numbers of proxies whose fat box the cast may hit before the
-    /// limit; see [`DynamicTree::cast`].
+    /// Calls `visit` with the `user` numbers of proxies whose fat box a cast or another search may find before a limit;
+    /// see [`DynamicTree::cast`].
     pub fn cast(
         &self,
-        cast: &BoxCast,
-        max_fraction: f32,
+        search: &impl Search,
+        mut limit: f32,
         mask: u64,
         mut visit: impl FnMut(u32, f32) -> f32,
     ) {
-        let mut limit = max_fraction;
         for tree in &self.trees {
-            tree.cast(cast, limit, mask, |id, current| {
+            tree.cast(search, limit, mask, |id, current| {
                 let fraction = visit(self.proxies[id as usize].user, current);
                 if fraction < limit {
                     limit = fraction;

@@ -112,8 +112,9 @@ store! {
         pub(crate) fat: Vec<Aabb>,
         /// Which contacts are looked at again: see [`guard`].
         pub(crate) guards: Vec<u32>,
-        /// Boxes in which static or kinematic shapes came, went or were moved since guards were last found.
-        pub(crate) changed_ground: Vec<Aabb>,
+        /// Boxes in which static or kinematic shapes came, went or were moved since guards were last found, and whether
+        /// that may have changed guards.
+        pub(crate) changed_ground: Vec<(Aabb, bool)>,
         pub(crate) free: Vec<u32>,
         pub(crate) count: usize,
         generations: Generations,
@@ -146,6 +147,7 @@ impl Shapes {
 
     /// Notes which faces and corners of a shape others touch, and which they do not.
     pub(crate) fn set_touched(&mut self, index: u32, touched: u32) {
+        work::note();
         self.guards[index as usize] = guard::of(&self.records[index as usize]) | touched;
         self.mark_row(index);
     }

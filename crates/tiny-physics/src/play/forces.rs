@@ -134,12 +134,10 @@ impl World {
         }
         let side = DVec2::new(f64::from(reach), f64::from(reach));
         let bounds = Aabb::rounded_out(center - side, center + side);
-        for shape in self.overlap_aabb(bounds, filter) {
+        for shape in self.of_movers(filter, true, |filter| self.overlap_aabb(bounds, filter)) {
             let Some(shape) = self.shape(shape) else { continue };
             let (id, geometry, frame) = (shape.body(), *shape.shape(), shape.pose());
-            let Some(body) = self.body(id).filter(|body| body.kind() == BodyKind::Dynamic) else {
-                continue;
-            };
+            let Some(body) = self.body(id) else { continue };
             let local = frame.unapply(center);
             let closest = geometry.closest_point(local);
             let distance = closest.distance(local);
@@ -187,10 +185,10 @@ impl World {
             self.refuse();
             return;
         }
-        let shapes: Vec<ShapeId> = match water.area {
+        let shapes: Vec<ShapeId> = self.of_movers(filter, false, |filter| match water.area {
             Some(area) => self.overlap_aabb(area, filter),
             None => self.shapes_seen(filter).collect(),
-        };
+        });
         let wet = |shape| self.wet_part(shape, water, normal, dt);
         let mut parts: Vec<WetPart> = shapes.into_iter().filter_map(wet).collect();
         parts.sort_by_key(|part| part.body);
@@ -199,14 +197,26 @@ impl World {
         }
     }
 
-    /// What of a shape is under water, if its body moves.
+    /// What a question finds of dynamic bodies alone, of those that sleep where `asleep` says so: others are not measured.
+    fn of_movers<T>(
+        &self,
+        filter: &QueryFilter<'_>,
+        asleep: bool,
+        ask: impl FnOnce(&QueryFilter<'_>) -> T,
+    ) -> T {
+        let moves = |id: ShapeId| {
+            let body = self.shape(id).and_then(|shape| self.body(shape.body()));
+            body.is_some_and(|body| body.kind() == BodyKind::Dynamic && (asleep || body.is_awake()))
+                && filter.predicate.is_none_or(|shows| shows(id))
+        };
+        ask(&QueryFilter { predicate: Some(&moves), ..*filter })
+    }
+
+    /// What of a shape is under water.
     fn wet_part(&self, shape: ShapeId, water: &Water, normal: Vec2, dt: f32) -> Option<WetPart> {
         let shape = self.shape(shape)?;
         let (id, place) = (shape.body(), shape.pose());
         let body = self.body(id)?;
-        if body.kind() != BodyKind::Dynamic || !body.is_awake() {
-            return None;
-        }
         // As it lies in the middle of the step: what bobs on forces of its start swings further and further.
         let half = 0.5 * dt;
         let turned = place.q.integrate(body.angular_velocity() * half);
@@ -252,10 +262,11 @@ impl World {
     /// Lets the force of a zone act on all dynamic bodies that overlap it with a shape that the filter shows,
     /// each once, during the next step, which is `dt` seconds long.
     pub fn apply_zone(&mut self, zone: &ForceZone, filter: &QueryFilter<'_>, dt: f32) {
-        for body in self.overlap_bodies(&zone.shape, zone.pose, filter) {
-            let Some(mut body) = self.body_mut(body) else { continue };
-            let view = body.as_ref();
-            if view.kind() == BodyKind::Dynamic && (zone.wakes || view.is_awake()) {
+        let bodies = self.of_movers(filter, zone.wakes, |filter| {
+            self.overlap_bodies(&zone.shape, zone.pose, filter)
+        });
+        for body in bodies {
+            if let Some(mut body) = self.body_mut(body) {
                 body.apply_zone_force(&zone.force, dt);
             }
         }

@@ -19,6 +19,7 @@ use crate::dynamics::{
 };
 use crate::math::Vec2;
 use crate::simd::BLOCK;
+use crate::work;
 
 /// Steps between two looks at all islands.
 const INTERVAL: u64 = 8;
@@ -132,14 +133,16 @@ pub(crate) fn stir(bodies: &mut Bodies, pair: [u32; 2], length_unit: f32, h: f32
     urgent
 }
 
-/// Lists the awake bodies that are integrated at a pace: what is not dynamic is at every one.
+/// Lists the awake bodies that are integrated at a pace: what is not dynamic is at the plain one and, where it may touch
+/// something or is joined to it, at every one.
 pub(crate) fn list_bodies(bodies: &Bodies, pace: usize, listed: &mut Vec<u32>) {
     let concerns = |&&i: &&u32| {
         let info = &bodies.infos[i as usize];
-        info.kind != BodyKind::Dynamic || usize::from(info.pace) == pace
+        let joins_in = pace == PLAIN || info.first_contact != NULL || info.first_joint != NULL;
+        if info.kind == BodyKind::Dynamic { usize::from(info.pace) == pace } else { joins_in }
     };
     listed.clear();
-    listed.extend(bodies.awake.iter().filter(concerns));
+    listed.extend(bodies.awake.iter().filter(concerns).inspect(|_| work::note()));
 }
 
 /// Gives every island its pace, where that is due.

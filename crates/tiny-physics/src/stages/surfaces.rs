@@ -421,14 +421,15 @@ pub(crate) fn refresh(
     broad_phase: &BroadPhase,
     length_unit: f32,
 ) {
-    if shapes.changed_ground.is_empty() {
+    let mut changed = core::mem::take(&mut shapes.changed_ground);
+    changed.retain(|&(_, guards)| guards);
+    if changed.is_empty() {
         return;
     }
-    let changed = core::mem::take(&mut shapes.changed_ground);
     // A bit a shape: much less than a sorted list where a large level is built.
     let mut near = vec![0_u64; shapes.records.len().div_ceil(64)];
     for kind in [ProxyKind::Static, ProxyKind::Kinematic] {
-        for bounds in &changed {
+        for (bounds, _) in &changed {
             broad_phase.each_of(kind, bounds, u64::MAX, |index| {
                 near[index as usize / 64] |= 1 << (index % 64);
             });

@@ -49,8 +49,9 @@ impl<'a> Body<'a> {
     }
 }
 
-/// A body of the world, to change. What may move it wakes it and its island; numbers that are not finite,
-/// or so large that calculating with them would leave 32 bits, are refused by doing nothing.
+/// A body of the world, to change. What may move it wakes it and its island; a property that is the same already changes
+/// nothing. Numbers that are not finite, or so large that calculating with them would leave 32 bits, are refused by doing
+/// nothing.
 pub struct BodyMut<'a> {
     pub(super) world: &'a mut World,
     pub(super) index: u32,
@@ -81,6 +82,17 @@ impl BodyMut<'_> {
             self.world.refuse();
         }
         acceptable
+    }
+
+    /// Changes what is known of it, which wakes it, and says whether that has changed: what is the same already changes nothing.
+    pub(super) fn change(&mut self, numbers: &[f32], change: impl Fn(&mut BodyInfo)) -> bool {
+        let mut new = *self.info();
+        change(&mut new);
+        let changes = new != *self.info() && self.accept(numbers);
+        if changes {
+            change(self.info());
+        }
+        changes
     }
 
     /// Does the solver move it?
@@ -240,18 +252,15 @@ impl BodyMut<'_> {
 
     /// Sets the factor on the world's gravity.
     pub fn set_gravity_scale(&mut self, scale: f32) {
-        if self.accept(&[scale]) {
-            self.info().gravity_scale = scale;
-        }
+        self.change(&[scale], |info| info.gravity_scale = scale);
     }
 
     /// Sets linear and angular damping, 1/s; negative values count as 0.
     pub fn set_damping(&mut self, linear: f32, angular: f32) {
-        if self.accept(&[linear, angular]) {
-            let info = self.info();
-            [info.linear_damping, info.angular_damping] =
-                [linear, angular].map(|damping| if damping > 0.0 { damping } else { 0.0 });
-        }
+        let limited = |damping: f32| if damping <= 0.0 { 0.0 } else { damping };
+        self.change(&[linear, angular], |info| {
+            (info.linear_damping, info.angular_damping) = (limited(linear), limited(angular));
+        });
     }
 
     /// Sets a flag that is kept and given back, and changes nothing: see [`RigidBody::bullet`](crate::RigidBody::bullet).

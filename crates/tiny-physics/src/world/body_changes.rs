@@ -8,6 +8,7 @@ use crate::describe::{BodyKind, Locks};
 use crate::dynamics::{Given, GivenPoint, NULL, PLAIN};
 use crate::error::Error;
 use crate::math::{Pose, Vec2};
+use crate::work;
 
 impl<'a> Body<'a> {
     /// Handles of its joints, the newest first.
@@ -75,24 +76,23 @@ impl BodyMut<'_> {
 
     /// Sets the directions in which it cannot move. Wakes it.
     pub fn set_locks(&mut self, locks: Locks) {
-        self.accept(&[]);
-        self.info().locks = locks;
-        self.world.state.bodies.update_inverse_masses(self.index);
+        if self.change(&[], |info| info.locks = locks) {
+            self.world.state.bodies.update_inverse_masses(self.index);
+        }
     }
 
     /// Sets whether its island may fall asleep. Wakes it where not.
     pub fn set_can_sleep(&mut self, can_sleep: bool) {
-        self.info().can_sleep = can_sleep;
-        if !can_sleep {
+        let changes = core::mem::replace(&mut self.info().can_sleep, can_sleep) != can_sleep;
+        if changes && !can_sleep {
             self.accept(&[]);
         }
     }
 
     /// Sets the speed below which it counts as at rest, metres a second; negative counts as 0.
     pub fn set_sleep_speed(&mut self, speed: f32) {
-        if self.accept(&[speed]) {
-            self.info().sleep_speed = if speed > 0.0 { speed } else { 0.0 };
-        }
+        let limited = if speed <= 0.0 { 0.0 } else { speed };
+        self.change(&[speed], |info| info.sleep_speed = limited);
     }
 
     /// Sets the mass in kilograms; the moment of inertia follows in proportion. `None` takes both from the
@@ -102,9 +102,9 @@ impl BodyMut<'_> {
     /// The mass is not finite, or outside of 1e-9 to 1e12.
     pub fn set_mass(&mut self, mass: Option<f32>) -> Result<(), Error> {
         check_given("mass", mass)?;
-        self.accept(&[]);
-        self.info().fixed_mass = Given::new(mass);
-        self.world.update_mass(self.index);
+        if self.change(&[], |info| info.fixed_mass = Given::new(mass)) {
+            self.world.update_mass(self.index);
+        }
         Ok(())
     }
 
@@ -115,9 +115,9 @@ impl BodyMut<'_> {
     /// The point is not finite or beyond 1e6.
     pub fn set_center(&mut self, center: Option<Vec2>) -> Result<(), Error> {
         check_center(center)?;
-        self.accept(&[]);
-        self.info().fixed_center = GivenPoint::new(center);
-        self.world.update_mass(self.index);
+        if self.change(&[], |info| info.fixed_center = GivenPoint::new(center)) {
+            self.world.update_mass(self.index);
+        }
         Ok(())
     }
 
@@ -128,9 +128,9 @@ impl BodyMut<'_> {
     /// It is not finite, or outside of 1e-9 to 1e12.
     pub fn set_inertia(&mut self, inertia: Option<f32>) -> Result<(), Error> {
         check_given("inertia", inertia)?;
-        self.accept(&[]);
-        self.info().fixed_inertia = Given::new(inertia);
-        self.world.update_mass(self.index);
+        if self.change(&[], |info| info.fixed_inertia = Given::new(inertia)) {
+            self.world.update_mass(self.index);
+        }
         Ok(())
     }
 
@@ -240,13 +240,23 @@ impl World {
     /// nothing more where nobody asks. What was removed before is not in it; handles of what is removed
     /// later are stale.
     pub fn moved_bodies(&self) -> &[BodyId] {
+        &self.moved_lists()[0]
+    }
+
+    /// Those, and the kinematic ones of them in index order.
+    pub(super) fn moved_lists(&self) -> &[Vec<BodyId>; 2] {
         self.moved.get_or_init(|| {
             let asleep = self.state.events.fell_asleep.iter().copied();
             let asleep = asleep.filter(|&id| self.body(id).is_some_and(|body| !body.is_awake()));
             let bodies = &self.state.bodies;
             let moved = |&&i: &&u32| bodies.poses[i as usize] != bodies.previous[i as usize];
-            let awake = bodies.awake.iter().filter(moved).map(|&i| self.body_id(i));
-            awake.chain(asleep).collect()
+            let awake = bodies.awake.iter().inspect(|_| work::note());
+            let awake = awake.filter(moved).map(|&i| self.body_id(i));
+            let all: Vec<BodyId> = awake.chain(asleep).collect();
+            let mut machines = all.clone();
+            machines.retain(|body| bodies.infos[body.index()].kind == BodyKind::Kinematic);
+            machines.sort_unstable();
+            [all, machines]
         })
     }
 }

@@ -64,6 +64,7 @@ impl World {
         self.destroy_joints_of(index);
         self.destroy_contacts_of(index, |_, _| true);
         let shapes = self.shapes_of(index);
+        self.end_overlaps_of(|record, _| record.body == index);
         self.unlink_shapes(index, |_| true);
         shapes.into_iter().for_each(|shape| self.forget_shape(shape));
         self.state.bodies.remove_awake(index);
@@ -149,18 +150,21 @@ impl World {
         let mut shapes = shapes?;
         shapes.sort_unstable();
         shapes.dedup();
-        let body_of = |shape: &u32| self.state.shapes.records[*shape as usize].body;
-        let mut bodies: Vec<u32> = shapes.iter().map(body_of).collect();
-        bodies.sort_unstable();
-        bodies.dedup();
+        let body_of = |shape: u32| self.state.shapes.records[shape as usize].body;
+        let mut pairs: Vec<_> = shapes.iter().map(|&shape| (body_of(shape), shape)).collect();
+        pairs.sort_unstable();
+        let parts = || pairs.chunk_by(|a, b| a.0 == b.0).map(|part| (part[0].0, part));
         let goes = |shape: u32| shapes.binary_search(&shape).is_ok();
-        for &body in &bodies {
+        for (body, _) in parts() {
             self.wake_index(body);
             self.destroy_contacts_of(body, |_, c| goes(c.shape_a) || goes(c.shape_b));
         }
-        bodies.iter().for_each(|&body| self.unlink_shapes(body, goes));
+        self.end_overlaps_of(|_, shape| goes(shape));
+        parts().for_each(|(body, _)| self.unlink_shapes(body, goes));
+        let told = parts().filter(|(_, part)| part.iter().any(|&(_, shape)| self.tells(shape)));
+        let told: Vec<u32> = told.map(|(body, _)| body).collect();
         shapes.iter().for_each(|&shape| self.forget_shape(shape));
-        bodies.into_iter().for_each(|body| self.update_mass(body));
+        told.into_iter().for_each(|body| self.update_mass(body));
         Ok(())
     }
 
@@ -215,10 +219,9 @@ impl World {
         }
     }
 
-    /// Takes a shape out of the world that has no contacts and is in no body's list.
+    /// Takes a shape out of the world that has no contacts and overlaps, and is in no body's list.
     fn forget_shape(&mut self, shape: u32) {
-        self.note_ground(shape);
-        self.end_overlaps_of(shape);
+        self.note_ground(shape, true);
         self.state.broad_phase.destroy_proxy(self.state.shapes.proxy(shape));
         self.state.waiting.stale = true;
         self.state.sensors.remove(shape);
@@ -332,16 +335,32 @@ impl World {
         is_solid
     }
 
-    /// Takes a new shape, the first of its list, into what is known of a body that is not dynamic. Its centre stays
-    /// where it is, so what other shapes have does too.
-    fn settle_shape(&mut self, shape: u32) {
+    /// Takes a shape that is new, or another now, into what is known of a body that is not dynamic. Its centre stays where it is, so what
+    /// other shapes have does too.
+    pub(super) fn settle_shape(&mut self, shape: u32) {
         let State { bodies, shapes, .. } = &mut self.state;
         let record = &shapes.records[shape as usize];
-        bodies.infos[record.body as usize].never_turns |=
-            matches!(record.shape, Shape::Aabb { .. });
-        let is_first =
-            shapes.of_body(record.next).all(|other| shapes.records[other as usize].sensor);
+        let info = &mut bodies.infos[record.body as usize];
+        info.never_turns |= matches!(record.shape, Shape::Aabb { .. });
+        let solid = |other: u32| other != shape && !shapes.records[other as usize].sensor;
+        let is_first = !shapes.of_body(info.first_shape).any(solid);
         self.update_central_frame(shape, is_first);
+    }
+
+    /// Is what is known of a body another without this shape: is it larger or thinner than all others, or alone upright?
+    pub(super) fn tells(&self, shape: u32) -> bool {
+        let State { bodies, shapes, .. } = &self.state;
+        let record = |shape: u32| &shapes.records[shape as usize];
+        let lane = |shape| LaneShape::new(&record(shape).shape, record(shape).central);
+        let (body, own) = (record(shape).body, lane(shape));
+        let info = &bodies.infos[body as usize];
+        let others = || shapes.of_body(info.first_shape).filter(|&other| other != shape);
+        let is_as_thin = |at: u32| !record(at).sensor && lane(at).thickness <= own.thickness;
+        let is_upright = |at: u32| matches!(record(at).shape, Shape::Aabb { .. });
+        bodies.is_dynamic(body)
+            || own.reach >= info.max_extent
+            || !record(shape).sensor && !others().any(is_as_thin)
+            || is_upright(shape) && !others().any(is_upright)
     }
 
     /// Gives a broad-phase leaf to those shapes of an enabled body that have none.
@@ -352,7 +371,7 @@ impl World {
     }
 
     /// Gives a shape a broad-phase leaf, if its body is enabled and it has none.
-    fn create_proxy(&mut self, shape: u32) {
+    pub(super) fn create_proxy(&mut self, shape: u32) {
         let record = &self.state.shapes.records[shape as usize];
         let info = &self.state.bodies.infos[record.body as usize];
         if !info.enabled || record.proxy != NULL {
@@ -369,21 +388,22 @@ impl World {
         self.state.shapes.records[shape as usize].proxy = proxy.0;
         self.state.shapes.fat[shape as usize] =
             self.state.broad_phase.fat_aabb(proxy).unwrap_or(tight);
-        self.note_ground(shape);
+        self.note_ground(shape, true);
     }
 
-    /// Notes that ground comes, goes or moves where the box of this shape is.
-    pub(super) fn note_ground(&mut self, shape: u32) {
-        let body = self.state.shapes.records[shape as usize].body;
-        let fat = self.state.broad_phase.fat_aabb(self.state.shapes.proxy(shape));
-        if self.state.bodies.infos[body as usize].kind != BodyKind::Dynamic {
-            self.state.shapes.changed_ground.extend(fat);
-        }
-    }
-
-    /// Notes that all ground of a body is about to change, or has changed.
+    /// Notes that all ground of a body is about to move, or has moved. What is kinematic makes surfaces with itself alone.
     pub(super) fn note_ground_of(&mut self, body: u32) {
-        self.shapes_of(body).into_iter().for_each(|shape| self.note_ground(shape));
+        let guards = self.state.bodies.infos[body as usize].kind == BodyKind::Static;
+        self.shapes_of(body).into_iter().for_each(|shape| self.note_ground(shape, guards));
+    }
+
+    /// Notes that ground comes, goes or changes where the box of this shape is, and whether guards may be others.
+    pub(super) fn note_ground(&mut self, shape: u32, guards: bool) {
+        let record = &self.state.shapes.records[shape as usize];
+        if !record.sensor && !self.state.bodies.is_dynamic(record.body) {
+            let fat = self.state.broad_phase.fat_aabb(self.state.shapes.proxy(shape));
+            self.state.shapes.changed_ground.extend(fat.map(|fat| (fat, guards)));
+        }
     }
 }
 

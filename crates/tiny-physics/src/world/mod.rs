@@ -95,8 +95,8 @@ pub struct World {
     pub settings: Settings,
     state: State,
     hooks: hooks::Hooks,
-    /// Which bodies the last step moved, once somebody has asked.
-    moved: OnceLock<Vec<BodyId>>,
+    /// Which bodies the last step moved, and the kinematic ones of them, once somebody has asked.
+    moved: OnceLock<[Vec<BodyId>; 2]>,
     level: SimdLevel,
     pool: Pool,
     stats: Stats,

@@ -5,7 +5,9 @@ use super::{
 };
 use crate::describe::{BodyKind, Filter, JointDef, Locks, Material, RigidBody};
 use crate::geometry::Shape;
-use crate::math::{DVec2, Pose, Rot, Vec2};
+use crate::math::{Aabb, DVec2, Pose, Rot, Vec2};
+use crate::stages::finalize::FastBody;
+use crate::work;
 use core::fmt;
 
 impl World {
@@ -27,13 +29,10 @@ impl World {
         self.body_ids().filter_map(|id| self.body(id))
     }
 
-    /// Kinematic bodies that move, in index order.
+    /// Kinematic bodies that the last step moved, in index order.
     pub(crate) fn machines(&self) -> impl Iterator<Item = Body<'_>> {
-        let bodies = &self.state.bodies;
-        let is_machine = |i: &u32| bodies.infos[*i as usize].kind == BodyKind::Kinematic;
-        let mut machines: Vec<_> = bodies.awake.iter().copied().filter(is_machine).collect();
-        machines.sort_unstable();
-        machines.into_iter().filter_map(|i| self.body(self.body_id(i)))
+        let machines = self.moved_lists()[1].iter().inspect(|_| work::note());
+        machines.filter_map(|&id| self.body(id))
     }
 
     /// All shapes, in index order.
@@ -48,6 +47,11 @@ impl World {
 }
 
 impl Body<'_> {
+    /// May any point of it have been in a box during the last step?
+    pub(crate) fn went_through(&self, bounds: &Aabb) -> bool {
+        !FastBody::of_step(&self.world.state.bodies, self.index).misses(self.info(), bounds)
+    }
+
     /// The body as it is now, as a description: for copies, prefabs, editors. Added to a world it is the same body, but
     /// for the last bits of its angle, forces that wait for the next step, and what joints and others do to it.
     ///

@@ -4,9 +4,10 @@ use super::events::{SensorBegin, SensorEnd};
 use super::ids::ShapeId;
 use super::state::State;
 use super::{Scratch, World};
-use crate::dynamics::Overlap;
+use crate::dynamics::{Overlap, ShapeRecord};
 use crate::stages::sensors;
 use crate::threads::Team;
+use crate::work;
 use core::mem::take;
 
 impl World {
@@ -55,15 +56,17 @@ impl World {
         }
     }
 
-    /// Ends the overlaps of a shape that is about to be removed.
-    pub(super) fn end_overlaps_of(&mut self, shape: u32) {
+    /// Ends the overlaps of shapes that are about to be removed: all in one go through the list.
+    pub(super) fn end_overlaps_of(&mut self, goes: impl Fn(&ShapeRecord, u32) -> bool) {
         let mut overlaps = take(&mut self.state.sensors.overlaps);
-        let ends = |overlap: &Overlap| overlap.sensor == shape || overlap.visitor == shape;
-        for overlap in overlaps.iter().filter(|overlap| ends(overlap)) {
-            let end = self.sensor_event(overlap);
-            self.state.events.pending_sensor_end.push(end);
-        }
-        overlaps.retain(|overlap| !ends(overlap));
+        overlaps.retain(|overlap| {
+            work::note();
+            let goes = |shape: u32| goes(&self.state.shapes.records[shape as usize], shape);
+            let ends = goes(overlap.sensor) || goes(overlap.visitor);
+            let end = ends.then(|| self.sensor_event(overlap));
+            self.state.events.pending_sensor_end.extend(end);
+            !ends
+        });
         self.state.sensors.overlaps = overlaps;
     }
 

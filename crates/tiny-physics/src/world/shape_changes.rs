@@ -5,14 +5,15 @@ use super::ids::ShapeId;
 use super::shapes::ShapeRef;
 use super::state::State;
 use crate::describe::{Filter, Material, ShapeDef};
-use crate::dynamics::NULL;
+use crate::dynamics::{NULL, ShapeRecord};
 use crate::error::Error;
 use crate::geometry::manifold::ShapeClass;
 use crate::geometry::{Shape, check_point};
 use crate::math::{Transform, Vec2};
 use crate::stages::pairs;
 
-/// A shape of the world, to change. Changes wake its body and what touches it.
+/// A shape of the world, to change. Changes wake its body and what touches it; what is the same already changes nothing, so a
+/// game may set a material in every frame.
 pub struct ShapeMut<'a> {
     world: &'a mut World,
     index: u32,
@@ -45,17 +46,16 @@ impl ShapeMut<'_> {
         ShapeRef::new(self.world, self.index)
     }
 
-    /// Changes the geometry; mass and inertia of the body follow, its contacts begin anew.
+    /// Changes the geometry; mass and inertia of the body follow, its contacts begin anew, even if it is the same.
     ///
     /// # Errors
     /// The geometry is degenerate or not finite.
     pub fn set_shape(&mut self, shape: impl Into<Shape>) -> Result<(), Error> {
         let shape = shape.into();
         shape.validate()?;
-        self.replace(|record| {
-            record.class = ShapeClass::of(&shape);
-            record.shape = shape;
-        });
+        let (class, old) = (ShapeClass::of(&shape), self.record());
+        let link = old.link.filter(|_| matches!(shape, Shape::Segment { .. }));
+        self.replace(ShapeRecord { class, shape, link, ..old });
         Ok(())
     }
 
@@ -68,7 +68,7 @@ impl ShapeMut<'_> {
         let offset = offset.into();
         check_point("offset", offset)?;
         Error::check_finite("angle", angle)?;
-        self.replace(|record| record.local = Transform::from_angle(offset, angle));
+        self.change(|record| record.local = Transform::from_angle(offset, angle));
         Ok(())
     }
 
@@ -77,9 +77,12 @@ impl ShapeMut<'_> {
     /// # Errors
     /// A number is out of range.
     pub fn set_material(&mut self, material: Material) -> Result<(), Error> {
-        let record = &self.world.state.shapes.records[self.index as usize];
+        let record = self.record();
         let def = ShapeDef { material, ..ShapeDef::new(record.shape) };
         super::descriptions::check_shape(&def)?;
+        if record.material == material {
+            return Ok(());
+        }
         let (body, density) = (record.body, record.material.density);
         self.world.state.shapes.records[self.index as usize].material = material;
         self.world.wake_index(body);
@@ -119,13 +122,15 @@ impl ShapeMut<'_> {
     pub fn set_filter(&mut self, filter: Filter) {
         let (world, index) = (&mut *self.world, self.index);
         let record = &mut world.state.shapes.records[index as usize];
-        record.filter = filter;
+        if core::mem::replace(&mut record.filter, filter) == filter {
+            return;
+        }
         let body = record.body;
         world.wake_index(body);
         let (category, mask) = filter.reach();
         world.state.broad_phase.set_filter(world.state.shapes.proxy(index), category, mask);
         world.state.sensors.mark_changed(index);
-        world.note_ground(index);
+        world.note_ground(index, true);
         world.destroy_contacts_of(body, |state, contact| {
             let filter = |shape: u32| state.shapes.records[shape as usize].filter;
             !filter(contact.shape_a).collides(&filter(contact.shape_b))
@@ -139,7 +144,7 @@ impl ShapeMut<'_> {
         } else {
             self.world.state.sensors.remove(self.index);
         }
-        self.replace(|record| record.sensor = sensor);
+        self.change(|record| record.sensor = sensor);
     }
 
     /// Makes it a one-way platform, solid from the side that `direction` (in the body's frame) points out of,
@@ -151,7 +156,7 @@ impl ShapeMut<'_> {
         if let Some(direction) = direction {
             Error::check_finite_vec("one_way", direction)?;
         }
-        self.replace(|record| record.one_way = direction);
+        self.change(|record| record.one_way = direction);
         Ok(())
     }
 
@@ -168,25 +173,41 @@ impl ShapeMut<'_> {
         self.world.state.shapes.records[self.index as usize].user_data = data;
     }
 
-    /// Changes the record in a way that lets no contact live on.
-    fn replace(&mut self, change: impl FnOnce(&mut crate::dynamics::ShapeRecord)) {
+    fn record(&self) -> ShapeRecord {
+        self.world.state.shapes.records[self.index as usize]
+    }
+
+    /// Replaces the record where that changes anything.
+    fn change(&mut self, change: impl FnOnce(&mut ShapeRecord)) {
+        let mut new = self.record();
+        change(&mut new);
+        if new != self.record() {
+            self.replace(new);
+        }
+    }
+
+    /// Replaces the record by one that lets no contact live on.
+    fn replace(&mut self, new: ShapeRecord) {
         let (world, index) = (&mut *self.world, self.index);
-        let body = world.state.shapes.records[index as usize].body;
+        let (body, told) = (new.body, world.tells(index));
         world.wake_index(body);
         world.contacts_of(index).into_iter().for_each(|index| world.destroy_contact(index));
-        change(&mut world.state.shapes.records[index as usize]);
-        let record = &mut world.state.shapes.records[index as usize];
-        if !matches!(record.shape, Shape::Segment { .. }) {
-            record.link = None;
-        }
-        world.note_ground(index);
+        world.note_ground(index, true);
+        world.state.shapes.records[index as usize] = new;
         world.state.shapes.set_touched(index, 0);
         world.state.broad_phase.destroy_proxy(world.state.shapes.proxy(index));
         world.state.shapes.records[index as usize].proxy = NULL;
-        world.update_mass(body);
-        world.create_proxies(body);
-        // The centre of mass may be another: the frames of all shapes are computed anew.
-        world.mark_shapes_changed(body);
+        if told {
+            world.update_mass(body);
+        } else {
+            world.settle_shape(index);
+        }
+        world.create_proxy(index);
+        if world.state.bodies.is_dynamic(body) {
+            // The centre of mass may be another: the frames of all shapes are computed anew.
+            world.mark_shapes_changed(body);
+        }
+        world.state.sensors.mark_changed(index);
     }
 }
 

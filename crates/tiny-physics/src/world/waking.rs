@@ -31,7 +31,7 @@ impl World {
     fn buried_sleepers(&self) -> Vec<u32> {
         let (bodies, shapes) = (&self.state.bodies, &self.state.shapes);
         let mut near = Vec::new();
-        for bounds in &shapes.changed_ground {
+        for (bounds, _) in &shapes.changed_ground {
             self.state.broad_phase.each_of(ProxyKind::Dynamic, bounds, u64::MAX, |shape| {
                 let body = shapes.records[shape as usize].body;
                 if !bodies.infos[body as usize].awake {

@@ -4,6 +4,7 @@ use super::super::NONE;
 use super::super::node_boxes::WIDTH;
 use super::{Branch, DynamicTree};
 use crate::math::Aabb;
+use crate::work;
 
 impl DynamicTree {
     /// Builds the tree anew where that is worth it: once about as much has changed as there are
@@ -22,11 +23,12 @@ impl DynamicTree {
     pub fn rebuild(&mut self) {
         let mut branches = core::mem::take(&mut self.spare.0);
         branches.reserve(self.count);
-        for id in 0..self.places.len() as u32 {
-            if let Some((node, lane)) = self.place(id) {
-                branches.push(self.branch(node, lane));
-            }
+        for (index, node) in (0..).zip(&self.nodes).filter(|(_, node)| node.level == 0) {
+            work::note();
+            let lanes = (0..WIDTH).filter(|&lane| node.child[lane] != NONE);
+            branches.extend(lanes.map(|lane| self.branch(index, lane)));
         }
+        branches.sort_unstable_by_key(|branch| branch.child);
         self.boxes.clear();
         self.nodes.clear();
         (self.root, self.free) = (NONE, NONE);

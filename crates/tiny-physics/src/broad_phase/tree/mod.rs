@@ -15,7 +15,7 @@ mod join;
 
 use super::node_boxes::{Boxes, WIDTH};
 use super::stack::Stack;
-use super::{BoxCast, NONE, clamped};
+use super::{NONE, Search, clamped};
 use crate::codec::{Data, Reader, Sink, store};
 use crate::error::Error;
 use crate::footprint::{Footprint, MemoryUse};
@@ -350,23 +350,22 @@ impl DynamicTree {
         (self.nodes[index as usize].child[lane], self.boxes[index as usize].get(lane))
     }
 
-    /// Calls `visit` with the ids whose box the cast may hit before `max_fraction`, roughly the
-    /// nearest first. `visit` gets the id and the current limit and returns the new one: the same
+    /// Calls `visit` with the ids whose box a cast may hit, or another search may find, before a limit (of a cast a
+    /// fraction), roughly the nearest first. `visit` gets the id and the current limit and returns the new one: the same
     /// to go on, the fraction of a hit to look only for nearer ones, 0 to stop.
     pub fn cast(
         &self,
-        cast: &BoxCast,
-        max_fraction: f32,
+        search: &impl Search,
+        mut limit: f32,
         mask: u64,
         mut visit: impl FnMut(u32, f32) -> f32,
     ) {
-        let mut limit = max_fraction;
-        let mut bounds = clamped(cast.bounds(limit));
+        let mut bounds = clamped(search.bounds(limit));
         let mut stack = Stack::new();
         let mut next = (self.root != NONE).then_some(self.root);
         while let Some(index) = next {
             let node = &self.nodes[index as usize];
-            let (order, count) = self.lanes_on_the_way(index, cast, &bounds, mask);
+            let (order, count) = self.lanes_on_the_way(index, search, (&bounds, limit), mask);
             if node.level > 0 {
                 // The last one pushed, the nearest, is the next one popped.
                 order[..count].iter().rev().for_each(|&lane| stack.push(node.child[lane]));
@@ -383,7 +382,7 @@ impl DynamicTree {
                 }
                 if fraction < limit {
                     limit = fraction;
-                    bounds = clamped(cast.bounds(limit));
+                    bounds = clamped(search.bounds(limit));
                 }
             }
             next = stack.pop();
@@ -608,13 +607,13 @@ impl DynamicTree {
         }
     }
 
-    /// Lanes that the cast may hit, the nearest first.
+    /// Lanes in which a search may find something, the nearest first.
     #[inline]
     fn lanes_on_the_way(
         &self,
         index: u32,
-        cast: &BoxCast,
-        bounds: &Aabb,
+        search: &impl Search,
+        (bounds, limit): (&Aabb, f32),
         mask: u64,
     ) -> ([usize; WIDTH], usize) {
         let (node, boxes) = (&self.nodes[index as usize], &self.boxes[index as usize]);
@@ -624,10 +623,10 @@ impl DynamicTree {
             let lane = bits.trailing_zeros() as usize % WIDTH;
             bits &= bits - 1;
             let aabb = boxes.get(lane);
-            if node.category[lane] & mask == 0 || cast.line_misses(&aabb) {
+            if node.category[lane] & mask == 0 {
                 continue;
             }
-            let key = aabb.center().dot(cast.translation);
+            let Some(key) = search.order(&aabb, limit) else { continue };
             let mut at = count;
             while at > 0 && key < keys[at - 1] {
                 (keys[at], order[at]) = (keys[at - 1], order[at - 1]);

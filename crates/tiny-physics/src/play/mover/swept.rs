@@ -22,15 +22,19 @@ impl CharacterMover {
 
     /// How far a machine takes it from where it met it.
     fn swept_by(&self, world: &World, frame: Frame, body: Body<'_>) -> Option<Vec2> {
-        let (start, end) = (body.interpolated_pose(0.0), body.pose());
         let here = Pose::new(self.position, Rot::IDENTITY);
+        let capsule = self.capsule(frame.up, 0.0);
+        if !body.went_through(&capsule.world_aabb(here).grown(self.skin)) {
+            return None;
+        }
+        let (start, end) = (body.interpolated_pose(0.0), body.pose());
         let center = body.local_center();
         let [from, to] = [start, end].map(|pose| pose.relative_to(here));
         let (motion, turn) = (to.apply(center) - from.apply(center), end.q.angle_from(start.q));
         // What does not turn and goes no further is in it still, and is got out of, if it is solid from everywhere.
         let slow = turn == 0.0 && motion.length() < self.radius;
         let sweep = Sweep::new(from, center, motion, turn);
-        let (capsule, rest) = (self.capsule(frame.up, 0.0), Sweep::fixed(Transform::IDENTITY));
+        let rest = Sweep::fixed(Transform::IDENTITY);
         let shapes = body.shapes().filter_map(|shape| world.shape(shape));
         let solid = shapes.filter(|shape| {
             let meets = !shape.is_sensor() && self.filter.collides(&shape.filter());

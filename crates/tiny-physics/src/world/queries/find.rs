@@ -1,21 +1,15 @@
 //! The searches behind the queries: the broad phase offers shapes, the filter and the geometry decide.
 
 use super::{ClosestPoint, QueryFilter, RayCastHit, ShapeCastHit, ShapeDistance};
-use crate::broad_phase::{BoxCast, clamped};
+use crate::broad_phase::{BoxCast, LIMIT, Nearest, clamped};
 use crate::dynamics::ShapeRecord;
 use crate::geometry::{
     Ray, RayHit, Shape, Sweep, ToiState, distance, shape_cast, time_of_impact_to,
 };
 use crate::math::{Aabb, DVec2, Pose, Transform, Vec2};
+use crate::work;
 use crate::world::World;
 use core::ops::ControlFlow;
-
-/// First radius of the search for closest points, metres; multiplied by the length unit.
-const FIRST_RADIUS: f32 = 1.0;
-/// Factor on the radius when nothing was near enough.
-const RADIUS_GROWTH: f32 = 4.0;
-/// Everything is nearer than this, metres.
-const LAST_RADIUS: f32 = 1.0e18;
 
 /// Shapes this close to each other touch in a shape cast, metres.
 const TOUCH: f32 = 2.0e-4;
@@ -236,10 +230,11 @@ impl Finder<'_> {
     ) {
         self.world.state.broad_phase.query(bounds, self.filter.tree_mask(), |index| {
             let (record, place) = self.place(index);
-            if self.sees(index) && passes(record, place) {
-                return visit(index);
+            if !self.sees(index) {
+                return ControlFlow::Continue(());
             }
-            ControlFlow::Continue(())
+            work::note();
+            if passes(record, place) { visit(index) } else { ControlFlow::Continue(()) }
         });
     }
 
@@ -311,48 +306,32 @@ impl Finder<'_> {
         }
     }
 
-    /// Looks in a small box first, then in larger ones: the nearest is usually near.
     pub(super) fn closest(&self, point: DVec2, max_distance: f32) -> Option<ClosestPoint> {
         if !point.is_finite() || max_distance.is_nan() || max_distance < 0.0 {
             return None;
         }
-        let last = if max_distance < LAST_RADIUS { max_distance } else { LAST_RADIUS };
-        let unit = self.world.settings.length_unit;
-        let mut radius = FIRST_RADIUS * if unit > 0.0 { unit } else { 1.0 };
-        loop {
-            let reach = if radius < last { radius } else { last };
-            let best = self.closest_within(point, reach);
-            if best.key <= reach {
-                return best.hit;
-            }
-            if radius >= last || !radius.is_finite() {
-                return None;
-            }
-            radius *= RADIUS_GROWTH;
-        }
-    }
-
-    fn closest_within(&self, point: DVec2, reach: f32) -> Best<ClosestPoint> {
-        let side = DVec2::new(f64::from(reach), f64::from(reach));
-        let bounds = Aabb::rounded_out(point - side, point + side);
+        let most = if max_distance < LIMIT { max_distance } else { LIMIT };
+        let (limit, mask) = (narrower(LIMIT, most), self.filter.tree_mask());
         let mut best = Best::new();
-        self.world.state.broad_phase.query(&bounds, self.filter.tree_mask(), |index| {
-            if self.sees(index) {
-                let (record, place) = self.place(index);
-                let local = place.unapply(point);
-                let closest = record.shape.closest_point(local);
-                let distance = closest.distance(local);
-                let hit = ClosestPoint {
-                    shape: self.world.shape_id(index),
-                    body: self.world.body_id(record.body),
-                    point: if distance == 0.0 { point } else { place.apply(closest) },
-                    distance,
-                };
-                best.offer(distance, index, hit);
+        self.world.state.broad_phase.cast(&Nearest(point), limit, mask, |index, limit| {
+            if !self.sees(index) {
+                return limit;
             }
-            ControlFlow::Continue(())
+            work::note();
+            let (record, place) = self.place(index);
+            let local = place.unapply(point);
+            let closest = record.shape.closest_point(local);
+            let distance = closest.distance(local);
+            let hit = ClosestPoint {
+                shape: self.world.shape_id(index),
+                body: self.world.body_id(record.body),
+                point: if distance == 0.0 { point } else { place.apply(closest) },
+                distance,
+            };
+            best.offer(distance, index, hit);
+            narrower(limit, distance)
         });
-        best
+        best.hit.filter(|hit| hit.distance <= most)
     }
 }
 
