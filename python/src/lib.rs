@@ -11,6 +11,7 @@ mod convert;
 mod draw;
 mod handles;
 mod joint;
+mod play;
 mod query;
 mod shape;
 mod tasks;
