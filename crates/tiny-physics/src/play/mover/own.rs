@@ -2,7 +2,7 @@
 
 use super::{CharacterMover, Frame, MoverHit};
 use crate::geometry::distance;
-use crate::{DVec2, Pose, RigidBody, Rot, Shape, ShapeDef, ShapeRef, Transform, Vec2, World};
+use crate::{DVec2, Pose, RigidBody, Rot, ShapeDef, ShapeRef, Transform, Vec2, World};
 
 impl CharacterMover {
     /// A body for it to take along: kinematic, with a sensor of the character's form that sees everything, other
@@ -34,8 +34,8 @@ impl CharacterMover {
         RigidBody::kinematic().position(self.position).shape(form.sensor_of_sensors())
     }
 
-    /// Puts its body where it is, upright. The shape of it that is nearest to its form in width and height, if that is a
-    /// sensor, gets that form: of all that is put on a body of [`CharacterMover::describe_body`], its own.
+    /// Puts its body where it is, upright. The shape of it that is nearest to its form in size (width and height together), if
+    /// that is a sensor, gets that form: of all that is put on a body of [`CharacterMover::describe_body`], its own.
     /// [`CharacterMover::update`] does so at its end; call it after [`CharacterMover::move_by`] where there is no update.
     pub fn lead_body(&self, world: &mut World) {
         let (Frame { up, .. }, capsule) = (Frame::of(world), self.capsule(Vec2::Y, 0.0));
@@ -45,8 +45,8 @@ impl CharacterMover {
             body.set_pose(pose);
         }
         let body = body.as_ref();
-        let size = |shape: &Shape| shape.aabb(Transform::IDENTITY).half_extents();
-        let wrong = |form: &ShapeRef<'_>| (size(form.shape()) - size(&capsule)).length_sq();
+        let size = |form: &ShapeRef<'_>| form.shape().aabb(Transform::IDENTITY).perimeter();
+        let wrong = |form: &_| (size(form) - 2.0 * (self.height + 2.0 * self.radius)).abs();
         let forms = body.shapes().filter_map(|form| body.world().shape(form));
         let own = forms.min_by(|a, b| wrong(a).total_cmp(&wrong(b))).map(|own| own.id());
         let own = own.and_then(|own| world.shape_mut(own)).filter(|own| own.is_sensor());
