@@ -3,7 +3,7 @@
 use crate::convert::{Pair, StaleHandleError, error, heard, place, read, tuple, write};
 use crate::handles::{Body, Joint, Shape, World};
 use pyo3::prelude::*;
-use tiny_physics::{self as engine, BodyKind, DVec2, Locks, ShapeDef, Vec2};
+use tiny_physics::{self as engine, BodyKind, DVec2, Locks, Pose, Rot, ShapeDef, Vec2};
 
 impl Body {
     fn stale(&self) -> PyErr {
@@ -280,6 +280,14 @@ impl Body {
     /// An angular impulse, newton metre seconds.
     fn apply_angular_impulse(&self, py: Python<'_>, impulse: f32) -> PyResult<()> {
         self.set(py, |mut body| body.apply_angular_impulse(impulse))
+    }
+
+    /// Sets both velocities so that a step of `dt` seconds takes it to a place (its origin; world, metres) and an angle
+    /// (radians): for kinematic bodies, which push what is in their way. Call it before each such step.
+    #[pyo3(signature = (position, angle=0.0, dt=1.0 / 60.0))]
+    fn set_target(&self, py: Python<'_>, position: Pair, angle: f32, dt: f32) -> PyResult<()> {
+        let target = Pose::new(DVec2::from(position), Rot::from_angle(angle));
+        self.set(py, |mut body| body.set_target(target, dt))
     }
 
     /// Adds a shape from its description, as `tiny_physics.circle(0.5)` gives one.

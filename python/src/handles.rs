@@ -53,3 +53,8 @@ handle! {
     /// A shape of a world: a handle.
     Shape, engine::ShapeId
 }
+
+handle! {
+    /// A tile map of a world: a handle. `tiles[x, y]` is a cell.
+    Tiles, engine::TileGridId
+}

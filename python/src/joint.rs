@@ -58,22 +58,37 @@ impl Joint {
         self.get(py, |joint| (place(joint.anchors().0), place(joint.anchors().1)))
     }
 
-    /// Angle of body B against A, -pi to pi, radians.
+    /// Angle of body B against A as the joint counts it, radians anticlockwise, -pi to pi: that of B and `angle_b`, less
+    /// that of A and `angle_a`. Limits and targets of hinges are such angles.
     #[getter]
     fn angle(&self, py: Python<'_>) -> PyResult<f32> {
-        let (a, b) = self.bodies(py)?;
-        let world = self.world.try_borrow(py)?;
-        let turn = |body: Body| world.inner.body(body.id).map(|body| body.rotation());
-        Ok(turn(b).zip(turn(a)).map_or(0.0, |(b, a)| b.angle_from(a)))
+        self.get(py, |joint| joint.angle())
     }
 
-    /// Angular velocity of body B against A, radians a second.
+    /// How fast `angle` grows, radians a second: what the motor of a hinge or wheel drives.
+    #[getter]
+    fn angular_speed(&self, py: Python<'_>) -> PyResult<f32> {
+        self.get(py, |joint| joint.angular_speed())
+    }
+
+    /// Of a slider or wheel, how far the anchor on B is from that on A along the joint's direction, metres; of others the
+    /// distance of the anchors.
+    #[getter]
+    fn translation(&self, py: Python<'_>) -> PyResult<f32> {
+        self.get(py, |joint| joint.translation())
+    }
+
+    /// How fast `translation` grows, metres a second: what the motor of a slider or rod drives.
     #[getter]
     fn speed(&self, py: Python<'_>) -> PyResult<f32> {
-        let (a, b) = self.bodies(py)?;
-        let world = self.world.try_borrow(py)?;
-        let spin = |body: Body| world.inner.body(body.id).map_or(0.0, |b| b.angular_velocity());
-        Ok(spin(b) - spin(a))
+        self.get(py, |joint| joint.speed())
+    }
+
+    /// Force (newtons) or torque (newton metres) that the motor exerted on B in the last step, positive the way that
+    /// positive speeds go; 0 without a motor and while it sleeps.
+    #[getter]
+    fn motor_load(&self, py: Python<'_>) -> PyResult<f32> {
+        self.get(py, |joint| joint.motor_load())
     }
 
     /// Force on body B in the last step: (x, y), newtons.

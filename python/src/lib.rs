@@ -7,13 +7,16 @@ use pyo3::prelude::*;
 
 mod batch;
 mod body;
+mod character;
 mod convert;
 mod draw;
 mod handles;
 mod joint;
+mod play;
 mod query;
 mod shape;
 mod tasks;
+mod tiles;
 mod world;
 
 #[pymodule]
@@ -23,6 +26,8 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<handles::Body>()?;
     module.add_class::<handles::Shape>()?;
     module.add_class::<handles::Joint>()?;
+    module.add_class::<handles::Tiles>()?;
+    module.add_class::<character::Character>()?;
     module.add_class::<batch::WorldBatch>()?;
     module.add_class::<tasks::TaskBatch>()?;
     module.add_function(wrap_pyfunction!(draw::gif, module)?)?;

@@ -14,7 +14,7 @@ use tiny_physics::{self as engine, Aabb, DVec2, Pose, QueryFilter, RayCast, Rot,
 /// What a query of a world sees.
 ///
 /// Raises ValueError where the body that it does not see is of another world.
-fn filter(
+pub fn filter(
     slf: &Bound<'_, World>,
     mask: u64,
     exclude: Option<&Body>,

@@ -201,7 +201,11 @@ impl World {
     }
 
     /// What happened in the last step: lists "contact_begin", "contact_end", "sensor_begin", "sensor_end" of
-    /// pairs of shapes, "hits" of (shape, shape, point, normal, speed), "joint_breaks", "woke", "fell_asleep".
+    /// pairs of shapes, "hits", "joint_breaks" of (joint, force, torque), "woke", "fell_asleep" of bodies.
+    ///
+    /// A hit is (shape, shape, point, normal, speed, impulse, mass, mass): metres a second along the normal, newton seconds
+    /// that the step pushed the second away from the first (loudness and damage go by it), and the kilograms of their bodies, 0
+    /// where they are not dynamic.
     fn events<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyDict>> {
         let (world, found) = (slf.try_borrow()?, PyDict::new(slf.py()));
         let events = world.inner.events();
@@ -216,7 +220,9 @@ impl World {
         found.set_item("sensor_end", end.collect::<Vec<_>>())?;
         let hits = events.hits().iter().map(|hit| {
             let (a, b) = pair(hit.shape_a, hit.shape_b);
-            (a, b, place(hit.position), tuple(hit.normal), hit.speed)
+            let (at, normal, masses) =
+                (place(hit.position), tuple(hit.normal), (hit.mass_a, hit.mass_b));
+            (a, b, at, normal, hit.speed, hit.impulse, masses.0, masses.1)
         });
         found.set_item("hits", hits.collect::<Vec<_>>())?;
         let joint = |id| Joint { world: slf.clone().unbind(), id };

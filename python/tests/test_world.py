@@ -114,7 +114,8 @@ def test_joints_hold_limit_and_drive():
     arm = world.add_body(tp.box(1, 0.1), position=(1, 0))
     joint = world.add_joint(base, arm, tp.revolute((0, 0), (-1, 0), motor=(2.0, 500.0), limits=(-1, 1)))
     world.step(1 / 60, steps=20)
-    assert joint.speed == pytest.approx(2.0, rel=0.02)
+    assert joint.angular_speed == pytest.approx(2.0, rel=0.02)
+    assert joint.translation == pytest.approx(0.0, abs=1e-3)
     world.step(1 / 60, steps=200)
     assert joint.angle == pytest.approx(1.0, abs=0.02)
     joint.set_motor(-2.0, 500.0)
@@ -127,6 +128,71 @@ def test_joints_hold_limit_and_drive():
     rod.remove()
     with pytest.raises(tp.StaleHandleError):
         rod.force
+
+
+def test_joints_are_read_as_they_count():
+    world = tp.World(gravity=(0, 0))
+    base = world.add_body(kind="static", angle=0.3)
+    cart = world.add_body(tp.box(1, 0.1), position=(1, 0), angle=0.3)
+    slider = world.add_joint(base, cart, tp.prismatic((1, 0), motor=(2.0, 500.0)))
+    world.step(1 / 60, steps=30)
+    (bx, by), (ax, ay) = cart.position, base.position
+    along = (bx - ax) * np.cos(0.3) + (by - ay) * np.sin(0.3)
+    assert slider.translation == pytest.approx(along, abs=1e-4) and along > 1.9
+    assert slider.speed == pytest.approx(2.0, rel=0.02)
+    assert slider.angular_speed == pytest.approx(0.0, abs=1e-3)
+    cart.apply_force((100 * np.cos(0.3), 100 * np.sin(0.3)))
+    world.step(1 / 60)
+    assert slider.motor_load == pytest.approx(-100.0, rel=0.05)  # It holds back what is pushed ahead.
+    # Placed in the world, its angle counts from how the bodies are turned now.
+    arm = world.add_body(tp.box(1, 0.1), position=(0, 3), angle=1.1)
+    hinge = world.add_joint(base, arm, {"kind": {"revolute": {}}, "anchors_at": [[0, 3], [0, 3]]})
+    assert hinge.angle == pytest.approx(0.0, abs=1e-6)
+    arm.angular_velocity = -0.5
+    world.step(1 / 60, steps=12)
+    assert hinge.angle == pytest.approx(-0.1, rel=0.02)
+    assert hinge.angular_speed == pytest.approx(-0.5, rel=0.02)
+
+
+def test_hits_tell_their_impulse_and_masses():
+    world = tp.World(gravity=(0, -10))
+    ground = world.add_body(tp.box(20, 1), kind="static", position=(0, -1))
+    ball = world.add_body(tp.circle(0.5, hit_events=True), position=(0, 4), mass=3.0)
+    hits = []
+    while not hits:
+        world.step()
+        hits = world.events()["hits"]
+    ((a, b, point, normal, speed, impulse, mass_a, mass_b),) = hits
+    assert {(a.body, mass_a), (b.body, mass_b)} == {(ground, 0.0), (ball, 3.0)}
+    assert point == pytest.approx((0, 0), abs=0.1) and abs(normal[1]) == pytest.approx(1)
+    assert speed == pytest.approx(8.4, abs=0.3) and impulse == pytest.approx(3 * speed, rel=0.05)
+
+
+def test_a_platform_goes_where_it_is_led():
+    world, ground, ball = falling()
+    lift = world.add_body(tp.box(2, 0.2), kind="kinematic", position=(8, 2))
+    rider = world.add_body(tp.box(0.3, 0.3), position=(8, 2.5))
+    for i in range(60):
+        lift.set_target((8, 2 + (i + 1) / 60), 0.0, 1 / 60)
+        world.step(1 / 60)
+    assert lift.position == pytest.approx((8, 3), abs=1e-4)
+    assert rider.position == pytest.approx((8, 3.5), abs=0.01)
+    lift.set_target((8, 3), angle=0.1)
+    assert lift.angular_velocity == pytest.approx(6.0, rel=1e-4)
+    with pytest.raises(ValueError):
+        lift.set_target((8, 3), dt=0.0)
+
+
+def test_an_explosion_pushes_away_what_it_sees():
+    world = tp.World(gravity=(0, 0))
+    right = world.add_body(tp.circle(0.5, category=2), position=(2, 0), mass=2.0)
+    left = world.add_body(tp.circle(0.5, category=4), position=(-2, 0), mass=2.0)
+    world.explode((0, 0), 5.0, falloff=1.0, impulse_per_metre=10.0, mask=2)
+    assert right.velocity == pytest.approx((5, 0)) and left.velocity == (0, 0)
+    world.explode((0, 0), 5.0, impulse_per_metre=10.0, exclude=right)
+    assert right.velocity == pytest.approx((5, 0)) and left.velocity == pytest.approx((-5, 0))
+    with pytest.raises(ValueError):
+        world.explode((0, 0), -1.0)
 
 
 def test_events_tell_what_happened():

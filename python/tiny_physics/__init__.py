@@ -13,7 +13,18 @@ removed raises StaleHandleError. `WorldBatch` steps thousands of worlds at once;
 importing this package registers its environments, ``tiny_physics/LunarLander-v0`` and others.
 """
 
-from ._native import Body, Joint, Shape, StaleHandleError, TaskBatch, World, WorldBatch, gif
+from ._native import (
+    Body,
+    Character,
+    Joint,
+    Shape,
+    StaleHandleError,
+    TaskBatch,
+    Tiles,
+    World,
+    WorldBatch,
+    gif,
+)
 from .describe import (
     box,
     capsule,
@@ -34,11 +45,13 @@ __version__ = "0.1.0"
 
 __all__ = [
     "Body",
+    "Character",
     "Film",
     "Joint",
     "Shape",
     "StaleHandleError",
     "TaskBatch",
+    "Tiles",
     "World",
     "WorldBatch",
     "box",

@@ -317,7 +317,7 @@ class b2RevoluteJoint:
 
     @property
     def speed(self) -> float:
-        return self._inner.speed
+        return self._inner.angular_speed
 
     @property
     def motorEnabled(self) -> bool:

@@ -49,7 +49,7 @@ export type Shape =
   | { capsule: { a: Vec; b: Vec; radius: number } }
   /** No thickness and no mass, for static bodies. */
   | { segment: { a: Vec; b: Vec } }
-  /** 3 to 8 vertices, convex, anticlockwise; `radius` rounds the corners outwards. */
+  /** 3 to 8 vertices, convex, anticlockwise, else their hull; `radius` rounds the corners outwards. */
   | { polygon: { vertices: readonly Vec[]; radius?: number } };
 
 export interface Material {
@@ -175,7 +175,7 @@ export interface JointDef {
   anchor_b?: Vec;
   /** Anchors on A and B in the world, metres, instead of those in the bodies' frames; read back as those. */
   anchors_at?: readonly [Vec, Vec] | null;
-  /** Angle of the joint's frame in that of body A, radians. */
+  /** Direction of the joint's frame in that of body A, radians: the line of `prismatic` and `wheel`. `angle_b` is it in B's. */
   angle_a?: number;
   angle_b?: number;
   /** Do the two bodies collide? */
@@ -359,8 +359,10 @@ export interface Bodies {
 
 /**
  * Events of the last step, as rows of numbers: `contactBegin`, `contactEnd` [shape, shape]; `hits` [shape, shape, x, y,
- * normal x, normal y, speed]; `sensorBegin`, `sensorEnd` [sensor, visitor]; `jointBreaks` [joint, force x, force y,
- * torque, user data]; `woke`, `fellAsleep` [body].
+ * normal x, normal y, speed, impulse, mass, mass], with the newton seconds by which loudness and damage go, and the masses of
+ * the two bodies (kilograms, 0 where they are not dynamic); `sensorBegin`, `sensorEnd` [sensor, visitor]; `jointBreaks`
+ * [joint, force x, force y, torque, user data]; `woke`, `fellAsleep` [body]. `world.shape(id)` tells the body of a shape that is
+ * still there, and its user data.
  */
 export type EventKind =
   | "contactBegin"
@@ -597,6 +599,7 @@ export declare class Body {
 
 /** Turns the uneven times between pictures into even steps. */
 export declare class FixedStep {
+  /** Steps of 1/60 s and at most 8 in a picture, where nothing else is said; time beyond is dropped. */
   constructor(dt?: number, maxSteps?: number);
   dt: number;
   maxSteps: number;

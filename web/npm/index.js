@@ -674,7 +674,7 @@ Object.entries(COMMANDS).forEach(([name, count], which) => {
 export class FixedStep {
   #left = 0;
 
-  constructor(dt = 1 / 60, maxSteps = 4) {
+  constructor(dt = 1 / 60, maxSteps = 8) {
     this.dt = dt;
     this.maxSteps = maxSteps;
   }

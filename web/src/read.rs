@@ -142,8 +142,8 @@ fn motion(world: &World) -> [f64; 4] {
 }
 
 /// Events of the last step: 0 contact begin, 1 contact end, 2 hits, 3 sensor begin, 4 sensor end, 5 joint breaks, 6 woke,
-/// 7 fell asleep. A row is: the two shapes (0, 1, 3, 4); the shapes, point, normal, speed (2); the joint, force, torque,
-/// user data (5); the body (6, 7).
+/// 7 fell asleep. A row is: the two shapes (0, 1, 3, 4); the shapes, point, normal, speed, impulse, masses (2); the joint, force,
+/// torque, user data (5); the body (6, 7).
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_events(session: u32, which: u32) -> bool {
     with(session, |session, shelf| {
@@ -159,7 +159,9 @@ pub extern "C" fn tp_events(session: u32, which: u32) -> bool {
             2 => shelf.count(events.hits().iter().flat_map(|hit| {
                 let (a, b) = (hit.shape_a.number(), hit.shape_b.number());
                 let (p, n) = (hit.position, hit.normal);
-                [a, b, p.x, p.y, n.x.into(), n.y.into(), hit.speed.into()]
+                let strength = [hit.speed, hit.impulse, hit.mass_a, hit.mass_b].map(f64::from);
+                let [speed, impulse, mass_a, mass_b] = strength;
+                [a, b, p.x, p.y, n.x.into(), n.y.into(), speed, impulse, mass_a, mass_b]
             })),
             5 => shelf.count(events.joint_breaks().iter().flat_map(|e| {
                 let load = [e.force.x, e.force.y, e.torque].map(f64::from);

@@ -39,6 +39,24 @@ test("a ball falls and rests", () => {
   assert.throws(() => world.step(), /has been freed/);
 });
 
+test("hits tell their impulse and what the two weigh", () => {
+  const world = new World({ gravity: [0, -10] });
+  world.addBody(floor);
+  const weight = world.addBody({ ...ball(0, 4), mass: 3 });
+  const [first] = world.body(weight).shapes;
+  world.changeShape(first, { set_events: [false, true] });
+  let hit = [];
+  while (!hit.length) {
+    world.step(1 / 60);
+    hit = [...world.events("hits")];
+  }
+  assert.equal(hit.length, 10);
+  const [, , , , , normal, speed, impulse] = hit;
+  assert.equal(Math.abs(Math.round(normal)), 1);
+  assert(Math.abs(impulse - 3 * speed) < 3, `${impulse} of ${speed}`);
+  assert.deepEqual(hit.slice(8).sort(), [0, 3]);
+});
+
 test("rows are views of the module's memory", () => {
   const { world, balls } = pile();
   run(world, 30);
@@ -320,6 +338,7 @@ test("steps are even where pictures are not", () => {
   const clock = new FixedStep(0.01, 5);
   assert.deepEqual([clock.advance(0.025), clock.advance(0.006), clock.advance(1)], [2, 1, 5]);
   assert.equal(clock.advance(NaN), 0);
+  assert.equal(new FixedStep().advance(1), 8);
 });
 
 test("worlds that are freed give their memory back", () => {

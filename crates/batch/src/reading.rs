@@ -46,7 +46,8 @@ pub enum Reading {
     Awake(BodyId),
     /// Bodies that it touches, contact by contact.
     Touching(BodyId),
-    /// Angle of a joint's body B against A, radians, -pi to pi.
+    /// Angle of a joint's body B against A as the joint counts it ([`JointRef::angle`](tiny_physics::JointRef::angle)),
+    /// radians, -pi to pi.
     JointAngle(JointId),
     /// Angular velocity of a joint's body B against A, radians a second.
     JointSpeed(JointId),
@@ -81,11 +82,8 @@ fn stale(handle: impl core::fmt::Debug) -> Error {
     Error::StaleHandle { handle: format!("{handle:?}") }
 }
 
-/// Angle (radians) and angular velocity (radians a second) of a joint's body B against A.
+/// Angle (radians) and angular speed (radians a second) of a joint's body B against A, as the joint counts them.
 pub(crate) fn joint_motion(world: &World, joint: JointId) -> Result<(f32, f32), Error> {
-    let (a, b) = world.joint(joint).ok_or_else(|| stale(joint))?.bodies();
-    let a = world.body(a).ok_or_else(|| stale(a))?;
-    let b = world.body(b).ok_or_else(|| stale(b))?;
-    let angle = b.rotation().angle_from(a.rotation());
-    Ok((angle, b.angular_velocity() - a.angular_velocity()))
+    let joint = world.joint(joint).ok_or_else(|| stale(joint))?;
+    Ok((joint.angle(), joint.angular_speed()))
 }

@@ -48,6 +48,20 @@ fn play(batch: &mut WorldBatch, steps: usize, random: &mut Random) -> Vec<f32> {
     seen
 }
 
+/// As the joint itself does: from how its bodies were turned when they were joined.
+#[test]
+fn joints_are_read_as_they_count() {
+    let mut world = World::new(Vec2::ZERO);
+    let base = world.add_body(RigidBody::fixed().angle(0.3)).unwrap();
+    let arm = RigidBody::dynamic().angle(1.1).shape(Shape::rect(1.0, 0.1).unwrap());
+    let arm = world.add_body(arm.angular_velocity(-0.5)).unwrap();
+    let hinge = world.add_joint(base, arm, JointDef::revolute().anchor_at((0.0, 0.0))).unwrap();
+    let mut batch = WorldBatch::new(&[world], 1, 1).unwrap();
+    let mut out = [1.0; 2];
+    batch.read(&[Reading::JointAngle(hinge), Reading::JointSpeed(hinge)], &mut out).unwrap();
+    assert!(out[0].abs() < 1e-6 && out[1] == -0.5, "{out:?}");
+}
+
 #[test]
 fn threads_change_nothing() {
     let runs = [1, 2, 5].map(|threads| {

@@ -134,7 +134,7 @@ impl Game {
         u128::from(self.world.state_hash()) << 64 | u128::from(rest)
     }
 
-    /// Saves into a frame that may hold an older one.
+    /// A copy of all of it: `ggrs` takes a frame whole, so an older one's memory cannot be used again.
     pub fn save(&self) -> Frame {
         self.clone()
     }

@@ -70,6 +70,10 @@ pair_message! {
         speed: f32,
         /// Newton seconds.
         impulse: f32,
+        /// Mass of body A, kilograms; 0 where it is not dynamic.
+        mass_a: f32,
+        /// Mass of body B.
+        mass_b: f32,
     }
 }
 

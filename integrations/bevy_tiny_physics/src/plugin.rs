@@ -25,7 +25,7 @@ pub struct PhysicsPlugin {
 impl Default for PhysicsPlugin {
     fn default() -> Self {
         Self {
-            gravity: Vec2::new(0.0, -9.81),
+            gravity: Vec2::new(0.0, -9.8),
             settings: Settings::default(),
             schedule: FixedUpdate.intern(),
             dt: None,
@@ -36,7 +36,7 @@ impl Default for PhysicsPlugin {
 }
 
 impl PhysicsPlugin {
-    /// Sets gravity, metres a second squared; (0, -9.81) without this.
+    /// Sets gravity, metres a second squared; (0, -9.8) without this.
     pub fn gravity(mut self, gravity: Vec2) -> Self {
         self.gravity = gravity;
         self

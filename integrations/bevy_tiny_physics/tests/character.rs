@@ -39,6 +39,26 @@ fn walks_jumps_picks_up_and_tells_its_ground() {
 }
 
 #[test]
+fn is_moved_by_hand_along_what_is_in_its_way() {
+    let mut app = app();
+    ground(&mut app);
+    app.world_mut().spawn((Collider::rect(0.5, 2.0), Transform::from_xyz(4.0, 2.0, 0.0)));
+    let hero =
+        app.world_mut().spawn((Character::new(1.8, 0.3), Transform::from_xyz(0.0, 9.0, 0.0))).id();
+    steps(&mut app, 30);
+    assert!(app.world().get::<CharacterState>(hero).unwrap().velocity.y < -4.0);
+    let mut physics = app.world_mut().resource_mut::<PhysicsWorld>();
+    let (mover, world) = physics.character_in_world(hero).unwrap();
+    let down = mover.move_by(world, (0.0, -20.0));
+    let along = mover.move_by(world, (9.0, 0.0));
+    assert!(down.y < -5.0 && (along.x - 3.2).abs() < 0.05, "{down:?} {along:?}");
+    steps(&mut app, 1);
+    assert!((place(&app, hero) - bevy_math::Vec2::new(3.2, 0.9)).length() < 0.05);
+    let state = *app.world().get::<CharacterState>(hero).unwrap();
+    assert!(state.grounded && state.velocity.y == 0.0);
+}
+
+#[test]
 fn ducks_only_where_there_is_room_to_get_up() {
     let mut app = app();
     ground(&mut app);

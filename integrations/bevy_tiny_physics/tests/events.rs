@@ -28,6 +28,8 @@ fn collisions_and_hits_name_collider_and_body() {
     let mass = physics(&app).body(body).unwrap().mass();
     assert!((hit.impulse - mass * hit.speed).abs() < 0.2 * hit.impulse, "{} Ns", hit.impulse);
     assert!(hit.point.y.abs() < 0.2);
+    assert!([(hit.body_a, hit.mass_a), (hit.body_b, hit.mass_b)].contains(&(body, mass)));
+    assert!([(hit.body_a, hit.mass_a), (hit.body_b, hit.mass_b)].contains(&(ground, 0.0)));
     app.world_mut().despawn(body);
     steps(&mut app, 1);
     let ended = messages::<CollisionEnded>(&app);

@@ -36,7 +36,8 @@ impl<'a> Body<'a> {
         self.velocity() + arm.perp() * self.angular_velocity()
     }
 
-    /// Its contacts that touch (or are about to) as of the last step, the newest first; none while it sleeps.
+    /// Its contacts that touch (or are about to) as of the last step, the newest first. None while it
+    /// sleeps; of a floor, none with what sleeps on it.
     pub fn contacts(&self) -> impl Iterator<Item = ContactView> + use<'a> {
         let world = self.world;
         world.state.contacts_of(self.index).filter_map(|(i, _)| world.contact_view(i))

@@ -83,12 +83,10 @@ impl<'a> JointRef<'a> {
                 let direction = Rot::from_angle(self.record.def.angle_a).x_axis();
                 (frame.rotate(direction), b.relative_to(a))
             }
-            JointKind::Mouse { target, .. } => {
-                let gap = target.relative_to(b);
-                (gap.direction_and_length().0, gap)
-            }
-            _ => {
-                let gap = b.relative_to(a);
+            kind => {
+                let (to, from) =
+                    if let JointKind::Mouse { target, .. } = kind { (target, b) } else { (b, a) };
+                let gap = to.relative_to(from);
                 (gap.direction_and_length().0, gap)
             }
         }

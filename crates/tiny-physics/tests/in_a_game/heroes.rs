@@ -162,6 +162,47 @@ fn a_hero_moves_by_rules_of_his_own() {
     assert_eq!(hero.move_by(&world, (f32::NAN, 0.0)), Vec2::ZERO);
 }
 
+/// A ladder that he caught in his fall, or a ground that he was put on, takes all of the fall.
+#[test]
+fn a_hero_who_is_moved_by_hand_falls_no_more() {
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let mut hero = hero(&mut world, (0.0, 20.0));
+    go(&mut world, &mut hero, MoverInput::default(), 60);
+    assert!(hero.velocity.y < -9.0);
+    hero.move_by(&world, (0.0, 0.05));
+    assert_eq!((hero.velocity, hero.ground().is_none()), (Vec2::ZERO, true));
+    // He lets go of the ladder: his fall begins anew.
+    let height = hero.position.y;
+    go(&mut world, &mut hero, MoverInput::default(), 12);
+    assert!((height - hero.position.y - 0.2).abs() < 0.02, "fell {}", height - hero.position.y);
+    // What he was thrown with sideways does not go on where he was taken off it, either.
+    hero.launch((5.0, 0.0));
+    go(&mut world, &mut hero, MoverInput::default(), 2);
+    hero.move_by(&world, (0.0, -30.0));
+    assert!(hero.ground().is_some() && hero.velocity == Vec2::ZERO);
+    let x = hero.position.x;
+    go(&mut world, &mut hero, MoverInput { jump: 3.0, ..MoverInput::default() }, 10);
+    assert!(hero.ground().is_none() && hero.position.x == x);
+}
+
+/// Whatever else is put on the body that he leads keeps its form.
+#[test]
+fn a_hero_takes_no_other_sensor_of_his_body_for_his_own() {
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let mut hero = hero(&mut world, (0.0, 0.91));
+    let body = hero.body.unwrap();
+    let reach = Shape::circle(3.0).unwrap();
+    let view = world.add_shape(body, ShapeDef::new(reach).sensor()).unwrap();
+    let own = world.body(body).unwrap().shapes().find(|id| *id != view).unwrap();
+    assert!(hero.resize(&world, 1.0, 0.3));
+    go(&mut world, &mut hero, MoverInput::default(), 5);
+    assert_eq!(*world.shape(view).unwrap().shape(), reach);
+    let Shape::Capsule { a, b, .. } = *world.shape(own).unwrap().shape() else { panic!() };
+    assert!((b.y - a.y - 0.4).abs() < 1e-5, "his own ducks");
+}
+
 #[test]
 fn a_hero_ducks_and_gets_up_where_there_is_room() {
     let mut world = World::new((0.0, -10.0));

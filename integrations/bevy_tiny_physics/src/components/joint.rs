@@ -21,7 +21,8 @@ pub struct Joint {
     pub a: Entity,
     /// Body B.
     pub b: Entity,
-    /// What it does; anchors in the frames of the bodies.
+    /// What it does. Anchors are in the frames of the bodies, or points of the world (`anchor_at`, `anchors_at`) where the bodies are when
+    /// they are joined; those stay on the bodies as they move, whatever else is changed. Other points join them anew.
     pub def: JointDef,
 }
 

@@ -6,7 +6,7 @@ use crate::messages::JointBroke;
 use crate::order;
 use crate::world::{JointRecord, PhysicsWorld};
 use bevy_ecs::prelude::*;
-use tiny_physics::{BodyId, Error};
+use tiny_physics::{BodyId, Error, JointDef};
 
 /// Adds joints that are new or whose bodies have come, and changes others to what they say.
 pub(crate) fn read(
@@ -72,11 +72,30 @@ fn change(physics: &mut PhysicsWorld, entity: Entity, joint: &Joint) -> Result<(
     let PhysicsWorld { world, maps, .. } = physics;
     match maps.joints.get_mut(&entity) {
         Some(record) if record.def != joint.def => {
-            world.set_joint(record.id, joint.def)?;
+            let now = world.joint(record.id).map(|now| *now.def());
+            world.set_joint(record.id, kept_anchors(&joint.def, &record.def, now))?;
             record.def = joint.def;
             Ok(())
         }
         _ => Ok(()),
+    }
+}
+
+/// A new description with the anchors and angles that the joint has, where it names the same points of the world as before: those
+/// are where the bodies were joined, not where they are by now.
+fn kept_anchors(said: &JointDef, before: &JointDef, now: Option<JointDef>) -> JointDef {
+    match now {
+        Some(now) if said.anchors_at.is_some() && said.anchors_at == before.anchors_at => {
+            JointDef {
+                anchors_at: None,
+                anchor_a: now.anchor_a,
+                anchor_b: now.anchor_b,
+                angle_a: now.angle_a + (said.angle_a - before.angle_a),
+                angle_b: now.angle_b + (said.angle_b - before.angle_b),
+                ..*said
+            }
+        }
+        _ => *said,
     }
 }
 

@@ -123,7 +123,9 @@ fn tell_collisions(names: &Names, writers: &mut Writers) {
                 point: Vec2::new(event.position.x as f32, event.position.y as f32),
                 normal: Vec2::new(event.normal.x, event.normal.y),
                 speed: event.speed,
-                impulse: event.impulse
+                impulse: event.impulse,
+                mass_a: event.mass_a,
+                mass_b: event.mass_b
             }
         ));
     }

@@ -270,9 +270,32 @@ impl PhysicsWorld {
         self.maps.characters.get(&entity)
     }
 
-    /// The mover of a character, to launch, resize or move by rules of your own. It lies in the world, so that it goes back with it.
+    /// The mover of a character, to launch or to place; to move it along what is in its way see
+    /// [`PhysicsWorld::character_in_world`]. It lies in the world, so that it goes back with it.
     pub fn character_mut(&mut self, entity: Entity) -> Option<&mut CharacterMover> {
         self.maps.characters.get_mut(&entity)
+    }
+
+    /// The mover of a character, and the world that it moves through: for [`CharacterMover::move_by`], `resize` and `fits`. It walks or falls on
+    /// from there in the next step; what it weighs then is its [`Character`](crate::Character)'s `gravity_scale`.
+    ///
+    /// ```
+    /// use bevy_ecs::prelude::*;
+    /// use bevy_tiny_physics::prelude::*;
+    /// fn dash(mut physics: ResMut<PhysicsWorld>, heroes: Query<Entity, With<Character>>) {
+    ///     for hero in &heroes {
+    ///         if let Some((mover, world)) = physics.character_in_world(hero) {
+    ///             mover.move_by(world, (2.0, 0.0));
+    ///         }
+    ///     }
+    /// }
+    /// ```
+    pub fn character_in_world(
+        &mut self,
+        entity: Entity,
+    ) -> Option<(&mut CharacterMover, &mut tiny_physics::World)> {
+        let mover = self.maps.characters.get_mut(&entity)?;
+        Some((mover, &mut self.world))
     }
 
     /// Handles of an entity's shapes.

@@ -2,7 +2,7 @@
 
 use super::{CharacterMover, Frame, MoverHit};
 use crate::geometry::distance;
-use crate::{DVec2, Pose, RigidBody, Rot, ShapeDef, Vec2, World};
+use crate::{DVec2, Pose, RigidBody, Rot, ShapeDef, ShapeRef, Transform, Vec2, World};
 
 impl CharacterMover {
     /// A body for it to take along: kinematic, with a sensor of the character's form that sees everything, other
@@ -34,7 +34,8 @@ impl CharacterMover {
         RigidBody::kinematic().position(self.position).shape(form.sensor_of_sensors())
     }
 
-    /// Puts its body where it is, upright, and gives the body's first shape, if that is a sensor, its form.
+    /// Puts its body where it is, upright. The shape of it that is nearest to its form in size (width and height together), if
+    /// that is a sensor, gets that form: of all that is put on a body of [`CharacterMover::describe_body`], its own.
     /// [`CharacterMover::update`] does so at its end; call it after [`CharacterMover::move_by`] where there is no update.
     pub fn lead_body(&self, world: &mut World) {
         let (Frame { up, .. }, capsule) = (Frame::of(world), self.capsule(Vec2::Y, 0.0));
@@ -43,11 +44,15 @@ impl CharacterMover {
         if body.pose() != pose {
             body.set_pose(pose);
         }
-        let form = body.as_ref().shapes().next();
-        let form = form.and_then(|form| world.shape_mut(form)).filter(|form| form.is_sensor());
-        if let Some(mut form) = form.filter(|form| *form.shape() != capsule) {
+        let body = body.as_ref();
+        let size = |form: &ShapeRef<'_>| form.shape().aabb(Transform::IDENTITY).perimeter();
+        let wrong = |form: &_| (size(form) - 2.0 * (self.height + 2.0 * self.radius)).abs();
+        let forms = body.shapes().filter_map(|form| body.world().shape(form));
+        let own = forms.min_by(|a, b| wrong(a).total_cmp(&wrong(b))).map(|own| own.id());
+        let own = own.and_then(|own| world.shape_mut(own)).filter(|own| own.is_sensor());
+        if let Some(mut own) = own.filter(|own| *own.shape() != capsule) {
             // A form that no shape can have is none to be seen in.
-            let _ = form.set_shape(capsule);
+            let _ = own.set_shape(capsule);
         }
     }
 
@@ -76,14 +81,15 @@ impl CharacterMover {
 
     /// Moves it by `motion` (metres) along what is in its way, without gravity, steps or pushing, and gives the motion
     /// that came of it: for rules of your own, such as ladders and dashes. What it came to stand on is its ground then,
-    /// else it is in the air. Nothing happens where a number is not finite.
+    /// else it is in the air. It is at rest afterwards: nothing is left of a fall before, nor of a platform's speed. Set
+    /// [`CharacterMover::velocity`] to go on falling with it. Nothing happens where a number is not finite.
     pub fn move_by(&mut self, world: &World, motion: impl Into<Vec2>) -> Vec2 {
         let (motion, start) = (motion.into(), self.position);
         if !motion.is_finite() || !start.is_finite() {
             return Vec2::ZERO;
         }
         let (frame, noted) = (Frame::of(world), self.hits.len());
-        (self.previous, self.ground) = (start, None);
+        (self.previous, self.ground, self.velocity, self.drift) = (start, None, Vec2::ZERO, 0.0);
         self.slide(world, frame, motion, None);
         for hit in self.hits.split_off(noted) {
             if self.is_walkable(hit.normal, frame.up) {
