@@ -1,4 +1,5 @@
-//! Random worlds in all engines: where is ours worse than the best of the others?
+//! Random worlds in all engines: where is ours worse than the best of the others? Chance makes any engine worse in some, so how often
+//! each of the others is worse than the best of its others is counted, too, by the same rule but for the cost.
 
 use crate::quality::Engines;
 use clap::Args;
@@ -67,6 +68,26 @@ struct Loss {
     file: PathBuf,
 }
 
+/// What came of all worlds.
+#[derive(Default, Serialize)]
+struct Sum {
+    played: usize,
+    left_out: usize,
+    /// Worlds in which ours is worse, cost counted, and in which each of the others is, cost not counted.
+    worse: usize,
+    box2d_is_worse: usize,
+    rapier_is_worse: usize,
+}
+
+/// What came of a world.
+#[derive(Default)]
+struct Verdict {
+    /// In what is ours worse?
+    worse: Vec<(String, f64, f64)>,
+    /// Is each of the others worse than the best of its others in anything but cost?
+    others: [bool; 2],
+}
+
 /// Where worlds are played.
 struct Arena {
     engines: Option<Engines>,
@@ -75,20 +96,22 @@ struct Arena {
 
 impl Arena {
     /// In what is ours worse in a world? `None` where it could not be played by all.
-    fn judge(&self, scene: &Scene) -> Option<Vec<(String, f64, f64)>> {
-        let Some(engines) = &self.engines else { return Some(self.alone(scene)) };
-        let found = play(engines, scene);
-        let Some(ours) = &found[0] else {
-            return Some(vec![("crashed or took too long".into(), 1.0, 0.0)]);
+    fn judge(&self, scene: &Scene) -> Option<Verdict> {
+        let Some(engines) = &self.engines else {
+            return Some(Verdict { worse: self.alone(scene), ..Verdict::default() });
         };
-        let others: Vec<Findings> = found[1..].iter().flatten().cloned().collect();
-        if others.is_empty() {
-            return None;
-        }
+        let found = play(engines, scene);
+        let beside = |own: usize| -> Option<Vec<_>> {
+            let others = (0..found.len()).filter(|&other| other != own);
+            let others: Vec<Findings> = others.filter_map(|other| found[other].clone()).collect();
+            if others.is_empty() {
+                return None;
+            }
+            let crashed = || vec![("crashed or took too long", 1.0, 0.0)];
+            Some(found[own].as_ref().map_or_else(crashed, |own| own.worse_than(&others)))
+        };
         let mut worse: Vec<_> = self.differ(scene);
-        worse.extend(
-            ours.worse_than(&others).into_iter().map(|(name, a, b)| (name.to_owned(), a, b)),
-        );
+        worse.extend(beside(0)?.into_iter().map(|(name, a, b)| (name.to_owned(), a, b)));
         let mut costs = cost(&found);
         for _ in 0..AGAIN {
             if is_dear(costs) {
@@ -100,7 +123,8 @@ impl Arena {
         if is_dear(costs) {
             worse.push(("cost".into(), costs[0], costs[1]));
         }
-        Some(worse)
+        let others = [1, 2].map(|other| beside(other).is_some_and(|worse| !worse.is_empty()));
+        Some(Verdict { worse, others })
     }
 
     /// What no world should show, in this engine alone.
@@ -158,17 +182,20 @@ pub fn run(args: &ArenaArgs) -> Result<(), String> {
     let arena = Arena { engines, bits: args.bits };
     std::fs::create_dir_all(&args.out)
         .map_err(|error| format!("{}: {error}", args.out.display()))?;
-    let (start, mut played, mut left_out, mut losses) = (Instant::now(), 0, 0, Vec::new());
+    let (start, mut sum, mut losses) = (Instant::now(), Sum::default(), Vec::new());
     for seed in args.seeds.clone() {
         if args.minutes.is_some_and(|minutes| start.elapsed().as_secs_f64() > 60.0 * minutes) {
             break;
         }
         let scene = arena::draw(seed);
         match arena.judge(&scene) {
-            None => left_out += 1,
-            Some(worse) => {
-                played += 1;
+            None => sum.left_out += 1,
+            Some(Verdict { worse, others }) => {
+                sum.played += 1;
+                sum.box2d_is_worse += usize::from(others[0]);
+                sum.rapier_is_worse += usize::from(others[1]);
                 if !worse.is_empty() {
+                    sum.worse += 1;
                     let loss = keep(&arena, args, seed, &scene, worse)?;
                     if !args.json {
                         eprintln!("{seed}: {}", loss.worse[0].0);
@@ -179,7 +206,7 @@ pub fn run(args: &ArenaArgs) -> Result<(), String> {
         }
     }
     losses.sort_by_key(|loss| (loss.bodies, loss.steps));
-    print(&losses, played, left_out, args.json)
+    print(&losses, &sum, args.json)
 }
 
 /// Makes a world smaller as long as ours is worse in the same, and saves it.
@@ -192,7 +219,8 @@ fn keep(
 ) -> Result<Loss, String> {
     let name = worse[0].0.clone();
     let mut shows = |smaller: &Scene| {
-        arena.judge(smaller).is_some_and(|worse| worse.iter().any(|(what, ..)| *what == name))
+        let found = arena.judge(smaller);
+        found.is_some_and(|found| found.worse.iter().any(|(what, ..)| *what == name))
     };
     let tries = if args.whole { 0 } else { TRIES };
     let mut least = if tries > 0 { arena::shrink(scene, tries, &mut shows) } else { scene.clone() };
@@ -208,16 +236,12 @@ fn save(scene: &Scene, file: &Path) -> Result<(), String> {
     scene.save(file).map_err(|error| error.to_string())
 }
 
-fn print(losses: &[Loss], played: usize, left_out: usize, json: bool) -> Result<(), String> {
-    let lost = losses.len();
+fn print(losses: &[Loss], sum: &Sum, json: bool) -> Result<(), String> {
     if json {
         for loss in losses {
             println!("{}", serde_json::to_string(loss).map_err(|error| error.to_string())?);
         }
-        println!(
-            "{}",
-            serde_json::json!({ "played": played, "left_out": left_out, "worse": lost })
-        );
+        println!("{}", serde_json::to_string(sum).map_err(|error| error.to_string())?);
         return Ok(());
     }
     for loss in losses {
@@ -233,6 +257,9 @@ fn print(losses: &[Loss], played: usize, left_out: usize, json: bool) -> Result<
         );
         println!("    {}: {}", loss.file.display(), loss.parts);
     }
-    println!("{played} worlds played, {left_out} left out, ours is worse in {lost}");
+    let Sum { played, left_out, worse, box2d_is_worse, rapier_is_worse } = sum;
+    println!(
+        "{played} worlds played, {left_out} left out, ours is worse in {worse} (cost counted), Box2D in {box2d_is_worse}, Rapier in {rapier_is_worse}"
+    );
     Ok(())
 }

@@ -463,7 +463,7 @@ impl Graph {
     }
 
     /// The block and lane in which a contact is solved.
-    fn solved(&self, contact: &Contact) -> Option<(&ConstraintBlock, usize)> {
+    pub(crate) fn solved(&self, contact: &Contact) -> Option<(&ConstraintBlock, usize)> {
         let (bucket, slot) = self.solved_at(contact)?;
         Some((&self.buckets.list()[bucket].constraints[slot / BLOCK], slot % BLOCK))
     }

@@ -76,6 +76,10 @@ pub(super) struct Weighed {
     by: f32,
     /// Its own: what it weighs stays as it is.
     gravity_scale: f32,
+    /// Inverse mass and inertia that it counts with, and how it moves before it is solved.
+    inverse: [f32; 2],
+    velocity: Vec2,
+    spin: f32,
 }
 
 /// What a search for rows has found.
@@ -166,7 +170,12 @@ impl Squeezed {
         graph: &Graph,
         length_unit: f32,
     ) {
-        for Weighed { body, by, gravity_scale } in self.weighed.drain(..) {
+        // A body is weighed again by what is heavier: the last one knows what it counts with, the first one how it moved.
+        for weighed in self.weighed.drain(..) {
+            let Weighed { body, by, gravity_scale, .. } = weighed;
+            if weighed.inverse[0] == bodies.inverse_masses(body).0 {
+                weighed.give_back(bodies, contacts, graph);
+            }
             bodies.update_inverse_masses(body);
             let info = &mut bodies.infos[body as usize];
             info.gravity_scale = gravity_scale;
@@ -215,6 +224,52 @@ impl Squeezed {
     }
 }
 
+impl Weighed {
+    /// Gives those that lie on it back what they lost along it to the mass that it has not. What holds it from elsewhere took part of
+    /// that, so this is never too much.
+    fn give_back(&self, bodies: &mut Bodies, contacts: &Contacts, graph: &Graph) {
+        let BodyInfo { first_contact, mass, .. } = bodies.infos[self.body as usize];
+        let change = bodies.velocity(self.body) - self.velocity;
+        let turn = bodies.angular_velocity(self.body) - self.spin;
+        let loads =
+            || contacts.of_body(first_contact).filter_map(|at| self.load(at, contacts, graph));
+        let is_heavy = |bodies: &Bodies, heavy: u32| {
+            (f32::MIN_POSITIVE..=self.by).contains(&bodies.inverse_masses(heavy).0)
+        };
+        let count = loads().filter(|&(heavy, ..)| is_heavy(bodies, heavy)).count();
+        let share = (1.0 - self.inverse[0] * mass) / count as f32;
+        for (heavy, tangent, [arm, their_arm]) in loads() {
+            let change = tangent.dot(change) + turn * arm;
+            let slip = tangent.dot(bodies.velocity(heavy) - self.velocity)
+                + bodies.angular_velocity(heavy) * their_arm
+                - self.spin * arm;
+            // It was taken along, and no further.
+            if is_heavy(bodies, heavy) && change * slip > 0.0 && change.abs() < 1.05 * slip.abs() {
+                let give = self.inverse[0] + self.inverse[1] * arm * arm;
+                let impulse = share * change / give;
+                let (inv_mass, inv_inertia) = bodies.inverse_masses(heavy);
+                bodies.set_velocity(heavy, bodies.velocity(heavy) + tangent * (impulse * inv_mass));
+                bodies.rows[heavy as usize][Slot::W] += impulse * their_arm * inv_inertia;
+            }
+        }
+    }
+
+    /// What a contact presses on it: the other body, the tangent, and the arms along that of a point.
+    fn load(
+        &self,
+        (index, side): (u32, u32),
+        contacts: &Contacts,
+        graph: &Graph,
+    ) -> Option<(u32, Vec2, [f32; 2])> {
+        let contact = &contacts.records[index as usize];
+        let (constraint, lane) = graph.solved(contact)?;
+        let point = constraint.points.iter().find(|point| point.normal_impulse[lane] > 0.0)?;
+        let [a, b] = [point.tangent_arm_a[lane], point.tangent_arm_b[lane]];
+        let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
+        Some((contact.other(self.body), -normal.perp(), if side == 0 { [a, b] } else { [b, a] }))
+    }
+}
+
 /// Bodies with which a body has contacts that push.
 fn leans_on(
     body: u32,
@@ -247,7 +302,9 @@ fn weigh(
     for (index, _) in contacts.of_body(first_contact) {
         effective_mass::follow(graph, &contacts.records[index as usize], bodies);
     }
-    Some(Weighed { body, by, gravity_scale })
+    let (inv_mass, inv_inertia) = bodies.inverse_masses(body);
+    let (velocity, spin) = (bodies.velocity(body), bodies.angular_velocity(body));
+    Some(Weighed { body, by, gravity_scale, inverse: [inv_mass, inv_inertia], velocity, spin })
 }
 
 impl Scene<'_> {
