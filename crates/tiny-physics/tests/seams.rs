@@ -134,7 +134,7 @@ fn several_bodies_of_several_boxes_that_differ() {
     check("several bodies", &world);
 }
 
-/// A mover on a kinematic floor: least and greatest height over it, and the part of its speed that is left.
+/// A mover on a floor that moves: least and greatest height over it, and the part of its speed that is left.
 fn ride_along(floor: &RigidBody, shape: Shape, height: f32) -> (f32, f32, f32) {
     let mut world = world();
     let floor_id = world.add_body(floor.clone()).unwrap();
@@ -152,11 +152,10 @@ fn ride_along(floor: &RigidBody, shape: Shape, height: f32) -> (f32, f32, f32) {
     (low, high, world.body(body).unwrap().velocity().x / SPEED)
 }
 
-#[test]
-fn a_kinematic_floor_of_many_boxes() {
-    // At rest, and on its way along, up and down, it is as smooth as one box.
+/// At rest, and on its way along, up and down, it is as smooth as one box.
+fn check_moving(body: &RigidBody) {
     for velocity in [Vec2::ZERO, Vec2::new(-3.0, 0.0), Vec2::new(2.0, 0.5), Vec2::new(2.0, -0.5)] {
-        let floor = RigidBody::kinematic().velocity(velocity);
+        let floor = body.clone().velocity(velocity);
         let centers = (-20..80).map(|x| Vec2::new(x as f32 + 0.5, -0.5));
         let many = centers.fold(floor.clone(), |floor, at| floor.shape(tile().offset(at)));
         let one = ShapeDef::new(Shape::rect(50.0, 0.5).unwrap()).friction(0.0);
@@ -171,6 +170,17 @@ fn a_kinematic_floor_of_many_boxes() {
             assert!(found.2 > 0.999, "{message}");
         }
     }
+}
+
+#[test]
+fn a_kinematic_floor_of_many_boxes() {
+    check_moving(&RigidBody::kinematic());
+}
+
+/// A raft, a truck's bed, a ship of tiles: boxes that slid over the seams of such a body came to a stop.
+#[test]
+fn a_dynamic_floor_of_many_boxes() {
+    check_moving(&RigidBody::dynamic().mass(1.0e7).gravity_scale(0.0));
 }
 
 #[test]

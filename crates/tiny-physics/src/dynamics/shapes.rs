@@ -2,7 +2,7 @@
 
 use super::bodies::NULL;
 use super::places::{claim, put};
-use crate::broad_phase::ProxyId;
+use crate::broad_phase::{ProxyId, ProxyKind};
 use crate::codec::{Generations, kept_as_described, record, store};
 use crate::describe::{ChainLink, Filter, Material, ShapeDef};
 use crate::geometry::Shape;
@@ -112,9 +112,9 @@ store! {
         pub(crate) fat: Vec<Aabb>,
         /// Which contacts are looked at again: see [`guard`].
         pub(crate) guards: Vec<u32>,
-        /// Boxes in which static or kinematic shapes came, went or were moved since guards were last found, and whether
-        /// that may have changed guards.
-        pub(crate) changed_ground: Vec<(Aabb, bool)>,
+        /// Boxes in which ground, or a part of a body of several shapes, came, went or was moved since guards were last found, and
+        /// of what kind those shapes are whose guards that may have changed.
+        pub(crate) changed_ground: Vec<(Aabb, Option<ProxyKind>)>,
         pub(crate) free: Vec<u32>,
         pub(crate) count: usize,
         generations: Generations,

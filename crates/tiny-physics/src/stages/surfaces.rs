@@ -2,7 +2,7 @@
 //!
 //! Two boxes side by side make one floor, but each box knows only itself: something that slides over them
 //! catches on the side of the next one, which is inside the floor. So static shapes are *guarded* where
-//! others touch them (tile beside tile, across bodies too), and so are shapes of one kinematic body, segments
+//! others touch them (tile beside tile, across bodies too), and so are shapes of one body that moves, segments
 //! of a chain and one-way platforms. After the kernels, a contact with a guarded shape is looked at again:
 //!
 //! - a normal out of a face is a ghost if another static shape covers the face there;
@@ -17,7 +17,7 @@
 use super::narrow_context::{Context, Ground};
 use super::one_way;
 use crate::broad_phase::{BroadPhase, ProxyId, ProxyKind};
-use crate::describe::{BodyKind, ChainLink};
+use crate::describe::ChainLink;
 use crate::dynamics::{Bodies, ShapeRecord, Shapes, guard};
 use crate::geometry::manifold::{
     Manifold, collide_face, face_of, nearest_vertex, point_gap, support_height,
@@ -413,8 +413,8 @@ fn world_box(pose: Pose, points: &[Vec2], margin: f32) -> Aabb {
     bounds.grown(margin)
 }
 
-/// Finds anew which faces and corners of static and kinematic shapes others touch, around the places where
-/// such shapes have changed.
+/// Finds anew which faces and corners of shapes others touch that make one surface with them, around the places where such shapes have
+/// changed.
 pub(crate) fn refresh(
     shapes: &mut Shapes,
     bodies: &Bodies,
@@ -422,18 +422,17 @@ pub(crate) fn refresh(
     length_unit: f32,
 ) {
     let mut changed = core::mem::take(&mut shapes.changed_ground);
-    changed.retain(|&(_, guards)| guards);
+    changed.retain(|(_, kind)| kind.is_some());
     if changed.is_empty() {
         return;
     }
     // A bit a shape: much less than a sorted list where a large level is built.
     let mut near = vec![0_u64; shapes.records.len().div_ceil(64)];
-    for kind in [ProxyKind::Static, ProxyKind::Kinematic] {
-        for (bounds, _) in &changed {
-            broad_phase.each_of(kind, bounds, u64::MAX, |index| {
-                near[index as usize / 64] |= 1 << (index % 64);
-            });
-        }
+    for (bounds, kind) in changed {
+        let Some(kind) = kind else { continue };
+        broad_phase.each_of(kind, &bounds, u64::MAX, |index| {
+            near[index as usize / 64] |= 1 << (index % 64);
+        });
     }
     for (word, mut bits) in near.into_iter().enumerate() {
         while bits != 0 {
@@ -455,11 +454,7 @@ fn touched_features(
 ) -> u32 {
     let record = &shapes.records[index as usize];
     let core = boxed_core(record);
-    let kind = match bodies.infos[record.body as usize].kind {
-        BodyKind::Static => ProxyKind::Static,
-        BodyKind::Kinematic => ProxyKind::Kinematic,
-        BodyKind::Dynamic => return 0,
-    };
+    let Some(kind) = broad_phase.kind(shapes.proxy(index)) else { return 0 };
     if record.sensor || record.link.is_some() || core.radius > 0.0 {
         return 0;
     }
@@ -471,7 +466,10 @@ fn touched_features(
         let neighbour = &shapes.records[other as usize];
         if other != index && is_ground(neighbour, record, kind) {
             let place = boxed_pose(&bodies.poses, neighbour).relative_to(pose);
-            bits |= touched_by(&core, &boxed_core(neighbour).transformed(place), tolerance);
+            let touched = touched_by(&core, &boxed_core(neighbour).transformed(place), tolerance);
+            // A part that only sticks in another costs no looks: what is inside meets nothing.
+            let whole = kind != ProxyKind::Dynamic || covers_a_face(&core, touched);
+            bits |= if whole { touched } else { 0 };
         }
     });
     if bits == 0 || record.one_way.is_some() {
@@ -480,6 +478,13 @@ fn touched_features(
     let is_free = |face: &usize| bits & guard::face(*face) == 0;
     let free = (0..core.edge_count()).filter(is_free);
     free.fold(bits, |bits, face| bits | guard::free(core.normal(face)))
+}
+
+/// Is there a face that is touched with both of its corners?
+fn covers_a_face(core: &Core, touched: u32) -> bool {
+    let is_touched = |corner: usize| touched & guard::corner(corner % core.edge_count()) != 0;
+    (0..core.edge_count())
+        .any(|i| touched & guard::face(i) != 0 && is_touched(i) && is_touched(i + 1))
 }
 
 /// Faces and corners of `core` that `other` touches; rather one too many.

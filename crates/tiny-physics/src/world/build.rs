@@ -397,12 +397,16 @@ impl World {
         self.shapes_of(body).into_iter().for_each(|shape| self.note_ground(shape, guards));
     }
 
-    /// Notes that ground comes, goes or changes where the box of this shape is, and whether guards may be others.
+    /// Notes that ground comes, goes or changes where the box of this shape is, and whether guards may be others. What is dynamic makes a
+    /// surface with the rest of its body.
     pub(super) fn note_ground(&mut self, shape: u32, guards: bool) {
-        let record = &self.state.shapes.records[shape as usize];
-        if !record.sensor && !self.state.bodies.is_dynamic(record.body) {
-            let fat = self.state.broad_phase.fat_aabb(self.state.shapes.proxy(shape));
-            self.state.shapes.changed_ground.extend(fat.map(|fat| (fat, guards)));
+        let State { bodies, shapes, broad_phase, .. } = &mut self.state;
+        let (record, proxy) = (&shapes.records[shape as usize], shapes.proxy(shape));
+        let first = bodies.infos[record.body as usize].first_shape;
+        let is_part = || shapes.of_body(first).any(|other| other != shape);
+        if !record.sensor && (!bodies.is_dynamic(record.body) || guards && is_part()) {
+            let kind = broad_phase.kind(proxy).filter(|_| guards);
+            shapes.changed_ground.extend(broad_phase.fat_aabb(proxy).map(|fat| (fat, kind)));
         }
     }
 }

@@ -254,7 +254,7 @@ mod tests {
         let changes: [fn(&mut State); 6] = [
             |state| state.graph.news += 1,
             |state| state.graph.mixed ^= true,
-            |state| state.shapes.changed_ground.push((crate::Aabb::EMPTY, true)),
+            |state| state.shapes.changed_ground.push((crate::Aabb::EMPTY, None)),
             |state| state.waiting.stale ^= true,
             |state| state.bodies.awake_unsorted ^= true,
             |state| state.inv_h += 1.0,
