@@ -253,8 +253,8 @@ impl World {
             let awake = bodies.awake.iter().inspect(|_| work::note());
             let awake = awake.filter(moved).map(|&i| self.body_id(i));
             let all: Vec<BodyId> = awake.chain(asleep).collect();
-            let mut machines = all.clone();
-            machines.retain(|body| bodies.infos[body.index()].kind == BodyKind::Kinematic);
+            let is_machine = |id: &BodyId| bodies.infos[id.index()].kind == BodyKind::Kinematic;
+            let mut machines: Vec<BodyId> = all.iter().copied().filter(is_machine).collect();
             machines.sort_unstable();
             [all, machines]
         })

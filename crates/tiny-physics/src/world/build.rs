@@ -14,6 +14,9 @@ use crate::math::{Pose, Rot, Transform, Vec2};
 use crate::simd::Row;
 use crate::stages::boxes;
 
+/// Shapes of a body that go at once and are each asked whether they count.
+const FEW: usize = 8;
+
 impl World {
     /// Adds a body and gives its handle.
     ///
@@ -161,7 +164,11 @@ impl World {
         }
         self.end_overlaps_of(|_, shape| goes(shape));
         parts().for_each(|(body, _)| self.unlink_shapes(body, goes));
-        let told = parts().filter(|(_, part)| part.iter().any(|&(_, shape)| self.tells(shape)));
+        // For many, counting anew costs less than asking each.
+        let tell = |part: &[(u32, u32)]| {
+            part.len() > FEW || part.iter().any(|&(_, shape)| self.tells(shape))
+        };
+        let told = parts().filter(|(_, part)| tell(part));
         let told: Vec<u32> = told.map(|(body, _)| body).collect();
         shapes.iter().for_each(|&shape| self.forget_shape(shape));
         told.into_iter().for_each(|body| self.update_mass(body));

@@ -34,8 +34,8 @@ impl CharacterMover {
         RigidBody::kinematic().position(self.position).shape(form.sensor_of_sensors())
     }
 
-    /// Puts its body where it is, upright. The shape of it that is nearest to its form in size (width and height together), if
-    /// that is a sensor, gets that form: of all that is put on a body of [`CharacterMover::describe_body`], its own.
+    /// Puts its body where it is, upright. Its [sensor of sensors](crate::ShapeDef::sensor_of_sensors) gets its form; if there are
+    /// several, the one nearest in size (width and height together).
     /// [`CharacterMover::update`] does so at its end; call it after [`CharacterMover::move_by`] where there is no update.
     pub fn lead_body(&self, world: &mut World) {
         let (Frame { up, .. }, capsule) = (Frame::of(world), self.capsule(Vec2::Y, 0.0));
@@ -48,8 +48,9 @@ impl CharacterMover {
         let size = |form: &ShapeRef<'_>| form.shape().aabb(Transform::IDENTITY).perimeter();
         let wrong = |form: &_| (size(form) - 2.0 * (self.height + 2.0 * self.radius)).abs();
         let forms = body.shapes().filter_map(|form| body.world().shape(form));
+        let forms = forms.filter(|form| form.is_sensor() && form.describe().sees_sensors);
         let own = forms.min_by(|a, b| wrong(a).total_cmp(&wrong(b))).map(|own| own.id());
-        let own = own.and_then(|own| world.shape_mut(own)).filter(|own| own.is_sensor());
+        let own = own.and_then(|own| world.shape_mut(own));
         if let Some(mut own) = own.filter(|own| *own.shape() != capsule) {
             // A form that no shape can have is none to be seen in.
             let _ = own.set_shape(capsule);

@@ -344,8 +344,10 @@ impl Predictions {
             return;
         }
         for course in &mut self.courses.list {
-            let astray = course.astray / bodies.infos[course.body as usize].min_extent;
-            if astray > HARMLESS && course.astray > least {
+            let half = bodies.infos[course.body as usize].min_extent;
+            let astray = course.astray / half;
+            let thin = 0.0 < half && half < least;
+            if astray > HARMLESS && course.astray > if thin { half } else { least } {
                 self.struck.push(Struck { body: course.body, astray });
                 course.astray = 0.0;
             }
@@ -400,6 +402,10 @@ impl Look<'_> {
             return None;
         }
         let [a, b] = meeting.shapes;
+        // Whether what is one-way lets it begin is judged later.
+        if touches && (a.one_way.is_some() || b.one_way.is_some()) {
+            return None;
+        }
         if touches {
             let frames = meeting.sweeps().map(|sweep| sweep.at(0.0));
             let manifold = meeting.manifold(&frames, self.reach());

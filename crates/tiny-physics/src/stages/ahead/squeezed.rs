@@ -170,8 +170,8 @@ impl Squeezed {
         graph: &Graph,
         length_unit: f32,
     ) {
-        // A body is weighed again by what is heavier: the last one knows what it counts with, the first one how it moved.
-        for weighed in self.weighed.drain(..) {
+        // A body may be weighed more than once: the last one knows what it counts with, the first one what it was.
+        for weighed in self.weighed.drain(..).rev() {
             let Weighed { body, by, gravity_scale, .. } = weighed;
             if weighed.inverse[0] == bodies.inverse_masses(body).0 {
                 weighed.give_back(bodies, contacts, graph);
@@ -225,28 +225,31 @@ impl Squeezed {
 }
 
 impl Weighed {
-    /// Gives those that lie on it back what they lost along it to the mass that it has not. What holds it from elsewhere took part of
-    /// that, so this is never too much.
+    /// Gives those that rub on it back what they lost along it to the mass that it has not. What holds it from elsewhere took part of
+    /// that, so this is not too much.
     fn give_back(&self, bodies: &mut Bodies, contacts: &Contacts, graph: &Graph) {
         let BodyInfo { first_contact, mass, .. } = bodies.infos[self.body as usize];
         let change = bodies.velocity(self.body) - self.velocity;
         let turn = bodies.angular_velocity(self.body) - self.spin;
         let loads =
             || contacts.of_body(first_contact).filter_map(|at| self.load(at, contacts, graph));
-        let is_heavy = |bodies: &Bodies, heavy: u32| {
-            (f32::MIN_POSITIVE..=self.by).contains(&bodies.inverse_masses(heavy).0)
-        };
-        let count = loads().filter(|&(heavy, ..)| is_heavy(bodies, heavy)).count();
-        let share = (1.0 - self.inverse[0] * mass) / count as f32;
-        for (heavy, tangent, [arm, their_arm]) in loads() {
+        let lost = |bodies: &Bodies, (heavy, tangent, [arm, their_arm]): (u32, Vec2, [f32; 2])| {
             let change = tangent.dot(change) + turn * arm;
             let slip = tangent.dot(bodies.velocity(heavy) - self.velocity)
                 + bodies.angular_velocity(heavy) * their_arm
                 - self.spin * arm;
+            let (inverse, own) =
+                (bodies.inverse_masses(heavy).0, bodies.infos[heavy as usize].mass);
+            let is_heavy = inverse > 0.0 && own * self.by >= 0.999;
             // It was taken along, and no further.
-            if is_heavy(bodies, heavy) && change * slip > 0.0 && change.abs() < 1.05 * slip.abs() {
-                let give = self.inverse[0] + self.inverse[1] * arm * arm;
-                let impulse = share * change / give;
+            let taken = change * slip > 0.0 && change.abs() < 1.05 * slip.abs();
+            let give = self.inverse[0] + self.inverse[1] * arm * arm;
+            (is_heavy && taken).then_some((1.0 - self.inverse[0] * mass) * change / give)
+        };
+        let count = loads().filter(|&load| lost(bodies, load).is_some()).count();
+        for load in loads() {
+            if let Some(lost) = lost(bodies, load) {
+                let ((heavy, tangent, [_, their_arm]), impulse) = (load, lost / count as f32);
                 let (inv_mass, inv_inertia) = bodies.inverse_masses(heavy);
                 bodies.set_velocity(heavy, bodies.velocity(heavy) + tangent * (impulse * inv_mass));
                 bodies.rows[heavy as usize][Slot::W] += impulse * their_arm * inv_inertia;
@@ -262,7 +265,7 @@ impl Weighed {
         graph: &Graph,
     ) -> Option<(u32, Vec2, [f32; 2])> {
         let contact = &contacts.records[index as usize];
-        let (constraint, lane) = graph.solved(contact)?;
+        let (constraint, lane) = graph.solved(contact).filter(|_| contact.friction > 0.0)?;
         let point = constraint.points.iter().find(|point| point.normal_impulse[lane] > 0.0)?;
         let [a, b] = [point.tangent_arm_a[lane], point.tangent_arm_b[lane]];
         let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
