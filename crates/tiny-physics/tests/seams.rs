@@ -183,6 +183,62 @@ fn a_dynamic_floor_of_many_boxes() {
     check_moving(&RigidBody::dynamic().mass(1.0e7).gravity_scale(0.0));
 }
 
+/// A raft that is put somewhere before its first step, and one of boxes that differ, from both ends.
+#[test]
+fn rafts_are_smooth_wherever_they_are_put_and_of_whatever_boxes() {
+    for (name, shape, height) in movers() {
+        for (deep, way) in [(0.5, 1.0), (0.25, 1.0), (0.25, -1.0)] {
+            let mut raft = RigidBody::dynamic().mass(1.0e7).gravity_scale(0.0);
+            for x in -30..30 {
+                let half = if x % 2 == 0 { 0.5 } else { deep };
+                let board = ShapeDef::new(Shape::rect(0.5, half).unwrap()).friction(0.0);
+                raft = raft.shape(board.offset(Vec2::new(x as f32, -half)));
+            }
+            let mut world = world();
+            let raft = world.add_body(raft).unwrap();
+            world.body_mut(raft).unwrap().set_position((500.0, 20.0));
+            let body = RigidBody::dynamic().position(Vec2::new(500.0 - 25.0 * way, 20.0 + height));
+            let body = body.shape(ShapeDef::new(shape).friction(0.0));
+            let body = world.add_body(body.velocity(Vec2::new(SPEED * way, 0.0))).unwrap();
+            for _ in 0..240 {
+                world.step(1.0 / 60.0);
+            }
+            let kept = world.body(body).unwrap().velocity().x / (SPEED * way);
+            assert!(kept > 0.999, "{name}, {deep} m deep, {way}: {kept}");
+        }
+    }
+}
+
+/// A tilted raft of many boxes comes down as one of a single box does.
+#[test]
+fn a_tilted_raft_comes_down_like_a_single_board() {
+    for angle in [0.05, 0.17, 0.5] {
+        for x in [-20.0, 20.0] {
+            let ends = [1, 10].map(|count| {
+                let mut world = world();
+                let floor = RigidBody::fixed().shape(Shape::rect(50.0, 1.0).unwrap());
+                world.add_body(floor.position(Vec2::new(0.0, -1.0))).unwrap();
+                let mut raft = RigidBody::dynamic().position(Vec2::new(x, 1.0)).angle(angle);
+                for k in 0..count {
+                    let half = 0.5 / count as f32;
+                    let place = Vec2::new((2 * k + 1) as f32 * half - 0.5, 0.0);
+                    raft =
+                        raft.shape(ShapeDef::new(Shape::rect(half, 0.05).unwrap()).offset(place));
+                }
+                let raft = world.add_body(raft.velocity(Vec2::new(0.0, -3.0))).unwrap();
+                for _ in 0..180 {
+                    world.step(1.0 / 60.0);
+                }
+                let raft = world.body(raft).unwrap();
+                (raft.position().x - x, raft.angle())
+            });
+            let [one, many] = ends;
+            let off = (one.0 - many.0).abs() + (one.1 - many.1).abs();
+            assert!(off < 0.05, "{angle} at {x}: {one:?} {many:?}");
+        }
+    }
+}
+
 #[test]
 fn a_chain() {
     let points: Vec<Vec2> = (0..=TILES).rev().map(|x| Vec2::new(x as f32, 0.0)).collect();

@@ -46,6 +46,6 @@ pub(crate) use pace::{JOINTED, PACES, PLAIN, REFINEMENT, ROUNDS, STRUCK, WATCHED
 use schedule::Listed;
 pub(crate) use schedule::{Run, Schedule, Source};
 pub(crate) use sensors::{Overlap, Sensors};
-pub(crate) use shapes::{ShapeRecord, Shapes, guard};
+pub(crate) use shapes::{Change, ShapeRecord, Shapes, guard};
 pub(crate) use transfers::Transfers;
 pub(crate) use waiting::Waiting;

@@ -2,8 +2,8 @@
 
 use super::bodies::NULL;
 use super::places::{claim, put};
-use crate::broad_phase::{ProxyId, ProxyKind};
-use crate::codec::{Generations, kept_as_described, record, store};
+use crate::broad_phase::ProxyId;
+use crate::codec::{Generations, data_enum, kept_as_described, record, store};
 use crate::describe::{ChainLink, Filter, Material, ShapeDef};
 use crate::geometry::Shape;
 use crate::geometry::manifold::ShapeClass;
@@ -49,6 +49,19 @@ kept_as_described!(ShapeRecord of ShapeDef {
 });
 
 const _: () = assert!(core::mem::offset_of!(ShapeRecord, material) <= 64);
+
+/// What may have changed guards, or have buried sleepers.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Change {
+    /// Static shapes came or went in a box.
+    Ground { bounds: Aabb },
+    /// Ground that makes surfaces with itself alone came, went or was moved there.
+    Moved { bounds: Aabb },
+    /// A body that is not static has got or lost parts.
+    Parts { body: u32 },
+}
+
+data_enum!(Change { 0 => Ground { bounds }, 1 => Moved { bounds }, 2 => Parts { body } });
 
 /// Bits that say why contacts with a shape are looked at again: faces and corners that other static
 /// shapes touch, chains, one-way platforms.
@@ -112,9 +125,8 @@ store! {
         pub(crate) fat: Vec<Aabb>,
         /// Which contacts are looked at again: see [`guard`].
         pub(crate) guards: Vec<u32>,
-        /// Boxes in which ground, or a part of a body of several shapes, came, went or was moved since guards were last found, and
-        /// of what kind those shapes are whose guards that may have changed.
-        pub(crate) changed_ground: Vec<(Aabb, Option<ProxyKind>)>,
+        /// What has changed since guards were last found.
+        pub(crate) changed_ground: Vec<Change>,
         pub(crate) free: Vec<u32>,
         pub(crate) count: usize,
         generations: Generations,

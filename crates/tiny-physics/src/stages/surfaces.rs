@@ -18,7 +18,7 @@ use super::narrow_context::{Context, Ground};
 use super::one_way;
 use crate::broad_phase::{BroadPhase, ProxyId, ProxyKind};
 use crate::describe::ChainLink;
-use crate::dynamics::{Bodies, ShapeRecord, Shapes, guard};
+use crate::dynamics::{Bodies, Change, NULL, ShapeRecord, Shapes, guard};
 use crate::geometry::manifold::{
     Manifold, collide_face, face_of, nearest_vertex, point_gap, support_height,
 };
@@ -164,9 +164,14 @@ impl<'a> Seams<'a> {
         if let Some(face) = face_of(&self.core, normal) {
             return self.guard & guard::face(face) != 0 && self.is_covered(face, points, middle);
         }
-        let Some(point) = points[0].or(points[1]) else { return false };
-        let vertex = nearest_vertex(&self.core, point);
-        self.guard & guard::corner(vertex) != 0 && self.goes_on(vertex, normal)
+        let is_ghost = |point: Vec2| {
+            let vertex = nearest_vertex(&self.core, point);
+            self.guard & guard::corner(vertex) != 0 && self.goes_on(vertex, normal)
+        };
+        // The end of a board that comes down tilted has a true corner beside the one within the board.
+        let count = if self.kind() == Some(ProxyKind::Dynamic) { 2 } else { 1 };
+        let mut looked_at = points.into_iter().flatten().take(count).peekable();
+        looked_at.peek().is_some() && looked_at.all(is_ghost)
     }
 
     /// Has a segment of a chain this normal: that of its face, or one of a corner that sticks out?
@@ -231,6 +236,10 @@ impl<'a> Seams<'a> {
         ghost
     }
 
+    fn kind(&self) -> Option<ProxyKind> {
+        self.ground.broad_phase.kind(ProxyId(self.record.proxy))
+    }
+
     fn own_pose(&self) -> Pose {
         boxed_pose(self.ground.poses, self.record)
     }
@@ -241,7 +250,7 @@ impl<'a> Seams<'a> {
         let Ground { shapes, poses, broad_phase, length_unit, .. } = self.ground;
         let pose = self.own_pose();
         let bounds = world_box(pose, points, TOLERANCE * length_unit);
-        let Some(kind) = broad_phase.kind(ProxyId(self.record.proxy)) else { return };
+        let Some(kind) = self.kind() else { return };
         broad_phase.each_of(kind, &bounds, u64::MAX, |index| {
             let neighbour = &shapes[index as usize];
             if index != self.own
@@ -300,7 +309,13 @@ impl<'a> View<'a> {
                 return self.best_face();
             }
         }
-        if self.is_ghost(lane, normal) { self.best_face() } else { Verdict::Keep }
+        if !self.is_ghost(lane, normal) {
+            Verdict::Keep
+        } else if self.is_before_a_face(normal) {
+            Verdict::Drop
+        } else {
+            self.best_face()
+        }
     }
 
     /// A segment of a chain: its face, or the cone of normals at a corner that sticks out.
@@ -316,6 +331,14 @@ impl<'a> View<'a> {
         let manifold =
             collide_face(&self.seams.core, 0, &self.other_core, self.context.speculative_distance);
         if manifold.count == 0 { Verdict::Drop } else { Verdict::Replace(manifold) }
+    }
+
+    /// Is it a corner within the surface of a body that moves freely, before a face of the other? The rest of that surface meets
+    /// the face sooner; by a face of this part the normal would be tilted.
+    fn is_before_a_face(&self, normal: Vec2) -> bool {
+        self.seams.kind() == Some(ProxyKind::Dynamic)
+            && face_of(&self.seams.core, normal).is_none()
+            && face_of(&self.other_core, -normal).is_some()
     }
 
     fn is_ghost(&self, lane: &LanePoints, normal: Vec2) -> bool {
@@ -422,17 +445,25 @@ pub(crate) fn refresh(
     length_unit: f32,
 ) {
     let mut changed = core::mem::take(&mut shapes.changed_ground);
-    changed.retain(|(_, kind)| kind.is_some());
+    changed.retain(|change| !matches!(change, Change::Moved { .. }));
     if changed.is_empty() {
         return;
     }
     // A bit a shape: much less than a sorted list where a large level is built.
     let mut near = vec![0_u64; shapes.records.len().div_ceil(64)];
-    for (bounds, kind) in changed {
-        let Some(kind) = kind else { continue };
-        broad_phase.each_of(kind, &bounds, u64::MAX, |index| {
-            near[index as usize / 64] |= 1 << (index % 64);
-        });
+    let mut mark = |index: u32| near[index as usize / 64] |= 1 << (index % 64);
+    for change in changed {
+        match change {
+            Change::Ground { bounds } => {
+                broad_phase.each_of(ProxyKind::Static, &bounds, u64::MAX, &mut mark);
+            }
+            Change::Parts { body } => {
+                let info = bodies.infos.get(body as usize);
+                let first = info.map_or(NULL, |info| info.first_shape);
+                shapes.of_body(first).for_each(&mut mark);
+            }
+            Change::Moved { .. } => {}
+        }
     }
     for (word, mut bits) in near.into_iter().enumerate() {
         while bits != 0 {
@@ -466,10 +497,12 @@ fn touched_features(
         let neighbour = &shapes.records[other as usize];
         if other != index && is_ground(neighbour, record, kind) {
             let place = boxed_pose(&bodies.poses, neighbour).relative_to(pose);
-            let touched = touched_by(&core, &boxed_core(neighbour).transformed(place), tolerance);
+            let neighbour = boxed_core(neighbour).transformed(place);
+            let touched = touched_by(&core, &neighbour, tolerance);
             // A part that only sticks in another costs no looks: what is inside meets nothing.
-            let whole = kind != ProxyKind::Dynamic || covers_a_face(&core, touched);
-            bits |= if whole { touched } else { 0 };
+            let counts =
+                kind != ProxyKind::Dynamic || goes_on_flush(&core, &neighbour, touched, tolerance);
+            bits |= if counts { touched } else { 0 };
         }
     });
     if bits == 0 || record.one_way.is_some() {
@@ -480,11 +513,16 @@ fn touched_features(
     free.fold(bits, |bits, face| bits | guard::free(core.normal(face)))
 }
 
-/// Is there a face that is touched with both of its corners?
-fn covers_a_face(core: &Core, touched: u32) -> bool {
-    let is_touched = |corner: usize| touched & guard::corner(corner % core.edge_count()) != 0;
-    (0..core.edge_count())
-        .any(|i| touched & guard::face(i) != 0 && is_touched(i) && is_touched(i + 1))
+/// Does `other` lie on a face of `core`, not within it, as far as one of its corners?
+fn goes_on_flush(core: &Core, other: &Core, touched: u32, tolerance: f32) -> bool {
+    let count = core.edge_count();
+    let is_touched = |corner: usize| touched & guard::corner(corner % count) != 0;
+    (0..count).any(|i| {
+        let (normal, start) = (core.normal(i), core.edge(i).0);
+        let below = -support_height(other, -normal) - normal.dot(start);
+        let at_a_corner = is_touched(i) || is_touched(i + 1);
+        touched & guard::face(i) != 0 && at_a_corner && below >= -tolerance
+    })
 }
 
 /// Faces and corners of `core` that `other` touches; rather one too many.

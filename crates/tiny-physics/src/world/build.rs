@@ -6,7 +6,7 @@ use super::ids::{BodyId, ShapeId};
 use super::state::State;
 use crate::broad_phase::{ProxyDef, ProxyKind};
 use crate::describe::{BodyKind, RigidBody, ShapeDef};
-use crate::dynamics::{BodyInfo, Contact, Given, GivenPoint, NULL, ShapeRecord};
+use crate::dynamics::{BodyInfo, Change, Contact, Given, GivenPoint, NULL, ShapeRecord};
 use crate::error::Error;
 use crate::geometry::manifold::{RoundedBox, ShapeClass};
 use crate::geometry::{MassProperties, Shape};
@@ -404,16 +404,28 @@ impl World {
         self.shapes_of(body).into_iter().for_each(|shape| self.note_ground(shape, guards));
     }
 
-    /// Notes that ground comes, goes or changes where the box of this shape is, and whether guards may be others. What is dynamic makes a
-    /// surface with the rest of its body.
+    /// Notes that ground comes, goes or changes where the box of this shape is, and whether guards may be others. What moves makes a
+    /// surface with the rest of its body, wherever that is.
     pub(super) fn note_ground(&mut self, shape: u32, guards: bool) {
         let State { bodies, shapes, broad_phase, .. } = &mut self.state;
-        let (record, proxy) = (&shapes.records[shape as usize], shapes.proxy(shape));
-        let first = bodies.infos[record.body as usize].first_shape;
-        let is_part = || shapes.of_body(first).any(|other| other != shape);
-        if !record.sensor && (!bodies.is_dynamic(record.body) || guards && is_part()) {
-            let kind = broad_phase.kind(proxy).filter(|_| guards);
-            shapes.changed_ground.extend(broad_phase.fat_aabb(proxy).map(|fat| (fat, kind)));
+        let ShapeRecord { sensor, body, .. } = shapes.records[shape as usize];
+        let BodyInfo { kind, first_shape, .. } = bodies.infos[body as usize];
+        if sensor {
+            return;
+        }
+        let solid = |other: u32| other != shape && !shapes.records[other as usize].sensor;
+        let parts = Change::Parts { body };
+        let is_noted = shapes.changed_ground.iter().rev().take(2).any(|change| *change == parts);
+        if guards && kind != BodyKind::Static && !is_noted && shapes.of_body(first_shape).any(solid)
+        {
+            shapes.changed_ground.push(parts);
+        }
+        if kind != BodyKind::Dynamic
+            && let Some(bounds) = broad_phase.fat_aabb(shapes.proxy(shape))
+        {
+            let is_ground = guards && kind == BodyKind::Static;
+            let moved = Change::Moved { bounds };
+            shapes.changed_ground.push(if is_ground { Change::Ground { bounds } } else { moved });
         }
     }
 }

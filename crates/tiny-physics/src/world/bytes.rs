@@ -12,7 +12,7 @@ use crate::math::Vec2;
 /// The first bytes of a frame.
 const MAGIC: [u8; 4] = *b"tpw1";
 /// Goes up whenever the bytes of the same world change.
-const VERSION: u32 = 15;
+const VERSION: u32 = 16;
 /// Magic, version, length, hash.
 const HEADER: usize = 4 + 4 + 8 + 8;
 
@@ -254,7 +254,7 @@ mod tests {
         let changes: [fn(&mut State); 6] = [
             |state| state.graph.news += 1,
             |state| state.graph.mixed ^= true,
-            |state| state.shapes.changed_ground.push((crate::Aabb::EMPTY, None)),
+            |state| state.shapes.changed_ground.push(crate::dynamics::Change::Parts { body: 0 }),
             |state| state.waiting.stale ^= true,
             |state| state.bodies.awake_unsorted ^= true,
             |state| state.inv_h += 1.0,

@@ -4,6 +4,7 @@ use super::World;
 use super::state::State;
 use crate::broad_phase::ProxyKind;
 use crate::describe::BodyKind;
+use crate::dynamics::Change;
 use crate::geometry::{LINEAR_SLOP, collide};
 use core::ops::ControlFlow;
 
@@ -31,7 +32,8 @@ impl World {
     fn buried_sleepers(&self) -> Vec<u32> {
         let (bodies, shapes) = (&self.state.bodies, &self.state.shapes);
         let mut near = Vec::new();
-        for (bounds, _) in &shapes.changed_ground {
+        for change in &shapes.changed_ground {
+            let (Change::Ground { bounds } | Change::Moved { bounds }) = change else { continue };
             self.state.broad_phase.each_of(ProxyKind::Dynamic, bounds, u64::MAX, |shape| {
                 let body = shapes.records[shape as usize].body;
                 if !bodies.infos[body as usize].awake {

@@ -2,7 +2,7 @@
 
 use super::{CharacterMover, Frame, MoverHit};
 use crate::geometry::distance;
-use crate::{DVec2, Pose, RigidBody, Rot, ShapeDef, ShapeRef, Transform, Vec2, World};
+use crate::{DVec2, Pose, RigidBody, Rot, Shape, ShapeDef, ShapeRef, Transform, Vec2, World};
 
 impl CharacterMover {
     /// A body for it to take along: kinematic, with a sensor of the character's form that sees everything, other
@@ -35,7 +35,7 @@ impl CharacterMover {
     }
 
     /// Puts its body where it is, upright. Its [sensor of sensors](crate::ShapeDef::sensor_of_sensors) gets its form; if there are
-    /// several, the one nearest in size (width and height together).
+    /// several, a capsule, and the one nearest in size (width and height together).
     /// [`CharacterMover::update`] does so at its end; call it after [`CharacterMover::move_by`] where there is no update.
     pub fn lead_body(&self, world: &mut World) {
         let (Frame { up, .. }, capsule) = (Frame::of(world), self.capsule(Vec2::Y, 0.0));
@@ -46,10 +46,14 @@ impl CharacterMover {
         }
         let body = body.as_ref();
         let size = |form: &ShapeRef<'_>| form.shape().aabb(Transform::IDENTITY).perimeter();
-        let wrong = |form: &_| (size(form) - 2.0 * (self.height + 2.0 * self.radius)).abs();
+        let wrong =
+            |form: &ShapeRef<'_>| (size(form) - 2.0 * (self.height + 2.0 * self.radius)).abs();
         let forms = body.shapes().filter_map(|form| body.world().shape(form));
         let forms = forms.filter(|form| form.is_sensor() && form.describe().sees_sensors);
-        let own = forms.min_by(|a, b| wrong(a).total_cmp(&wrong(b))).map(|own| own.id());
+        let is_other = |form: &ShapeRef<'_>| !matches!(form.shape(), Shape::Capsule { .. });
+        let key = |form: &ShapeRef<'_>| (is_other(form), wrong(form));
+        let order = |(a, x): (bool, f32), (b, y): (bool, f32)| a.cmp(&b).then(x.total_cmp(&y));
+        let own = forms.min_by(|a, b| order(key(a), key(b))).map(|own| own.id());
         let own = own.and_then(|own| world.shape_mut(own));
         if let Some(mut own) = own.filter(|own| *own.shape() != capsule) {
             // A form that no shape can have is none to be seen in.

@@ -247,8 +247,12 @@ impl Weighed {
             (is_heavy && taken).then_some((1.0 - self.inverse[0] * mass) * change / give)
         };
         let count = loads().filter(|&load| lost(bodies, load).is_some()).count();
+        let mut left = count;
         for load in loads() {
-            if let Some(lost) = lost(bodies, load) {
+            if left > 0
+                && let Some(lost) = lost(bodies, load)
+            {
+                left -= 1;
                 let ((heavy, tangent, [_, their_arm]), impulse) = (load, lost / count as f32);
                 let (inv_mass, inv_inertia) = bodies.inverse_masses(heavy);
                 bodies.set_velocity(heavy, bodies.velocity(heavy) + tangent * (impulse * inv_mass));
