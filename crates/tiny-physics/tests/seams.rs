@@ -187,11 +187,17 @@ fn a_dynamic_floor_of_many_boxes() {
 #[test]
 fn rafts_are_smooth_wherever_they_are_put_and_of_whatever_boxes() {
     for (name, shape, height) in movers() {
-        for (deep, way) in [(0.5, 1.0), (0.25, 1.0), (0.25, -1.0)] {
+        for (deep, lap, way) in [
+            (0.5, 0.0, 1.0),
+            (0.25, 0.0, 1.0),
+            (0.25, 0.0, -1.0),
+            (0.5, 0.01, 1.0),
+            (0.25, 0.01, -1.0),
+        ] {
             let mut raft = RigidBody::dynamic().mass(1.0e7).gravity_scale(0.0);
             for x in -30..30 {
                 let half = if x % 2 == 0 { 0.5 } else { deep };
-                let board = ShapeDef::new(Shape::rect(0.5, half).unwrap()).friction(0.0);
+                let board = ShapeDef::new(Shape::rect(0.5 + lap, half).unwrap()).friction(0.0);
                 raft = raft.shape(board.offset(Vec2::new(x as f32, -half)));
             }
             let mut world = world();
@@ -204,7 +210,7 @@ fn rafts_are_smooth_wherever_they_are_put_and_of_whatever_boxes() {
                 world.step(1.0 / 60.0);
             }
             let kept = world.body(body).unwrap().velocity().x / (SPEED * way);
-            assert!(kept > 0.999, "{name}, {deep} m deep, {way}: {kept}");
+            assert!(kept > 0.999, "{name}, {deep} m deep, {lap} m over, {way}: {kept}");
         }
     }
 }
@@ -236,6 +242,40 @@ fn a_tilted_raft_comes_down_like_a_single_board() {
             let off = (one.0 - many.0).abs() + (one.1 - many.1).abs();
             assert!(off < 0.05, "{angle} at {x}: {one:?} {many:?}");
         }
+    }
+}
+
+/// A plank of two boards lies on a post under the end of one of them, a hook of three boxes on a crate under its inner corner.
+#[test]
+fn what_lies_on_the_end_of_something_does_not_fall_through() {
+    for angle in [-0.02, -0.005, -0.002, 0.002, 0.005, 0.02] {
+        let mut world = world();
+        let post = |x: f32| {
+            RigidBody::fixed().position(Vec2::new(x, -1.0)).shape(Shape::rect(0.1, 1.0).unwrap())
+        };
+        [-0.11, 0.91].map(|x| world.add_body(post(x)).unwrap());
+        let board =
+            |x: f32| ShapeDef::new(Shape::rect(0.5, 0.05).unwrap()).offset(Vec2::new(x, 0.0));
+        let plank = RigidBody::dynamic().position(Vec2::new(0.0, 0.06)).angle(angle);
+        let plank = world.add_body(plank.shape(board(-0.5)).shape(board(0.5))).unwrap();
+        let crate_ = RigidBody::fixed().position(Vec2::new(19.78, -0.2));
+        world.add_body(crate_.shape(Shape::rect(0.2, 0.2).unwrap())).unwrap();
+        let square =
+            |x: f32, y: f32| ShapeDef::new(Shape::rect(0.5, 0.5).unwrap()).offset(Vec2::new(x, y));
+        let hook =
+            RigidBody::dynamic().position(Vec2::new(20.0, 0.005)).angle(angle).inertia(1.0e5);
+        let hook = hook.shape(square(-0.5, 0.5)).shape(square(0.5, 0.5)).shape(square(0.5, -0.5));
+        let hook = world.add_body(hook).unwrap();
+        for _ in 0..60 {
+            world.step(1.0 / 60.0);
+        }
+        let height = |id| world.body(id).unwrap().position().y;
+        assert!(
+            height(plank) > -0.06 && height(hook) > -0.06,
+            "{angle}: {} {}",
+            height(plank),
+            height(hook)
+        );
     }
 }
 

@@ -18,7 +18,7 @@ use super::narrow_context::{Context, Ground};
 use super::one_way;
 use crate::broad_phase::{BroadPhase, ProxyId, ProxyKind};
 use crate::describe::ChainLink;
-use crate::dynamics::{Bodies, Change, NULL, ShapeRecord, Shapes, guard};
+use crate::dynamics::{Bodies, Change, ShapeRecord, Shapes, guard};
 use crate::geometry::manifold::{
     Manifold, collide_face, face_of, nearest_vertex, point_gap, support_height,
 };
@@ -236,6 +236,17 @@ impl<'a> Seams<'a> {
         ghost
     }
 
+    /// Does what makes one surface with this shape at a point lie over a face, by a real width?
+    fn lies_over(&self, (start, end): (Vec2, Vec2), along: Vec2, point: Vec2) -> bool {
+        let mut over = false;
+        self.each_neighbour(&[point], |neighbour| {
+            let behind = along.dot(end).min(support_height(neighbour, along));
+            let before = along.dot(start).max(-support_height(neighbour, -along));
+            over |= behind - before > REACH * self.ground.length_unit;
+        });
+        over
+    }
+
     fn kind(&self) -> Option<ProxyKind> {
         self.ground.broad_phase.kind(ProxyId(self.record.proxy))
     }
@@ -309,13 +320,8 @@ impl<'a> View<'a> {
                 return self.best_face();
             }
         }
-        if !self.is_ghost(lane, normal) {
-            Verdict::Keep
-        } else if self.is_before_a_face(normal) {
-            Verdict::Drop
-        } else {
-            self.best_face()
-        }
+        let is_ghost = self.is_ghost(lane, normal) && !self.is_before_a_face(lane, normal);
+        if is_ghost { self.best_face() } else { Verdict::Keep }
     }
 
     /// A segment of a chain: its face, or the cone of normals at a corner that sticks out.
@@ -333,12 +339,18 @@ impl<'a> View<'a> {
         if manifold.count == 0 { Verdict::Drop } else { Verdict::Replace(manifold) }
     }
 
-    /// Is it a corner within the surface of a body that moves freely, before a face of the other? The rest of that surface meets
-    /// the face sooner; by a face of this part the normal would be tilted.
-    fn is_before_a_face(&self, normal: Vec2) -> bool {
-        self.seams.kind() == Some(ProxyKind::Dynamic)
-            && face_of(&self.seams.core, normal).is_none()
-            && face_of(&self.other_core, -normal).is_some()
+    /// Is it a corner within the surface of a body that moves freely, before a face of the other over which that surface goes on?
+    /// Then the face is met as what it is: by a face of this part the normal would be tilted.
+    fn is_before_a_face(&self, lane: &LanePoints, normal: Vec2) -> bool {
+        let Self { seams, other_core, .. } = self;
+        let Some(face) = face_of(other_core, -normal) else { return false };
+        let k = usize::from(!lane.is_valid(0, self.context.speculative_distance));
+        let corner = nearest_vertex(&seams.core, self.frame.unapply(lane.point(k)));
+        let (start, end) = other_core.edge(face);
+        let along = (end - start).normalized();
+        seams.kind() == Some(ProxyKind::Dynamic)
+            && face_of(&seams.core, normal).is_none()
+            && seams.lies_over((start, end), along, seams.core.points[corner])
     }
 
     fn is_ghost(&self, lane: &LanePoints, normal: Vec2) -> bool {
@@ -452,18 +464,20 @@ pub(crate) fn refresh(
     // A bit a shape: much less than a sorted list where a large level is built.
     let mut near = vec![0_u64; shapes.records.len().div_ceil(64)];
     let mut mark = |index: u32| near[index as usize / 64] |= 1 << (index % 64);
+    let mut parts = Vec::new();
     for change in changed {
         match change {
             Change::Ground { bounds } => {
                 broad_phase.each_of(ProxyKind::Static, &bounds, u64::MAX, &mut mark);
             }
-            Change::Parts { body } => {
-                let info = bodies.infos.get(body as usize);
-                let first = info.map_or(NULL, |info| info.first_shape);
-                shapes.of_body(first).for_each(&mut mark);
-            }
+            Change::Parts { body } => parts.push(body),
             Change::Moved { .. } => {}
         }
+    }
+    parts.sort_unstable();
+    parts.dedup();
+    for info in parts.into_iter().filter_map(|body| bodies.infos.get(body as usize)) {
+        shapes.of_body(info.first_shape).for_each(&mut mark);
     }
     for (word, mut bits) in near.into_iter().enumerate() {
         while bits != 0 {
@@ -513,16 +527,14 @@ fn touched_features(
     free.fold(bits, |bits, face| bits | guard::free(core.normal(face)))
 }
 
-/// Does `other` lie on a face of `core`, not within it, as far as one of its corners?
+/// Is there a face that `other` touches, at a corner that lies on the surface of that, not within?
 fn goes_on_flush(core: &Core, other: &Core, touched: u32, tolerance: f32) -> bool {
     let count = core.edge_count();
-    let is_touched = |corner: usize| touched & guard::corner(corner % count) != 0;
-    (0..count).any(|i| {
-        let (normal, start) = (core.normal(i), core.edge(i).0);
-        let below = -support_height(other, -normal) - normal.dot(start);
-        let at_a_corner = is_touched(i) || is_touched(i + 1);
-        touched & guard::face(i) != 0 && at_a_corner && below >= -tolerance
-    })
+    let is_flush = |corner: usize| {
+        let corner = corner % count;
+        touched & guard::corner(corner) != 0 && point_gap(other, core.points[corner]) >= -tolerance
+    };
+    (0..count).any(|i| touched & guard::face(i) != 0 && (is_flush(i) || is_flush(i + 1)))
 }
 
 /// Faces and corners of `core` that `other` touches; rather one too many.

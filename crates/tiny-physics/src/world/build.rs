@@ -414,11 +414,8 @@ impl World {
             return;
         }
         let solid = |other: u32| other != shape && !shapes.records[other as usize].sensor;
-        let parts = Change::Parts { body };
-        let is_noted = shapes.changed_ground.iter().rev().take(2).any(|change| *change == parts);
-        if guards && kind != BodyKind::Static && !is_noted && shapes.of_body(first_shape).any(solid)
-        {
-            shapes.changed_ground.push(parts);
+        if guards && kind != BodyKind::Static && shapes.of_body(first_shape).any(solid) {
+            shapes.changed_ground.push(Change::Parts { body });
         }
         if kind != BodyKind::Dynamic
             && let Some(bounds) = broad_phase.fat_aabb(shapes.proxy(shape))
