@@ -253,7 +253,9 @@ fn what_lies_on_the_end_of_something_does_not_fall_through() {
         let post = |x: f32| {
             RigidBody::fixed().position(Vec2::new(x, -1.0)).shape(Shape::rect(0.1, 1.0).unwrap())
         };
-        [-0.11, 0.91].map(|x| world.add_body(post(x)).unwrap());
+        for x in [-0.11, 0.91] {
+            world.add_body(post(x)).unwrap();
+        }
         let board =
             |x: f32| ShapeDef::new(Shape::rect(0.5, 0.05).unwrap()).offset(Vec2::new(x, 0.0));
         let plank = RigidBody::dynamic().position(Vec2::new(0.0, 0.06)).angle(angle);
