@@ -33,8 +33,8 @@ use courses::Course;
 const CHUNK: usize = 256;
 /// What goes no further into another than this part of the smaller half thickness is left to the next step.
 pub(crate) const HARMLESS: f32 = 0.03;
-/// Nor does what goes no further in than this part of the reach of contacts, or than half of what both are half as thick. Two such may add up where one body is
-/// stopped by a third: at 1, 31 of 600 falling heaps had overlaps of more than 3 cm, at 0.7 14.
+/// Nor does what goes no further in than this part of the reach of contacts, unless it is thin: then than half of both half
+/// thicknesses. Two such may add up where one body is stopped by a third: at 1, 31 of 600 falling heaps had overlaps of more than 3 cm, at 0.7 14.
 pub(crate) const SLIGHT: f32 = 0.7;
 
 /// How far shapes will go in the step.
@@ -61,8 +61,8 @@ impl Found {
 footprint!(Found { moved, fast });
 footprint!(Ways { of_shapes } each { found });
 
-/// Lets the fat boxes of what moves further in a step of `dt` seconds than `limit` metres, or than half its thickness, hold all that it goes through, and the
-/// tight ones all that it turns through; these are put right when the step ends. However thick it is: what it meets may be small.
+/// Lets the fat boxes of what moves further in a step of `dt` seconds than `limit` metres, or than half its thickness, hold all
+/// that it goes through, and the tight ones all that it turns through; these are put right when the step ends. However thick it is: what it meets may be small.
 pub(crate) fn reach(
     team: &Team,
     bodies: &Bodies,
