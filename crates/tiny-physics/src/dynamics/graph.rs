@@ -54,11 +54,6 @@ impl Bucket {
         self.heads[block].touching >> lane & 1 != 0
     }
 
-    /// Has any body of its contacts joints?
-    pub(crate) fn is_jointed(&self) -> bool {
-        self.heads.iter().any(|head| head.jointed_a | head.jointed_b != 0)
-    }
-
     /// Makes room for a contact and gives its slot.
     fn reserve(&mut self, index: u32, constrained: bool) -> u32 {
         let slot = self.contacts.len();
@@ -169,6 +164,48 @@ impl Bucket {
         }
     }
 
+    /// A copy of what is at a slot.
+    pub(super) fn lift(&self, slot: usize) -> Lifted {
+        let (block, lane) = (slot / BLOCK, slot % BLOCK);
+        let mut lifted = Lifted {
+            contact: self.contacts[slot],
+            manifold: ManifoldBlock::NULL,
+            constraint: ConstraintBlock::NULL,
+            surface: SurfaceBlock::NULL,
+            head: self.heads[block].lane(lane),
+        };
+        lifted.manifold.copy_lane(0, &self.manifolds[block], lane);
+        lifted.constraint.copy_lane(0, &self.constraints[block], lane);
+        lifted.surface.copy_lane(0, &self.surfaces[block], lane);
+        lifted
+    }
+
+    /// Puts it down at another slot, in place of what is there. Flags are left to [`Self::renew_flags`].
+    pub(super) fn lay(&mut self, slot: usize, lifted: &Lifted) {
+        let (block, lane) = (slot / BLOCK, slot % BLOCK);
+        self.contacts[slot] = lifted.contact;
+        self.manifolds[block].copy_lane(lane, &lifted.manifold, 0);
+        self.constraints[block].copy_lane(lane, &lifted.constraint, 0);
+        self.surfaces[block].copy_lane(lane, &lifted.surface, 0);
+        let head = &mut self.heads[block];
+        let set = |to: u16, from: u16| to & !(1 << lane) | from << lane;
+        head.touching = set(head.touching, lifted.head.touching);
+        head.closing = set(head.closing, lifted.head.closing);
+        head.jointed_a = set(head.jointed_a, lifted.head.jointed_a);
+        head.jointed_b = set(head.jointed_b, lifted.head.jointed_b);
+    }
+
+    /// Finds anew what the lanes of each block use.
+    pub(super) fn renew_flags(&mut self, records: &[Contact]) {
+        let blocks = self.heads.iter_mut().zip(&self.surfaces).zip(self.contacts.chunks(BLOCK));
+        for ((head, surface), contacts) in blocks {
+            let rests = surface.rest_1.iter().chain(&surface.rest_2).any(|&rest| rest > 0.0);
+            let flags = contacts.iter().map(|&index| contact_flags(&records[index as usize]));
+            let flags = flags.fold(0, |all, flags| all | flags) & !flags::RESTS;
+            head.flags = if rests { flags | flags::RESTS } else { flags };
+        }
+    }
+
     /// The impulses of a slot, to be kept while the contact is elsewhere.
     fn saved(&self, slot: u32) -> [SavedPoint; 2] {
         let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
@@ -187,6 +224,15 @@ impl Bucket {
             point(1, manifold.id_2[lane], surface.rest_2[lane]),
         ]
     }
+}
+
+/// What is at a slot of a bucket of contacts that touch: in the first lanes of blocks.
+pub(super) struct Lifted {
+    contact: u32,
+    manifold: ManifoldBlock,
+    constraint: ConstraintBlock,
+    surface: SurfaceBlock,
+    head: BlockHead,
 }
 
 fn contact_flags(contact: &Contact) -> u8 {

@@ -21,6 +21,7 @@ mod places;
 mod schedule;
 mod sensors;
 mod shapes;
+mod tidy;
 #[cfg(test)]
 mod transfer_tests;
 mod transfers;
@@ -34,7 +35,7 @@ pub(crate) use coloured::{COLOURS, IDLE, Place, colour_at, is_overflow, pace_at}
 pub(crate) use contacts::{Contact, Contacts, SavedPoint};
 pub(crate) use disjoint_sets::DisjointSets;
 pub(crate) use edges::next_edge;
-pub(crate) use graph::{BlockAddress, Blocks, Bucket, Graph};
+pub(crate) use graph::{Blocks, Bucket, Graph};
 pub(crate) use joint_blocks::*;
 pub(crate) use joint_forest::{JointTree, TreeAxis, TreeLink, TreeNode, TreeRow, is_rigid};
 pub(crate) use joint_graph::{
@@ -44,8 +45,9 @@ pub(crate) use joints::{JointLoad, JointRecord, Joints};
 pub(crate) use pace::{JOINTED, PACES, PLAIN, REFINEMENT, ROUNDS, STRUCK, WATCHED, is_jointed};
 #[cfg(test)]
 use schedule::Listed;
-pub(crate) use schedule::{Run, Schedule, Source};
+pub(crate) use schedule::{Chosen, Run, Schedule, Source};
 pub(crate) use sensors::{Overlap, Sensors};
 pub(crate) use shapes::{Change, ShapeRecord, Shapes, guard};
+pub(crate) use tidy::Tidy;
 pub(crate) use transfers::Transfers;
 pub(crate) use waiting::Waiting;

@@ -12,12 +12,11 @@ use super::rests::Compliance;
 use super::{integrate, joint_solver, paces, passivity, tree_contacts};
 use crate::describe::Settings;
 use crate::dynamics::{
-    BlockAddress, Bucket, Graph, JOINTED, JointBlocks, JointPlaces, PACES, PLAIN, Place,
-    REFINEMENT, ROUNDS, Schedule, pace_at,
+    Chosen, JOINTED, JointBlocks, JointPlaces, PACES, PLAIN, REFINEMENT, ROUNDS, Schedule,
 };
 use crate::footprint::footprint;
 use crate::math::Vec2;
-use crate::simd::{BLOCK, SimdLevel};
+use crate::simd::SimdLevel;
 use crate::threads::{SharedRows, Team};
 
 /// Contacts against static bodies are this much stiffer.
@@ -146,9 +145,10 @@ impl Rules {
 #[derive(Debug, Default)]
 pub(crate) struct Solver {
     schedule: Schedule,
-    /// Contacts of squeezed bodies, and of hard hits.
-    squeezed: More,
-    hit: More,
+    /// Contacts of squeezed bodies, of hard hits, and of bodies with joints.
+    squeezed: Chosen,
+    hit: Chosen,
+    jointed: Chosen,
     arcs: Arcs,
     tree_contacts: tree_contacts::TreeContacts,
     bounces: BounceMemory,
@@ -161,6 +161,7 @@ footprint!(Solver {
     schedule,
     squeezed,
     hit,
+    jointed,
     arcs,
     tree_contacts,
     bounces,
@@ -188,8 +189,9 @@ impl Solver {
             let first = stores.bodies.infos[body as usize].first_contact;
             stores.contacts.of_body(first).map(|(contact, _)| contact)
         });
-        self.squeezed.list(stores, squeezed);
-        self.hit.list(stores, predictions.hard.iter().copied());
+        self.squeezed.list(stores.graph, stores.contacts, squeezed);
+        self.hit.list(stores.graph, stores.contacts, predictions.hard.iter().copied());
+        self.jointed.list_blocks(stores.graph, |head| head.jointed_a | head.jointed_b != 0);
         let dt = rules.lengths.dt;
         let most = rules.settings.push_speed * rules.settings.length_unit * dt;
         self.arcs.list(team, stores, scope.shapes, predictions, (dt, most));
@@ -227,13 +229,27 @@ impl Solver {
         listed: &[u32],
         scope: Scope<'_>,
     ) {
-        let Self { schedule, squeezed, hit, tree_contacts, bounces, passivity, broken, .. } = self;
+        let Self {
+            schedule,
+            squeezed,
+            hit,
+            jointed,
+            tree_contacts,
+            bounces,
+            passivity,
+            broken,
+            ..
+        } = self;
         let Rules { settings, gravity, level, lengths: lengths @ Lengths { h, .. } } = rules;
         let joint_substep = Substep::new(h, settings.length_unit);
         let parameters = rules.contact_parameters();
         schedule.fill_pace(stores.graph, pace, contact_solver::CHUNK);
-        let squeezed_rounds = squeezed.take(pace, stores.graph, SQUEEZED_ROUNDS);
-        let hit_rounds = hit.take(pace, stores.graph, HIT_ROUNDS);
+        let rounds = |chosen: &mut Chosen, rounds| {
+            if chosen.take(stores.graph, pace, contact_solver::CHUNK) { rounds } else { 0 }
+        };
+        let squeezed_rounds = rounds(squeezed, SQUEEZED_ROUNDS);
+        let hit_rounds = rounds(hit, HIT_ROUNDS);
+        let any_jointed = rounds(jointed, 1) > 0;
         integrate::prepare(team, listed, stores.bodies, gravity, h);
         let places = stores.joint_graph.places_of(pace);
         prepare_joints(team, stores, level, pace, &places, joint_substep);
@@ -241,8 +257,10 @@ impl Solver {
         if watched {
             passivity.find(pace, listed, stores);
         }
-        let Stores { bodies, graph, .. } = stores;
-        contact_solver::run_bounces(team, level, &parameters, bodies, graph, schedule, bounces);
+        let Stores { bodies, contacts, graph, .. } = stores;
+        let bouncing = (&mut **bodies, &**contacts, &mut **graph);
+        let scheduled = (pace, listed, &*schedule);
+        contact_solver::run_bounces(team, level, &parameters, bouncing, scheduled, bounces);
         let max_speed = settings.max_speed * settings.length_unit;
         broken.list(stores.joint_graph, stores.joints, pace);
 
@@ -257,9 +275,9 @@ impl Solver {
         let mut contacts = |stores: &mut Stores<'_>, pass| {
             let trees = &mut stores.joint_graph.forest.trees;
             tree_contacts.run(level, pass, &parameters, &mut stores.bodies.rows, trees);
-            in_lanes(stores, pass, schedule);
+            let jointed_alone = pass == Pass::WarmStartJointed;
+            in_lanes(stores, pass, if jointed_alone { &jointed.schedule } else { schedule });
         };
-        let jointed = stores.graph.of_pace(pace).iter().any(Bucket::is_jointed);
         for substep in 0..lengths.substeps {
             let first = substep == 0;
             self.arcs.renew((stores.bodies, stores.graph), scope, (pace, h), first);
@@ -267,7 +285,7 @@ impl Solver {
             joints(stores, joint_solver::Pass::WarmStart);
             if first {
                 contacts(stores, Pass::WarmStart);
-            } else if jointed {
+            } else if any_jointed {
                 contacts(stores, Pass::WarmStartJointed);
             }
             for _ in 0..lengths.iterations {
@@ -297,43 +315,6 @@ impl Solver {
         joints(stores, joint_solver::Pass::Finish);
         tree_contacts.give_back(stores);
         integrate::bound(team, listed, stores.bodies, max_speed);
-    }
-}
-
-/// Blocks that are solved some more times in a pass.
-#[derive(Debug, Default)]
-struct More {
-    /// All of them, sorted.
-    blocks: Vec<BlockAddress>,
-    /// Those of the pace at hand.
-    schedule: Schedule,
-}
-
-footprint!(More { blocks, schedule });
-
-impl More {
-    /// Lists the blocks of contacts that touch, each once.
-    fn list(&mut self, stores: &Stores<'_>, contacts: impl Iterator<Item = u32>) {
-        self.blocks.clear();
-        self.blocks.extend(contacts.filter_map(|index| {
-            let contact = &stores.contacts.records[index as usize];
-            match contact.place {
-                Place::Graph { colour, slot } if stores.graph.touches(contact) => {
-                    Some((colour, contact.class as u8, slot / BLOCK as u32))
-                }
-                _ => None,
-            }
-        }));
-        self.blocks.sort_unstable();
-        self.blocks.dedup();
-    }
-
-    /// Schedules those of a pace; says how often they are solved, none at all not once.
-    fn take(&mut self, pace: usize, graph: &Graph, rounds: usize) -> usize {
-        let at = |pace| self.blocks.partition_point(|at| pace_at(at.0.into()) < pace);
-        let blocks = &self.blocks[at(pace)..at(pace + 1)];
-        self.schedule.fill_with(graph, blocks, contact_solver::CHUNK);
-        if blocks.is_empty() { 0 } else { rounds }
     }
 }
 

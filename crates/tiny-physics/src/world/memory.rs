@@ -10,6 +10,7 @@ footprint!(Scratch {
     search,
     created,
     transfers,
+    tidy,
     changes,
     ways,
     predictions,

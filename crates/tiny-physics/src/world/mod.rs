@@ -46,7 +46,7 @@ pub use shapes::ShapeRef;
 pub use stats::{Stage, Stats};
 
 use crate::describe::Settings;
-use crate::dynamics::{Overlap, Schedule, Transfers};
+use crate::dynamics::{Overlap, Schedule, Tidy, Transfers};
 use crate::error::Error;
 use crate::math::Vec2;
 use crate::simd::SimdLevel;
@@ -109,6 +109,7 @@ struct Scratch {
     search: pairs::Search,
     created: Vec<u32>,
     transfers: Transfers,
+    tidy: Tidy,
     changes: Changes,
     found_changes: Vec<Changes>,
     findings: Vec<Findings>,
@@ -267,6 +268,8 @@ impl World {
     /// Computes the manifolds and constraints of all contacts in the graph.
     fn update_manifolds(&mut self, team: &Team, lengths: Lengths) {
         self.scratch.predictions.clear();
+        let State { bodies, contacts, graph, step_count, .. } = &mut self.state;
+        self.scratch.tidy.run(*step_count, graph, bodies, contacts);
         self.scratch.schedule.fill(&self.state.graph, narrow_phase::CHUNK);
         self.run_narrow_phase(team, lengths, true);
         self.state.graph.take_closing(&mut self.scratch.predictions.candidates);

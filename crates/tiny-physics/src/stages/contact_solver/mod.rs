@@ -226,10 +226,6 @@ impl LaneKernel for RunPass<'_, '_> {
             for ((block, surface), &mut head) in solved.zip(blocks.heads) {
                 let lanes = 0..left.min(BLOCK);
                 left -= lanes.end;
-                let waits = work.pass == Pass::WarmStartJointed;
-                if waits && head.jointed_a | head.jointed_b == 0 {
-                    continue;
-                }
                 match run.class.max_points() {
                     1 => work.block::<L, 1>(token, (block, surface), head, lanes, constants),
                     _ => work.block::<L, 2>(token, (block, surface), head, lanes, constants),
