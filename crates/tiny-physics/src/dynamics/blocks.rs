@@ -218,6 +218,16 @@ record! {
 }
 
 impl BlockHead {
+    /// Copies what another head knows of one of its lanes into a lane of this one.
+    pub(super) fn copy_lane(&mut self, to: usize, source: &Self, from: usize) {
+        let set = |all: u16, lanes: u16| all & !(1 << to) | (lanes >> from & 1) << to;
+        self.touching = set(self.touching, source.touching);
+        self.closing = set(self.closing, source.closing);
+        self.jointed_a = set(self.jointed_a, source.jointed_a);
+        self.jointed_b = set(self.jointed_b, source.jointed_b);
+        self.flags |= source.flags;
+    }
+
     /// That of a block whose first lane is this one, and whose others are empty.
     pub(crate) fn lane(&self, lane: usize) -> Self {
         let first = |lanes: u16| lanes >> lane & 1;

@@ -133,12 +133,7 @@ impl Bucket {
             move_lane(&mut self.surfaces, to, from);
         }
         let last_head = self.heads[last_block];
-        let move_bit = |to: u16, from: u16| to & !(1 << lane) | (from >> last_lane & 1) << lane;
-        let head = &mut self.heads[block];
-        head.touching = move_bit(head.touching, last_head.touching);
-        head.jointed_a = move_bit(head.jointed_a, last_head.jointed_a);
-        head.jointed_b = move_bit(head.jointed_b, last_head.jointed_b);
-        head.flags |= last_head.flags;
+        self.heads[block].copy_lane(lane, &last_head, last_lane);
         let last_head = &mut self.heads[last_block];
         for bits in [&mut last_head.touching, &mut last_head.jointed_a, &mut last_head.jointed_b] {
             *bits &= !(1 << last_lane);
@@ -164,11 +159,11 @@ impl Bucket {
         }
     }
 
-    /// A copy of what is at a slot.
-    pub(super) fn lift(&self, slot: usize) -> Lifted {
-        let (block, lane) = (slot / BLOCK, slot % BLOCK);
+    /// A copy of what is at a slot of contacts that touch.
+    pub(super) fn lift(&self, slot: u32) -> Lifted {
+        let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
         let mut lifted = Lifted {
-            contact: self.contacts[slot],
+            contact: self.contacts[slot as usize],
             manifold: ManifoldBlock::NULL,
             constraint: ConstraintBlock::NULL,
             surface: SurfaceBlock::NULL,
@@ -180,30 +175,16 @@ impl Bucket {
         lifted
     }
 
-    /// Puts it down at another slot, in place of what is there. Flags are left to [`Self::renew_flags`].
-    pub(super) fn lay(&mut self, slot: usize, lifted: &Lifted) {
-        let (block, lane) = (slot / BLOCK, slot % BLOCK);
-        self.contacts[slot] = lifted.contact;
-        self.manifolds[block].copy_lane(lane, &lifted.manifold, 0);
-        self.constraints[block].copy_lane(lane, &lifted.constraint, 0);
-        self.surfaces[block].copy_lane(lane, &lifted.surface, 0);
-        let head = &mut self.heads[block];
-        let set = |to: u16, from: u16| to & !(1 << lane) | from << lane;
-        head.touching = set(head.touching, lifted.head.touching);
-        head.closing = set(head.closing, lifted.head.closing);
-        head.jointed_a = set(head.jointed_a, lifted.head.jointed_a);
-        head.jointed_b = set(head.jointed_b, lifted.head.jointed_b);
-    }
-
-    /// Finds anew what the lanes of each block use.
-    pub(super) fn renew_flags(&mut self, records: &[Contact]) {
-        let blocks = self.heads.iter_mut().zip(&self.surfaces).zip(self.contacts.chunks(BLOCK));
-        for ((head, surface), contacts) in blocks {
-            let rests = surface.rest_1.iter().chain(&surface.rest_2).any(|&rest| rest > 0.0);
-            let flags = contacts.iter().map(|&index| contact_flags(&records[index as usize]));
-            let flags = flags.fold(0, |all, flags| all | flags) & !flags::RESTS;
-            head.flags = if rests { flags | flags::RESTS } else { flags };
-        }
+    /// Puts it down at another slot, in place of what is there. Gives its contact.
+    pub(super) fn lay(&mut self, slot: u32, lifted: &Lifted) -> u32 {
+        let Lifted { contact, manifold, constraint, surface, head: from } = lifted;
+        let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
+        self.contacts[slot as usize] = *contact;
+        self.manifolds[block].copy_lane(lane, manifold, 0);
+        self.constraints[block].copy_lane(lane, constraint, 0);
+        self.surfaces[block].copy_lane(lane, surface, 0);
+        self.heads[block].copy_lane(lane, from, 0);
+        *contact
     }
 
     /// The impulses of a slot, to be kept while the contact is elsewhere.

@@ -3,30 +3,32 @@
 //! Order within a colour changes no result. But the members of a team take the same parts of all colours, one after the
 //! other: if neighbours in a colour are of neighbouring bodies, each works on bodies of its own, and what moves a body is
 //! seldom far away in another core. As contacts come and go that order is lost: two threads took longer than one then.
-//! So in each step the large buckets of one colour are sorted. With bodies that were added from left to right, say, it is an
-//! order in space; with others it still keeps contacts of a body together.
+//! So in each step the large buckets of one colour are put in order again, roughly, so that few contacts have to move. With
+//! bodies that were added from left to right, say, it is an order in space.
 
 use super::bodies::Bodies;
 use super::coloured::{COLOURS, IDLE, Place, colour_at};
-use super::contacts::Contacts;
+use super::contacts::{Contact, Contacts};
 use super::graph::{Bucket, Graph, place_at};
-use crate::math::sort_by_number;
 
 /// Buckets with fewer contacts are not shared out to much effect.
 const MANY: usize = 128;
+/// Parts that bodies are divided into.
+const PARTS: usize = 32;
 
-/// Lists that sorting fills anew; kept for their memory.
+/// Lists that are filled anew; kept for their memory.
 #[derive(Debug, Default)]
 pub(crate) struct Tidy {
-    /// Body in the upper half, slot in the lower.
-    order: Vec<u64>,
-    spare: Vec<u64>,
+    /// Contacts that lie where those of another part belong: their own part in the upper half, their slot in the lower.
+    astray: Vec<u64>,
+    /// Their slots, ascending.
+    slots: Vec<u32>,
 }
 
-crate::footprint::footprint!(Tidy { order, spare });
+crate::footprint::footprint!(Tidy { astray, slots });
 
 impl Tidy {
-    /// Sorts the buckets of one colour at all paces: of another one in each step. No block is fresh meanwhile.
+    /// Puts the buckets of one colour in order, at all paces: of another one in each step. Comes before a narrow phase of all blocks.
     pub(crate) fn run(
         &mut self,
         step: u64,
@@ -35,56 +37,60 @@ impl Tidy {
         contacts: &mut Contacts,
     ) {
         let colour = (step % COLOURS as u64) as usize;
+        let part = |(a, b): (u32, u32)| a.max(b) as usize * PARTS / bodies.infos.len();
         for (key, bucket) in graph.buckets.entries_mut() {
             let place = place_at(key);
             if place != IDLE && colour_at(place) == colour && bucket.contacts.len() >= MANY {
-                self.sort(bucket, place, bodies, contacts);
+                self.find(bucket, part);
+                self.move_all(bucket, place, &mut contacts.records);
             }
         }
     }
 
-    fn sort(
-        &mut self,
-        bucket: &mut Bucket,
-        place: usize,
-        bodies: &Bodies,
-        contacts: &mut Contacts,
-    ) {
-        let Self { order, spare } = self;
-        order.clear();
-        order.extend((0..bucket.contacts.len()).map(|slot| {
-            let (a, b) = bucket.bodies(slot);
-            let body = if bodies.is_dynamic(a) { a } else { b };
-            u64::from(body) << 32 | slot as u64
-        }));
-        if order.is_sorted() {
-            return;
+    /// Finds what is astray. As much of a part is where others belong as of others is where it belongs, so the `k`th of those
+    /// that are astray, sorted by part, goes to the `k`th of their slots.
+    fn find(&mut self, bucket: &Bucket, part: impl Fn((u32, u32)) -> usize) {
+        let Self { astray, slots } = self;
+        (astray.clear(), slots.clear());
+        let mut ends = [0; PARTS];
+        (0..bucket.contacts.len()).for_each(|slot| ends[part(bucket.bodies(slot))] += 1);
+        let mut slot = 0;
+        for (here, count) in ends.into_iter().enumerate() {
+            for _ in 0..count {
+                let own = part(bucket.bodies(slot));
+                if own != here {
+                    astray.push((own as u64) << 32 | slot as u64);
+                    slots.push(slot as u32);
+                }
+                slot += 1;
+            }
         }
-        sort_by_number(order, spare, |&entry| entry);
-        for start in 0..order.len() {
-            move_round(bucket, order, start);
-        }
-        for (slot, &index) in (0..).zip(&bucket.contacts) {
-            contacts.records[index as usize].place = Place::Graph { colour: place as u8, slot };
-        }
-        bucket.renew_flags(&contacts.records);
+        astray.sort_unstable();
     }
-}
 
-/// Moves what is to go to a slot there, what is to go to where that was, and so on, until all of them are where they belong.
-fn move_round(bucket: &mut Bucket, order: &mut [u64], start: usize) {
-    let from = |entry: u64| entry as u32 as usize;
-    if from(order[start]) == start {
-        return;
-    }
-    let first = bucket.lift(start);
-    let mut hole = start;
-    loop {
-        let next = from(core::mem::replace(&mut order[hole], hole as u64));
-        if next == start {
-            return bucket.lay(hole, &first);
+    /// Moves what is to go to a slot there, what is to go to where that was, and so on, round by round.
+    fn move_all(&mut self, bucket: &mut Bucket, place: usize, records: &mut [Contact]) {
+        let Self { astray, slots } = self;
+        let mut put = |bucket: &mut Bucket, slot: u32, lifted| {
+            let contact = &mut records[bucket.lay(slot, &lifted) as usize];
+            contact.place = Place::Graph { colour: place as u8, slot };
+        };
+        for start in 0..slots.len() {
+            let from = |entry: u64| entry as u32;
+            if from(astray[start]) == slots[start] {
+                continue;
+            }
+            let first = bucket.lift(slots[start]);
+            let mut hole = start;
+            loop {
+                let next = from(core::mem::replace(&mut astray[hole], slots[hole].into()));
+                if next == slots[start] {
+                    break put(bucket, slots[hole], first);
+                }
+                let lifted = bucket.lift(next);
+                put(bucket, slots[hole], lifted);
+                hole = slots.partition_point(|&slot| slot < next);
+            }
         }
-        bucket.lay(hole, &bucket.lift(next));
-        hole = next;
     }
 }

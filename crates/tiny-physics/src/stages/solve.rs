@@ -245,7 +245,7 @@ impl Solver {
         let parameters = rules.contact_parameters();
         schedule.fill_pace(stores.graph, pace, contact_solver::CHUNK);
         let rounds = |chosen: &mut Chosen, rounds| {
-            if chosen.take(stores.graph, pace, contact_solver::CHUNK) { rounds } else { 0 }
+            if chosen.take(stores.graph, pace, 8 * contact_solver::CHUNK) { rounds } else { 0 }
         };
         let squeezed_rounds = rounds(squeezed, SQUEEZED_ROUNDS);
         let hit_rounds = rounds(hit, HIT_ROUNDS);
@@ -257,10 +257,8 @@ impl Solver {
         if watched {
             passivity.find(pace, listed, stores);
         }
-        let Stores { bodies, contacts, graph, .. } = stores;
-        let bouncing = (&mut **bodies, &**contacts, &mut **graph);
-        let scheduled = (pace, listed, &*schedule);
-        contact_solver::run_bounces(team, level, &parameters, bouncing, scheduled, bounces);
+        let Stores { bodies, graph, .. } = stores;
+        contact_solver::run_bounces(team, level, &parameters, bodies, graph, schedule, bounces);
         let max_speed = settings.max_speed * settings.length_unit;
         broken.list(stores.joint_graph, stores.joints, pace);
 

@@ -46,6 +46,7 @@
 mod crew;
 #[cfg(all(feature = "parallel", target_has_atomic = "64", not(target_family = "wasm")))]
 mod crew;
+mod habit;
 mod pool;
 #[cfg(tiny_physics_race)]
 mod race;
@@ -53,5 +54,6 @@ mod shared;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use habit::Habit;
 pub(crate) use pool::{Pool, Team};
 pub(crate) use shared::{RowsAt, SharedRows, SharedSlice};

@@ -58,7 +58,7 @@ use crate::stages::{
     ahead, arcs, boxes, continuous, finalize, narrow_context, narrow_phase, paces, pairs, rocking,
     sleep, solve, surfaces, sway, touching,
 };
-use crate::threads::{Pool, Team};
+use crate::threads::{Habit, Pool, Team};
 use state::State;
 use stats::Stopwatch;
 use std::sync::OnceLock;
@@ -125,6 +125,8 @@ struct Scratch {
     hinges: Vec<u32>,
     schedule: Schedule,
     solver: Solver,
+    /// Is the solver's work shared out?
+    solving: Habit,
     sway: sway::Memory,
     overlaps: Vec<Overlap>,
     found_overlaps: Vec<Vec<Overlap>>,
@@ -446,9 +448,12 @@ impl World {
     fn solve(&mut self, team: &Team, lengths: Lengths) {
         let rules = self.solver_rules(lengths);
         let reach = self.contact_reach();
-        let Scratch { solver, predictions, .. } = &mut self.scratch;
+        let Scratch { solver, solving, predictions, .. } = &mut self.scratch;
         let (shapes, mut stores) = self.state.shapes_and_solved();
-        solver.run(team, &mut stores, rules, predictions, arcs::Scope { shapes, reach });
+        let amount = stores.graph.touching_count();
+        solving.run(team, amount, |team| {
+            solver.run(team, &mut stores, rules, predictions, arcs::Scope { shapes, reach });
+        });
         self.stats.withheld_energy = self.scratch.solver.passivity.withheld;
         self.collect_hits();
         self.break_joints();

@@ -15,8 +15,7 @@ use super::normals::Normal;
 use super::pair::{Constants, Pair, Stride};
 use super::{CHUNK, Parameters};
 use crate::dynamics::{
-    Bodies, Chosen, ConstraintBlock, Contacts, Graph, LaneBlock, PointLanes, Schedule, flags,
-    is_overflow,
+    Bodies, ConstraintBlock, Graph, LaneBlock, PointLanes, Schedule, flags, is_overflow,
 };
 use crate::footprint::footprint;
 use crate::geometry::manifold::PairClass;
@@ -34,8 +33,6 @@ const ITERATIONS: usize = 8;
 const LEAST_DETERMINANT: f32 = 1e-4;
 /// Fewer hits than this are no reason to wake threads for copying them.
 const MANY: usize = 128;
-/// If fewer than one in so many bodies have bounced, their contacts are looked for by body, else in all blocks.
-const FEW: usize = 32;
 /// What would leave more slowly than this part of the threshold is not handed on; of what is hardly bouncy more, in
 /// inverse proportion to its restitution: there little is left to hand on, and it would cost as much.
 const HANDED_ON: f32 = 0.1;
@@ -82,35 +79,26 @@ pub(crate) struct Memory {
     /// Has a body bounced in the round before?
     marks: Vec<bool>,
     marked: Vec<u32>,
-    /// The blocks of its contacts.
-    around: Chosen,
 }
 
 footprint!(Batch { blocks, aims, sources, targets } none { place });
-footprint!(Memory { marks, marked, around } each { batches, hits });
+footprint!(Memory { marks, marked } each { batches, hits });
 
 /// Reflects what hits something bouncy, round by round.
 pub(crate) fn run(
     team: &Team,
     level: SimdLevel,
     parameters: &Parameters,
-    (bodies, contacts, graph): (&mut Bodies, &Contacts, &mut Graph),
-    (pace, listed, schedule): (usize, &[u32], &Schedule),
+    bodies: &mut Bodies,
+    graph: &mut Graph,
+    schedule: &Schedule,
     memory: &mut Memory,
 ) {
-    let Memory { batches, hits, marks, marked, around } = memory;
+    let Memory { batches, hits, marks, marked } = memory;
     marks.resize(bodies.infos.len(), false);
     for round in 0..ROUNDS {
-        let near = (round > 0).then_some(&marks[..]);
-        let mut schedule = schedule;
-        if round > 0 && marked.len() < listed.len() / FEW {
-            let of_body = |&body: &u32| contacts.of_body(bodies.infos[body as usize].first_contact);
-            let chosen = marked.iter().flat_map(of_body).map(|(contact, _)| contact);
-            around.list(graph, contacts, chosen);
-            around.take(graph, pace, search::CHUNK);
-            schedule = &around.schedule;
-        }
         let rows = SharedRows::new(&mut bodies.rows);
+        let near = (round > 0).then_some(&marks[..]);
         let (motions, leave) = (&bodies.motions, HANDED_ON * parameters.restitution_threshold);
         let search = Search { graph, rows, parameters, motions, near, leave };
         let hits = search.run(team, level, schedule, hits);

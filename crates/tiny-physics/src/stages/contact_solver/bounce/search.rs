@@ -8,7 +8,7 @@ use crate::stages::contact_solver::pair::{Constants, Pair, Stride};
 use crate::threads::{SharedRows, Team};
 
 /// Blocks that one member of the team searches at a time.
-pub(super) const CHUNK: usize = 32;
+const CHUNK: usize = 32;
 
 /// A contact that bounces.
 #[derive(Clone, Copy, Debug)]
