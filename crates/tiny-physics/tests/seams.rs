@@ -480,3 +480,62 @@ fn a_chain_holds_shapes_far_from_their_origin() {
         }
     }
 }
+
+/// Tiles that are a little apart still make one surface, also for what has its middle over the gap.
+#[test]
+fn what_is_over_a_narrow_gap_stays_on_the_tiles() {
+    let diamond = |size: f32| Shape::regular(4, size).unwrap();
+    for gap in [0.0002, 0.0007, 0.001, 0.0015, 0.0019, 0.0025, 0.004] {
+        let mut floor = world();
+        for i in -4..4 {
+            let at = Vec2::new((i as f32 + 0.5) * (1.0 + gap), -0.5);
+            floor.add_body(RigidBody::fixed().position(at).shape(tile())).unwrap();
+        }
+        for k in 0..12 {
+            let (size, off) = ([0.1, 0.25, 0.5][k % 3], gap * (k as f32 / 11.0 - 0.5));
+            for (i, shape) in [Shape::circle(size).unwrap(), diamond(size)].into_iter().enumerate()
+            {
+                for speed in [0.0, 0.05, 2.0, 20.0] {
+                    let mut world = floor.clone();
+                    // Both sink into the corners of a gap by less than a tenth of a millimetre.
+                    let at = Vec2::new(off, size + 0.01);
+                    let body = RigidBody::dynamic().position(at).velocity(Vec2::new(0.0, -speed));
+                    let body = body.shape(ShapeDef::new(shape).friction(0.5));
+                    let body = world.add_body(body).unwrap();
+                    (0..120).for_each(|_| world.step(1.0 / 60.0));
+                    let y = world.body(body).unwrap().position().y;
+                    let least = if i == 0 { size } else { 0.7 * size };
+                    assert!(
+                        y > least - 0.01,
+                        "gap {gap}, {i} of {size} at {off} with {speed}: {y}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// A ball that rolls over such gaps, fast or slowly, is not held up and does not sink.
+#[test]
+fn balls_roll_over_narrow_gaps() {
+    for gap in [0.0005, 0.001, 0.0019] {
+        for (size, speed) in [(0.05, 0.1), (0.05, 1.0), (0.2, 0.3), (0.3, 3.0), (0.5, 10.0)] {
+            let mut world = world();
+            for i in -2..60 {
+                let at = Vec2::new((i as f32 + 0.5) * (1.0 + gap), -0.5);
+                world.add_body(RigidBody::fixed().position(at).shape(tile())).unwrap();
+            }
+            let body = RigidBody::dynamic().position(Vec2::new(-0.05, size));
+            let body = body.velocity(Vec2::new(speed, 0.0)).angular_velocity(-speed / size);
+            let body = body.can_sleep(false).shape(Shape::circle(size).unwrap());
+            let body = world.add_body(body).unwrap();
+            for _ in 0..240 {
+                world.step(1.0 / 60.0);
+                let body = world.body(body).unwrap();
+                let (y, v) = (body.position().y, body.velocity());
+                assert!((y - size).abs() < 0.007, "gap {gap}, {size} at {speed}: {y}");
+                assert!(v.x > 0.98 * speed && v.y < 0.03, "gap {gap}, {size} at {speed}: {v:?}");
+            }
+        }
+    }
+}

@@ -334,8 +334,9 @@ impl<'a> View<'a> {
         if self.seams.link_has(link, normal) {
             return Verdict::Keep;
         }
+        let Self { seams, other_core, context, .. } = self;
         let manifold =
-            collide_face(&self.seams.core, 0, &self.other_core, self.context.speculative_distance);
+            collide_face(&seams.core, 0, [0.0; 2], other_core, context.speculative_distance);
         if manifold.count == 0 { Verdict::Drop } else { Verdict::Replace(manifold) }
     }
 
@@ -394,8 +395,15 @@ impl<'a> View<'a> {
         }
     }
 
+    /// The contact with a face. Where others touch its ends it goes on a little: a ball whose middle is over the gap between two
+    /// tiles would find neither.
     fn collide(&self, face: usize) -> Manifold {
-        collide_face(&self.seams.core, face, &self.other_core, self.context.speculative_distance)
+        let Self { seams, other_core, context, .. } = self;
+        let beyond = [face, (face + 1) % seams.core.points().len()].map(|corner| {
+            let goes_on = seams.guard & guard::corner(corner) != 0;
+            if goes_on { TOLERANCE * seams.ground.length_unit } else { 0.0 }
+        });
+        collide_face(&seams.core, face, beyond, other_core, context.speculative_distance)
     }
 
     /// The direction of a one-way platform.

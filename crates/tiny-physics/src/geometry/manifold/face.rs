@@ -3,6 +3,7 @@
 use super::{Manifold, ManifoldPoint};
 use crate::geometry::{Core, least_by, segment_fraction};
 use crate::math::Vec2;
+use core::ops::Range;
 
 /// Ids of these points begin here, above those of every other kernel.
 const FIRST_ID: u16 = 4096;
@@ -42,10 +43,12 @@ pub(crate) fn nearest_vertex(core: &Core, point: Vec2) -> usize {
 }
 
 /// Where `other` touches one face of `core`, both in the frame of `core`; the normal is the face's. Empty
-/// where the side of `other` that looks at the face lies beside it or too high above.
+/// where the side of `other` that looks at the face lies beside it or too high above. The face counts as so much longer `beyond`
+/// its start and its end.
 pub(crate) fn collide_face(
     core: &Core,
     face: usize,
+    beyond: [f32; 2],
     other: &Core,
     max_separation: f32,
 ) -> Manifold {
@@ -60,7 +63,7 @@ pub(crate) fn collide_face(
     let ends = [place(low), place(high)];
     let mut manifold = Manifold { normal, ..Manifold::EMPTY };
     let narrow = NARROW * (length + (ends[0].0 - ends[1].0).abs());
-    let Some(ends) = clip(ends, length) else { return Manifold::EMPTY };
+    let Some(ends) = clip(ends, -beyond[0]..length + beyond[1]) else { return Manifold::EMPTY };
     let single = (ends[0].0 - ends[1].0).abs() <= narrow;
     let first = usize::from(single && ends[1].1 < ends[0].1);
     let count = if single { 1 } else { 2 };
@@ -83,18 +86,18 @@ fn facing_edge(core: &Core, direction: Vec2) -> (usize, (Vec2, Vec2)) {
     (facing, core.edge(facing))
 }
 
-/// The part of a line between (across, height) points that lies over 0 to `length`.
-fn clip(ends: [(f32, f32); 2], length: f32) -> Option<[(f32, f32); 2]> {
+/// The part of a line between (across, height) points that lies over a range.
+fn clip(ends: [(f32, f32); 2], over: Range<f32>) -> Option<[(f32, f32); 2]> {
     let [(u, h), (v, k)] = ends;
     let (low, high) = if u < v { (u, v) } else { (v, u) };
-    if high < 0.0 || low > length {
+    if high < over.start || low > over.end {
         return None;
     }
     let at = |across: f32, own: f32| {
-        let limited = if across < 0.0 {
-            0.0
-        } else if across > length {
-            length
+        let limited = if across < over.start {
+            over.start
+        } else if across > over.end {
+            over.end
         } else {
             return (across, own);
         };
@@ -118,16 +121,19 @@ mod tests {
         let tile = Shape::rect(0.5, 0.5).unwrap().core();
         let crate_ = at(Shape::rect(0.5, 0.5).unwrap(), 0.25, 0.99);
         let top = face_of(&tile, Vec2::Y).unwrap();
-        let manifold = collide_face(&tile, top, &crate_, 0.02);
+        let manifold = collide_face(&tile, top, [0.0; 2], &crate_, 0.02);
         assert_eq!((manifold.count, manifold.normal), (2, Vec2::Y));
         let mut across = [manifold.points[0].point.x, manifold.points[1].point.x];
         across.sort_by(f32::total_cmp);
         assert_eq!(across, [-0.25, 0.5]);
         assert!(manifold.points().iter().all(|p| (p.separation + 0.01).abs() < 1e-6));
         let beside = at(Shape::circle(0.2).unwrap(), 0.51, 0.7);
-        assert_eq!(collide_face(&tile, top, &beside, 0.02), Manifold::EMPTY);
+        assert_eq!(collide_face(&tile, top, [0.0; 2], &beside, 0.02), Manifold::EMPTY);
+        // Unless the face goes on there; the point is then beyond its end, too.
+        let longer = collide_face(&tile, top, [0.0, 0.02], &beside, 0.02);
+        assert_eq!((longer.count, longer.points[0].point.x), (1, 0.51));
         let above = at(Shape::circle(0.2).unwrap(), 0.49, 0.71);
-        assert_eq!(collide_face(&tile, top, &above, 0.02).count, 1);
+        assert_eq!(collide_face(&tile, top, [0.0; 2], &above, 0.02).count, 1);
     }
 
     #[test]
