@@ -127,6 +127,53 @@ fn kinematic_walls_and_flippers_push_what_they_meet() {
     });
 }
 
+/// What a motor sets going within a step: by its velocity at the start it would hit nothing.
+#[test]
+fn flippers_and_plungers_with_motors_push_what_they_meet() {
+    // On something fixed or on a heavy base, with or without a limit, as strong as it likes or not.
+    all(300, |random| {
+        let (size, rate) = (random.range(0.05, 0.3), random.range(8.0, 60.0));
+        let mut world = weightless();
+        let base = rect(0.3, 0.3);
+        let base = match random.part() < 0.5 {
+            true => RigidBody::fixed(),
+            false => RigidBody::dynamic().shape(ShapeDef::new(base).density(500.0)),
+        };
+        let base = world.add_body(base.position(Vec2::new(-1.0, 0.0))).unwrap();
+        let bar = ShapeDef::new(rect(1.0, 0.06)).offset(Vec2::X).density(random.range(0.5, 5.0));
+        let bar = world.add_body(RigidBody::dynamic().shape(bar)).unwrap();
+        let hinge = JointDef::revolute().anchors(Vec2::X, Vec2::ZERO);
+        let hinge = if random.part() < 0.5 { hinge.limits(-0.5, 0.9) } else { hinge };
+        let strongest = 10_f32.powf(random.range(3.0, 6.0));
+        let hinge = world.add_joint(base, bar, hinge.motor(0.0, strongest)).unwrap();
+        steps(&mut world, 3);
+        let (arm, gap) = (random.range(0.4, 1.9), random.range(0.0, 0.5) * random.part());
+        let shape = random.shape(size);
+        let ball = world.add_body(dynamic(shape, arm, 0.06 + 1.5 * size + gap)).unwrap();
+        world.joint_mut(hinge).unwrap().set_motor_speed(rate).unwrap();
+        steps(&mut world, (1.5 / (rate * DT)) as u32 + 1);
+        let place = seen_from(&world, bar, ball);
+        place.y > 0.0 || place.x > 2.2
+    });
+    all(300, |random| {
+        let (size, speed) = (random.range(0.05, 0.3), random.range(5.0, 80.0));
+        let mut world = weightless();
+        let ground = world.add_body(RigidBody::fixed()).unwrap();
+        let plate = ShapeDef::new(rect(0.5, 0.05)).density(random.range(0.5, 20.0));
+        let plate = world.add_body(RigidBody::dynamic().shape(plate)).unwrap();
+        let slider = JointDef::prismatic(Vec2::Y).limits(-0.1, random.range(0.6, 3.0));
+        let slider = world.add_joint(ground, plate, slider.motor(0.0, 1.0e6)).unwrap();
+        steps(&mut world, 3);
+        let gap = random.range(0.0, 0.8) * random.part();
+        let shape = random.shape(size);
+        let ball = dynamic(shape, random.range(-0.4, 0.4), 0.05 + 1.5 * size + gap);
+        let ball = world.add_body(ball).unwrap();
+        world.joint_mut(slider).unwrap().set_motor_speed(speed).unwrap();
+        steps(&mut world, 20);
+        seen_from(&world, plate, ball).y > 0.0
+    });
+}
+
 #[test]
 fn wagons_keep_their_crates() {
     all(12, |random| {

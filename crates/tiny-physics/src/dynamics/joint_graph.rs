@@ -452,7 +452,7 @@ impl JointGraph {
                 self.insert(bodies, joints, index);
             }
         }
-        joints.note_breakable(index);
+        joints.note_kind(index);
     }
 
     /// Notes that mass or centre of mass of a joint's body has changed.

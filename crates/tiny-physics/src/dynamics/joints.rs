@@ -6,7 +6,8 @@ use super::edges::{self, edges};
 use super::joint_blocks::{Impulses, JointClass};
 use super::places::{claim, put};
 use crate::codec::{Generations, record, store};
-use crate::describe::JointDef;
+use crate::describe::{JointDef, JointKind};
+use crate::error::Error;
 use crate::math::Vec2;
 
 record! {
@@ -78,13 +79,22 @@ store! {
         pub(crate) records: Vec<JointRecord>,
         /// Joints that can break, ascending.
         pub(crate) breakable: Vec<u32>,
+        /// Hinges and sliders with a motor that sets something going, ascending.
+        pub(crate) driven: Vec<u32> as derived,
         pub(crate) free: Vec<u32>,
         pub(crate) count: usize,
         generations: Generations,
     }
+    load with Joints::note_all
 }
 
 impl Joints {
+    /// Fills the lists of some kinds, for records that were read.
+    fn note_all(&mut self) -> Result<(), Error> {
+        (0..self.records.len() as u32).for_each(|index| self.note_kind(index));
+        Ok(())
+    }
+
     /// Joints alive.
     pub(crate) fn count(&self) -> usize {
         self.count
@@ -103,7 +113,7 @@ impl Joints {
         let index = claim(&mut self.free, self.records.len());
         put(&mut self.records, index, record);
         edges::link(&mut self.records, bodies, index);
-        self.note_breakable(index);
+        self.note_kind(index);
         index
     }
 
@@ -114,8 +124,7 @@ impl Joints {
         edges::unlink(&mut self.records, bodies, index);
         let record = &mut self.records[index as usize];
         record.alive = false;
-        record.def.break_at = None;
-        self.note_breakable(index);
+        self.note_kind(index);
         self.free.push(index);
     }
 
@@ -147,16 +156,25 @@ impl Joints {
         self.tying().map(|record| (record.body_a, record.body_b))
     }
 
-    /// Keeps the list of breakable joints in line with a joint's description.
-    pub(crate) fn note_breakable(&mut self, index: u32) {
-        let breakable = self.records[index as usize].def.break_at.is_some();
-        match (self.breakable.binary_search(&index), breakable) {
-            (Err(at), true) => self.breakable.insert(at, index),
-            (Ok(at), false) => {
-                self.breakable.remove(at);
-            }
-            (Ok(_), true) | (Err(_), false) => {}
+    /// Keeps the lists of some kinds of joints in line with a joint's description.
+    pub(crate) fn note_kind(&mut self, index: u32) {
+        let JointRecord { alive, def, .. } = self.records[index as usize];
+        let hinged = matches!(def.kind, JointKind::Revolute { .. } | JointKind::Prismatic { .. });
+        let driven =
+            hinged && def.kind.motor().is_some_and(|motor| motor.max > 0.0 && motor.speed != 0.0);
+        note(&mut self.breakable, index, alive && def.break_at.is_some());
+        note(&mut self.driven, index, alive && driven);
+    }
+}
+
+/// Puts an index into an ascending list, or takes it out.
+fn note(list: &mut Vec<u32>, index: u32, is_in: bool) {
+    match (list.binary_search(&index), is_in) {
+        (Err(at), true) => list.insert(at, index),
+        (Ok(at), false) => {
+            list.remove(at);
         }
+        (Ok(_), true) | (Err(_), false) => {}
     }
 }
 

@@ -300,6 +300,14 @@ impl World {
 
     /// Predicts contacts that will be made in the step.
     fn predict(&mut self, team: &Team, lengths: Lengths) {
+        let State { bodies, joints, .. } = &self.state;
+        let foreseen = (lengths.dt, SPECULATIVE_DISTANCE * self.settings.length_unit);
+        if self.scratch.predictions.foresee(bodies, joints, foreseen) {
+            self.look_again(team, lengths);
+            let candidates = &mut self.scratch.predictions.candidates;
+            candidates.sort_unstable();
+            candidates.dedup();
+        }
         while self.predict_round(team, lengths) {
             self.wake_struck(team, lengths);
             self.look_again(team, lengths);

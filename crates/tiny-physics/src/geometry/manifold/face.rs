@@ -130,7 +130,7 @@ mod tests {
         let beside = at(Shape::circle(0.2).unwrap(), 0.51, 0.7);
         assert_eq!(collide_face(&tile, top, [0.0; 2], &beside, 0.02), Manifold::EMPTY);
         // Unless the face goes on there; the point is then beyond its end, too.
-        let longer = collide_face(&tile, top, [0.0, 0.02], &beside, 0.02);
+        let longer = collide_face(&tile, top, [0.02; 2], &beside, 0.02);
         assert_eq!((longer.count, longer.points[0].point.x), (1, 0.51));
         let above = at(Shape::circle(0.2).unwrap(), 0.49, 0.71);
         assert_eq!(collide_face(&tile, top, [0.0; 2], &above, 0.02).count, 1);

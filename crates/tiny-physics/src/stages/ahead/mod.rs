@@ -11,9 +11,12 @@
 //! rank, a pile into which something is shot. So each hit hands on its impulse, as one hit alone would, and the
 //! contacts of bodies that this makes go elsewhere are looked at again, in rounds; a hit that others make come sooner
 //! pushes for longer. The contacts of hard hits are solved more often in the substeps.
+//!
+//! What a motor is about to set going counts as taken off its way, too (`driven`).
 
 mod again;
 mod courses;
+mod driven;
 mod predictions;
 mod squeezed;
 

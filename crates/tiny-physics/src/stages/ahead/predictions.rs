@@ -2,9 +2,12 @@
 
 use super::again::{Again, Around, Struck};
 use super::courses::{Course, Courses, Impact};
+use super::driven;
 use super::squeezed::{self, Pressed, Squeezed};
 use crate::broad_phase::BroadPhase;
-use crate::dynamics::{Bodies, ConstraintBlock, Contact, Contacts, Graph, ShapeRecord, Shapes};
+use crate::dynamics::{
+    Bodies, ConstraintBlock, Contact, Contacts, Graph, Joints, Place, ShapeRecord, Shapes,
+};
 use crate::footprint::footprint;
 use crate::geometry::manifold::{self, Manifold};
 use crate::geometry::{LINEAR_SLOP, Sweep, SweptBox, ToiState, hit_at, impact_within};
@@ -167,6 +170,29 @@ impl Predictions {
     /// Are there none?
     pub(crate) fn is_empty(&self) -> bool {
         self.list.is_empty()
+    }
+
+    /// Finds what motors take off its way in a step of `dt` seconds. Says whether there is any: [`Predictions::look_again`] adds its
+    /// contacts to the candidates.
+    pub(crate) fn foresee(
+        &mut self,
+        bodies: &Bodies,
+        joints: &Joints,
+        (dt, reach): (f32, f32),
+    ) -> bool {
+        if joints.driven.is_empty() {
+            return false;
+        }
+        self.courses.resize(bodies.rows.len());
+        let driven = joints.driven.iter().map(|&index| &joints.records[index as usize]);
+        for record in driven.filter(|record| record.place != Place::Asleep) {
+            driven::foresee(bodies, record, dt, &mut self.courses);
+        }
+        let named = core::mem::take(&mut self.candidates);
+        self.budget = BUDGET + bodies.awake.len() / SHARE;
+        self.list_struck(bodies, SLIGHT * reach);
+        self.candidates = named;
+        !self.struck.is_empty()
     }
 
     /// Looks at the candidates. Says whether hits take bodies so far off their ways that there is a next round:
