@@ -159,34 +159,6 @@ impl Bucket {
         }
     }
 
-    /// A copy of what is at a slot of contacts that touch.
-    pub(super) fn lift(&self, slot: u32) -> Lifted {
-        let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
-        let mut lifted = Lifted {
-            contact: self.contacts[slot as usize],
-            manifold: ManifoldBlock::NULL,
-            constraint: ConstraintBlock::NULL,
-            surface: SurfaceBlock::NULL,
-            head: self.heads[block].lane(lane),
-        };
-        lifted.manifold.copy_lane(0, &self.manifolds[block], lane);
-        lifted.constraint.copy_lane(0, &self.constraints[block], lane);
-        lifted.surface.copy_lane(0, &self.surfaces[block], lane);
-        lifted
-    }
-
-    /// Puts it down at another slot, in place of what is there. Gives its contact.
-    pub(super) fn lay(&mut self, slot: u32, lifted: &Lifted) -> u32 {
-        let Lifted { contact, manifold, constraint, surface, head: from } = lifted;
-        let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
-        self.contacts[slot as usize] = *contact;
-        self.manifolds[block].copy_lane(lane, manifold, 0);
-        self.constraints[block].copy_lane(lane, constraint, 0);
-        self.surfaces[block].copy_lane(lane, surface, 0);
-        self.heads[block].copy_lane(lane, from, 0);
-        *contact
-    }
-
     /// The impulses of a slot, to be kept while the contact is elsewhere.
     fn saved(&self, slot: u32) -> [SavedPoint; 2] {
         let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
@@ -205,15 +177,6 @@ impl Bucket {
             point(1, manifold.id_2[lane], surface.rest_2[lane]),
         ]
     }
-}
-
-/// What is at a slot of a bucket of contacts that touch: in the first lanes of blocks.
-pub(super) struct Lifted {
-    contact: u32,
-    manifold: ManifoldBlock,
-    constraint: ConstraintBlock,
-    surface: SurfaceBlock,
-    head: BlockHead,
 }
 
 fn contact_flags(contact: &Contact) -> u8 {

@@ -6,6 +6,7 @@
 mod awake;
 mod blocks;
 mod bodies;
+mod chosen;
 mod coloured;
 mod contacts;
 mod disjoint_sets;
@@ -31,6 +32,7 @@ pub(crate) use blocks::{
     BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags,
 };
 pub(crate) use bodies::{Bodies, BodyInfo, Given, GivenPoint, Motion, NULL, Slot};
+pub(crate) use chosen::Chosen;
 pub(crate) use coloured::{COLOURS, IDLE, Place, colour_at, is_overflow, pace_at};
 pub(crate) use contacts::{Contact, Contacts, SavedPoint};
 pub(crate) use disjoint_sets::DisjointSets;
@@ -45,7 +47,7 @@ pub(crate) use joints::{JointLoad, JointRecord, Joints};
 pub(crate) use pace::{JOINTED, PACES, PLAIN, REFINEMENT, ROUNDS, STRUCK, WATCHED, is_jointed};
 #[cfg(test)]
 use schedule::Listed;
-pub(crate) use schedule::{Chosen, Run, Schedule, Source};
+pub(crate) use schedule::{Run, Schedule, Source};
 pub(crate) use sensors::{Overlap, Sensors};
 pub(crate) use shapes::{Change, ShapeRecord, Shapes, guard};
 pub(crate) use tidy::Tidy;

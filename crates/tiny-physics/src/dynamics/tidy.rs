@@ -6,10 +6,12 @@
 //! So in each step the large buckets of one colour are put in order again, roughly, so that few contacts have to move. With
 //! bodies that were added from left to right, say, it is an order in space.
 
+use super::blocks::{BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, SurfaceBlock};
 use super::bodies::Bodies;
 use super::coloured::{COLOURS, IDLE, Place, colour_at};
 use super::contacts::{Contact, Contacts};
 use super::graph::{Bucket, Graph, place_at};
+use crate::simd::BLOCK;
 
 /// Buckets with fewer contacts are not shared out to much effect.
 const MANY: usize = 128;
@@ -92,5 +94,44 @@ impl Tidy {
                 hole = slots.partition_point(|&slot| slot < next);
             }
         }
+    }
+}
+
+/// What is at a slot of a bucket of contacts that touch: in the first lanes of blocks.
+struct Lifted {
+    contact: u32,
+    manifold: ManifoldBlock,
+    constraint: ConstraintBlock,
+    surface: SurfaceBlock,
+    head: BlockHead,
+}
+
+impl Bucket {
+    /// A copy of what is at a slot of contacts that touch.
+    fn lift(&self, slot: u32) -> Lifted {
+        let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
+        let mut lifted = Lifted {
+            contact: self.contacts[slot as usize],
+            manifold: ManifoldBlock::NULL,
+            constraint: ConstraintBlock::NULL,
+            surface: SurfaceBlock::NULL,
+            head: self.heads[block].lane(lane),
+        };
+        lifted.manifold.copy_lane(0, &self.manifolds[block], lane);
+        lifted.constraint.copy_lane(0, &self.constraints[block], lane);
+        lifted.surface.copy_lane(0, &self.surfaces[block], lane);
+        lifted
+    }
+
+    /// Puts it down at another slot, in place of what is there. Gives its contact.
+    fn lay(&mut self, slot: u32, lifted: &Lifted) -> u32 {
+        let Lifted { contact, manifold, constraint, surface, head: from } = lifted;
+        let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
+        self.contacts[slot as usize] = *contact;
+        self.manifolds[block].copy_lane(lane, manifold, 0);
+        self.constraints[block].copy_lane(lane, constraint, 0);
+        self.surfaces[block].copy_lane(lane, surface, 0);
+        self.heads[block].copy_lane(lane, from, 0);
+        *contact
     }
 }

@@ -229,17 +229,8 @@ impl Solver {
         listed: &[u32],
         scope: Scope<'_>,
     ) {
-        let Self {
-            schedule,
-            squeezed,
-            hit,
-            jointed,
-            tree_contacts,
-            bounces,
-            passivity,
-            broken,
-            ..
-        } = self;
+        let Self { schedule, squeezed, hit, tree_contacts, bounces, passivity, broken, .. } = self;
+        let jointed = &mut self.jointed;
         let Rules { settings, gravity, level, lengths: lengths @ Lengths { h, .. } } = rules;
         let joint_substep = Substep::new(h, settings.length_unit);
         let parameters = rules.contact_parameters();
@@ -253,8 +244,7 @@ impl Solver {
         integrate::prepare(team, listed, stores.bodies, gravity, h);
         let places = stores.joint_graph.places_of(pace);
         prepare_joints(team, stores, level, pace, &places, joint_substep);
-        let watched = pace >= JOINTED;
-        if watched {
+        if pace >= JOINTED {
             passivity.find(pace, listed, stores);
         }
         let Stores { bodies, graph, .. } = stores;
@@ -270,11 +260,14 @@ impl Solver {
             let rows = SharedRows::new(&mut stores.bodies.rows);
             contact_solver::run(team, level, pass, &parameters, rows, stores.graph, schedule);
         };
+        let again = |stores: &mut Stores<'_>, pass, chosen: &Chosen, rounds| {
+            (0..rounds).for_each(|_| in_lanes(stores, pass, &chosen.schedule));
+        };
         let mut contacts = |stores: &mut Stores<'_>, pass| {
             let trees = &mut stores.joint_graph.forest.trees;
             tree_contacts.run(level, pass, &parameters, &mut stores.bodies.rows, trees);
-            let jointed_alone = pass == Pass::WarmStartJointed;
-            in_lanes(stores, pass, if jointed_alone { &jointed.schedule } else { schedule });
+            let of_joints = pass == Pass::WarmStartJointed;
+            in_lanes(stores, pass, if of_joints { &jointed.schedule } else { schedule });
         };
         for substep in 0..lengths.substeps {
             let first = substep == 0;
@@ -289,23 +282,17 @@ impl Solver {
             for _ in 0..lengths.iterations {
                 joints(stores, joint_solver::Pass::Solve);
                 contacts(stores, Pass::Solve);
-                for _ in 0..hit_rounds {
-                    in_lanes(stores, Pass::Solve, &hit.schedule);
-                }
-                for _ in 0..squeezed_rounds {
-                    in_lanes(stores, Pass::Relax, &squeezed.schedule);
-                }
+                again(stores, Pass::Solve, hit, hit_rounds);
+                again(stores, Pass::Relax, squeezed, squeezed_rounds);
             }
             integrate::positions(team, level, listed, stores.bodies, h, max_speed);
             for round in 1..=lengths.relaxations {
                 let last = round == lengths.relaxations;
                 joints(stores, joint_solver::Pass::Relax);
-                for _ in 0..squeezed_rounds {
-                    in_lanes(stores, Pass::Relax, &squeezed.schedule);
-                }
+                again(stores, Pass::Relax, squeezed, squeezed_rounds);
                 contacts(stores, if last { Pass::RelaxLast } else { Pass::Relax });
             }
-            if watched {
+            if pace >= JOINTED {
                 passivity.run(stores.bodies);
             }
             broken.note(stores.joint_graph, 1.0 / h);
