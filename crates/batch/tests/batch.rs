@@ -247,8 +247,7 @@ fn episodes_end_and_begin_as_the_mode_says() {
     next.step(&fall).unwrap();
     assert_eq!(next.outcome(end).unwrap().0, Default::default());
     assert_ne!(next.observations()[row.clone()], last);
-    let mut mask = [false; 2];
-    mask[end] = true;
+    let mask = [0, 1].map(|i| same.outcome(i).unwrap().0.terminated);
     none.reset(Some(&mask)).unwrap();
     assert_eq!(none.observations()[row.clone()], next.observations()[row]);
     none.step(&fall).unwrap();

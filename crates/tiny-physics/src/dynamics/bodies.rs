@@ -156,6 +156,16 @@ impl Data for GivenPoint {
     }
 }
 
+impl BodyInfo {
+    /// How far turning takes the outline of the body into what was free before, metres: no further than its points
+    /// go, nor than they stick out of the disk that it has in any case.
+    #[inline]
+    pub(crate) fn turned_reach(&self, turn: f32) -> f32 {
+        let (way, rim) = (turn.abs() * self.max_extent, self.max_extent - self.min_extent);
+        if way < rim { way } else { rim }
+    }
+}
+
 store! {
     /// All bodies of a world, by stable index. Body 0 is always there, static and without shapes: empty
     /// lanes of constraint blocks point to it, so its row must never be written.

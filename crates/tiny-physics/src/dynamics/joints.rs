@@ -124,6 +124,7 @@ impl Joints {
         edges::unlink(&mut self.records, bodies, index);
         let record = &mut self.records[index as usize];
         record.alive = false;
+        record.def.break_at = None;
         self.note_kind(index);
         self.free.push(index);
     }

@@ -53,7 +53,8 @@ impl Tidy {
     /// that are astray, sorted by part, goes to the `k`th of their slots.
     fn find(&mut self, bucket: &Bucket, part: impl Fn((u32, u32)) -> usize) {
         let Self { astray, slots } = self;
-        (astray.clear(), slots.clear());
+        astray.clear();
+        slots.clear();
         let mut ends = [0; PARTS];
         (0..bucket.contacts.len()).for_each(|slot| ends[part(bucket.bodies(slot))] += 1);
         let mut slot = 0;

@@ -475,7 +475,7 @@ impl Search<'_> {
     /// Does the body move so little, seen from something that does not turn, that its contact is all that is needed?
     fn cannot_jump(&self, relative: Vec2) -> bool {
         let info = &self.scene.bodies.infos[self.fast.body as usize];
-        let reach = relative.length() + finalize::turned_reach(self.fast.turn, info);
+        let reach = relative.length() + info.turned_reach(self.fast.turn);
         reach <= finalize::SAFE_FRACTION * info.min_extent
     }
 

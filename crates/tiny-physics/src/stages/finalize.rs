@@ -195,7 +195,7 @@ fn finalize_body(body: FinalBody<'_>, boxes: Boxes<'_>, options: Options, found:
     time_rest(row, [way, turn], [base, gain], info, options);
     info.force = Vec2::ZERO;
     info.torque = 0.0;
-    let reach = way + turned_reach(turn, info);
+    let reach = way + info.turned_reach(turn);
     if options.continuous && reach > SAFE_FRACTION * info.min_extent {
         let (end, lost) = (*pose, Vec2::ZERO);
         let fast = FastBody { body: index, start, end, motion, turn, lost, fraction: 1.0 };
@@ -206,14 +206,6 @@ fn finalize_body(body: FinalBody<'_>, boxes: Boxes<'_>, options: Options, found:
         found.carriers.push(fast);
     }
     boxes.follow(info.first_shape, *pose, motion, &mut found.moved);
-}
-
-/// How far turning takes the outline of a body into what was free before, metres: no further than its points
-/// go, nor than they stick out of the disk that it has in any case.
-#[inline]
-pub(super) fn turned_reach(turn: f32, info: &BodyInfo) -> f32 {
-    let (way, rim) = (turn.abs() * info.max_extent, info.max_extent - info.min_extent);
-    if way < rim { way } else { rim }
 }
 
 /// Counts the time that a body has been slower than its sleep speed, by its velocity and by how far it went:

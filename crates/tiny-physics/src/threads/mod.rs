@@ -22,6 +22,8 @@
 //! Workers without work spin, then yield, then park; so they are hot within a step and asleep between
 //! frames. The first stage of a section with more than one chunk wakes them.
 //!
+//! A [`Habit`] tries now and then whether work that comes again in every step takes less time alone, and keeps to that.
+//!
 //! # What it costs
 //!
 //! Two virtual Zen 5 cores, both also used by others, so ranges; rayon 1.x beside it in one process:

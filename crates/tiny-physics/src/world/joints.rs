@@ -3,12 +3,33 @@
 use super::World;
 use super::events::JointBreak;
 use super::ids::{BodyId, JointId};
+use super::state::State;
 use crate::describe::{BodyKind, JointDef, JointKind};
 use crate::dynamics::{JointRecord, NULL, REFINEMENT};
 use crate::error::Error;
 use crate::math::{DVec2, Rot, Vec2};
 use crate::stages::joint_solver;
 use crate::stages::passivity::may_drive;
+use crate::stages::solve::Lengths;
+
+/// A motor pushes as hard as it can from this part of its greatest force on.
+const SATURATED: f32 = 0.99;
+
+impl World {
+    /// Finds what motors are about to set going; says whether there is any.
+    pub(super) fn foresee_motors(&mut self, lengths: Lengths) -> bool {
+        if self.state.joints.driven.is_empty() {
+            return false;
+        }
+        let mut predictions = core::mem::take(&mut self.scratch.predictions);
+        let (bodies, joints) = (&self.state.bodies, &self.state.joints);
+        let step = (lengths.dt, self.contact_reach());
+        let stalled = |index| JointRef::new(self, index).is_stalled();
+        let any = predictions.foresee(bodies, joints, step, stalled);
+        self.scratch.predictions = predictions;
+        any
+    }
+}
 
 /// A joint of the world, to read.
 #[derive(Clone, Copy)]
@@ -105,6 +126,18 @@ impl<'a> JointRef<'a> {
         };
         let per_second = self.world.state.inv_h * REFINEMENT[graph.pace_of(self.record)] as f32;
         graph.impulses(self.record)[impulse] * per_second
+    }
+
+    /// Does its motor push as hard as it can, the way it is to go, and one of its bodies against something? Then it goes no faster soon.
+    fn is_stalled(&self) -> bool {
+        let State { bodies, contacts, graph, .. } = &self.world.state;
+        let Some(motor) = self.record.def.kind.motor() else { return false };
+        let load = self.motor_load() * motor.speed.signum();
+        let pushes = |body: u32| {
+            let mut of_body = contacts.of_body(bodies.infos[body as usize].first_contact);
+            of_body.any(|(index, _)| graph.impulse(&contacts.records[index as usize]) > 0.0)
+        };
+        load > SATURATED * motor.max && (pushes(self.record.body_a) || pushes(self.record.body_b))
     }
 
     /// Force on body B in the last step, newtons. The opposite acts on A, but for pulleys, whose rope pulls A its own way, and

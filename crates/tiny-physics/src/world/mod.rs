@@ -257,7 +257,7 @@ impl World {
     }
 
     /// How far apart points may be and be a contact, metres.
-    fn contact_reach(&self) -> f32 {
+    pub(super) fn contact_reach(&self) -> f32 {
         SPECULATIVE_DISTANCE * self.settings.length_unit
     }
 
@@ -300,9 +300,7 @@ impl World {
 
     /// Predicts contacts that will be made in the step.
     fn predict(&mut self, team: &Team, lengths: Lengths) {
-        let State { bodies, joints, .. } = &self.state;
-        let foreseen = (lengths.dt, SPECULATIVE_DISTANCE * self.settings.length_unit);
-        if self.scratch.predictions.foresee(bodies, joints, foreseen) {
+        if self.foresee_motors(lengths) {
             self.look_again(team, lengths);
             let candidates = &mut self.scratch.predictions.candidates;
             candidates.sort_unstable();

@@ -7,7 +7,6 @@ use super::courses::Courses;
 use crate::describe::{JointKind, Limits, Motor};
 use crate::dynamics::{Bodies, JointRecord};
 use crate::math::{Rot, Vec2};
-use crate::stages::finalize::turned_reach;
 
 /// One of the two bodies of a joint.
 struct End {
@@ -92,7 +91,7 @@ fn impulse(
 /// Keeps the course of a body whose velocities will have changed by so much.
 fn keep(bodies: &Bodies, body: u32, (velocity, spin): (Vec2, f32), dt: f32, courses: &mut Courses) {
     let info = &bodies.infos[body as usize];
-    let astray = velocity.length() * dt + turned_reach(spin * dt, info);
+    let astray = velocity.length() * dt + info.turned_reach(spin * dt);
     // Also false for what is not finite.
     if astray > super::HARMLESS * info.min_extent && astray < f32::MAX && bodies.is_solved(body) {
         let mut course = courses.of(bodies, dt, body);

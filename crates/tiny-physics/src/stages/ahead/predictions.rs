@@ -172,21 +172,21 @@ impl Predictions {
         self.list.is_empty()
     }
 
-    /// Finds what motors take off its way in a step of `dt` seconds. Says whether there is any: [`Predictions::look_again`] adds its
-    /// contacts to the candidates.
+    /// Finds what motors take off its way in a step of `dt` seconds, but for those of some joints. Says whether there is any:
+    /// [`Predictions::look_again`] adds its contacts to the candidates.
     pub(crate) fn foresee(
         &mut self,
         bodies: &Bodies,
         joints: &Joints,
         (dt, reach): (f32, f32),
+        leave_out: impl Fn(u32) -> bool,
     ) -> bool {
-        if joints.driven.is_empty() {
-            return false;
-        }
         self.courses.resize(bodies.rows.len());
-        let driven = joints.driven.iter().map(|&index| &joints.records[index as usize]);
-        for record in driven.filter(|record| record.place != Place::Asleep) {
-            driven::foresee(bodies, record, dt, &mut self.courses);
+        for &index in &joints.driven {
+            let record = &joints.records[index as usize];
+            if record.place != Place::Asleep && !leave_out(index) {
+                driven::foresee(bodies, record, dt, &mut self.courses);
+            }
         }
         let named = core::mem::take(&mut self.candidates);
         self.budget = BUDGET + bodies.awake.len() / SHARE;
