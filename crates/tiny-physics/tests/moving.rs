@@ -3,6 +3,7 @@
 //! Each test plays a family of scenes with random members.
 
 use std::cell::Cell;
+use std::f32::consts::TAU;
 use tiny_physics::geometry::distance;
 use tiny_physics::{
     BodyId, Filter, JointDef, Polygon, Pose, RigidBody, Rot, Shape, ShapeDef, Vec2, World,
@@ -143,7 +144,13 @@ fn flippers_and_plungers_with_motors_push_what_they_meet() {
         let bar = ShapeDef::new(rect(1.0, 0.06)).offset(Vec2::X).density(random.range(0.5, 5.0));
         let bar = world.add_body(RigidBody::dynamic().shape(bar)).unwrap();
         let hinge = JointDef::revolute().anchors(Vec2::X, Vec2::ZERO);
-        let hinge = if random.part() < 0.5 { hinge.limits(-0.5, 0.9) } else { hinge };
+        // Limits may count whole turns, or have the half turn between them.
+        let hinge = match (4.0 * random.part()) as u32 {
+            0 => hinge.limits(-0.5, 0.9),
+            1 => hinge.limits(-0.5 + TAU, 0.9 + TAU),
+            2 => hinge.angles(0.0, 3.0).limits(2.5, 3.9),
+            _ => hinge,
+        };
         let strongest = 10_f32.powf(random.range(3.0, 6.0));
         let hinge = world.add_joint(base, bar, hinge.motor(0.0, strongest)).unwrap();
         steps(&mut world, 3);

@@ -179,7 +179,7 @@ impl Bucket {
     }
 }
 
-fn contact_flags(contact: &Contact) -> u8 {
+pub(super) fn contact_flags(contact: &Contact) -> u8 {
     let flag = |set: bool, flag: u8| if set { flag } else { 0 };
     flag(contact.restitution > 0.0, flags::RESTITUTION)
         | flag(contact.rolling_resistance > 0.0, flags::ROLLING)

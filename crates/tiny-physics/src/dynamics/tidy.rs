@@ -6,11 +6,11 @@
 //! So in each step the large buckets of one colour are put in order again, roughly, so that few contacts have to move. With
 //! bodies that were added from left to right, say, it is an order in space.
 
-use super::blocks::{BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, SurfaceBlock};
+use super::blocks::{BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, SurfaceBlock, flags};
 use super::bodies::Bodies;
 use super::coloured::{COLOURS, IDLE, Place, colour_at};
 use super::contacts::{Contact, Contacts};
-use super::graph::{Bucket, Graph, place_at};
+use super::graph::{Bucket, Graph, contact_flags, place_at};
 use crate::simd::BLOCK;
 
 /// Buckets with fewer contacts are not shared out to much effect.
@@ -39,7 +39,11 @@ impl Tidy {
         contacts: &mut Contacts,
     ) {
         let colour = (step % COLOURS as u64) as usize;
-        let part = |(a, b): (u32, u32)| a.max(b) as usize * PARTS / bodies.infos.len();
+        let part = |(a, b): (u32, u32)| {
+            let [first, last] = [a.min(b), a.max(b)];
+            let body = if bodies.is_dynamic(last) { last } else { first };
+            body as usize * PARTS / bodies.infos.len()
+        };
         for (key, bucket) in graph.buckets.entries_mut() {
             let place = place_at(key);
             if place != IDLE && colour_at(place) == colour && bucket.contacts.len() >= MANY {
@@ -74,7 +78,7 @@ impl Tidy {
     /// Moves what is to go to a slot there, what is to go to where that was, and so on, round by round.
     fn move_all(&mut self, bucket: &mut Bucket, place: usize, records: &mut [Contact]) {
         let Self { astray, slots } = self;
-        let mut put = |bucket: &mut Bucket, slot: u32, lifted| {
+        let put = |bucket: &mut Bucket, slot: u32, lifted, records: &mut [Contact]| {
             let contact = &mut records[bucket.lay(slot, &lifted) as usize];
             contact.place = Place::Graph { colour: place as u8, slot };
         };
@@ -83,15 +87,15 @@ impl Tidy {
             if from(astray[start]) == slots[start] {
                 continue;
             }
-            let first = bucket.lift(slots[start]);
+            let first = bucket.lift(slots[start], records);
             let mut hole = start;
             loop {
                 let next = from(core::mem::replace(&mut astray[hole], slots[hole].into()));
                 if next == slots[start] {
-                    break put(bucket, slots[hole], first);
+                    break put(bucket, slots[hole], first, records);
                 }
-                let lifted = bucket.lift(next);
-                put(bucket, slots[hole], lifted);
+                let lifted = bucket.lift(next, records);
+                put(bucket, slots[hole], lifted, records);
                 hole = slots.partition_point(|&slot| slot < next);
             }
         }
@@ -109,7 +113,7 @@ struct Lifted {
 
 impl Bucket {
     /// A copy of what is at a slot of contacts that touch.
-    fn lift(&self, slot: u32) -> Lifted {
+    fn lift(&self, slot: u32, records: &[Contact]) -> Lifted {
         let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
         let mut lifted = Lifted {
             contact: self.contacts[slot as usize],
@@ -121,6 +125,10 @@ impl Bucket {
         lifted.manifold.copy_lane(0, &self.manifolds[block], lane);
         lifted.constraint.copy_lane(0, &self.constraints[block], lane);
         lifted.surface.copy_lane(0, &self.surfaces[block], lane);
+        // Its own: those of its block are of others, too.
+        let of_record = contact_flags(&records[lifted.contact as usize]) & !flags::RESTS;
+        let rests = lifted.surface.rest_1[0] > 0.0 || lifted.surface.rest_2[0] > 0.0;
+        lifted.head.flags = of_record | if rests { flags::RESTS } else { 0 };
         lifted
     }
 

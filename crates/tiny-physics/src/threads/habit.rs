@@ -26,11 +26,13 @@ pub(crate) struct Habit {
     /// Times until the other way is tried, and how many there were.
     left: u32,
     pause: u32,
+    /// About how many units the work has had since it was tried first.
+    amount: usize,
 }
 
 impl Default for Habit {
     fn default() -> Self {
-        Self { takes: [0.0; 2], shared: true, left: SOON, pause: SOON }
+        Self { takes: [0.0; 2], shared: true, left: SOON, pause: SOON, amount: 0 }
     }
 }
 
@@ -44,6 +46,10 @@ impl Habit {
     ) -> R {
         if team.member_count() == 1 || amount == 0 {
             return work(team);
+        }
+        // What has become twice as much or half is another work.
+        if amount > 2 * self.amount || amount < self.amount / 2 {
+            (self.amount, self.pause, self.left) = (amount, SOON, self.left.min(SOON));
         }
         let shared = self.next();
         let start = Instant::now();

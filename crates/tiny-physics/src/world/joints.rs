@@ -18,7 +18,7 @@ const SATURATED: f32 = 0.99;
 impl World {
     /// Finds what motors are about to set going; says whether there is any.
     pub(super) fn foresee_motors(&mut self, lengths: Lengths) -> bool {
-        if self.state.joints.driven.is_empty() {
+        if self.state.joints.driven.is_empty() || !self.settings.continuous {
             return false;
         }
         let mut predictions = core::mem::take(&mut self.scratch.predictions);
@@ -135,7 +135,8 @@ impl<'a> JointRef<'a> {
         let load = self.motor_load() * motor.speed.signum();
         let pushes = |body: u32| {
             let mut of_body = contacts.of_body(bodies.infos[body as usize].first_contact);
-            of_body.any(|(index, _)| graph.impulse(&contacts.records[index as usize]) > 0.0)
+            bodies.is_dynamic(body)
+                && of_body.any(|(index, _)| graph.impulse(&contacts.records[index as usize]) > 0.0)
         };
         load > SATURATED * motor.max && (pushes(self.record.body_a) || pushes(self.record.body_b))
     }

@@ -542,6 +542,7 @@ impl World {
     pub fn set_threads(&mut self, threads: usize) {
         if threads != self.threads() {
             self.pool = Pool::new(threads);
+            self.scratch.solving = Habit::default();
         }
     }
 

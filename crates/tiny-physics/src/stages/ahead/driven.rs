@@ -5,7 +5,7 @@
 
 use super::courses::Courses;
 use crate::describe::{JointKind, Limits, Motor};
-use crate::dynamics::{Bodies, JointRecord};
+use crate::dynamics::{Bodies, JointRecord, NULL};
 use crate::math::{Rot, Vec2};
 
 /// One of the two bodies of a joint.
@@ -49,7 +49,10 @@ pub(super) fn foresee(bodies: &Bodies, record: &JointRecord, dt: f32, courses: &
         |end: &End, by: f32| bodies.poses[end.body as usize].q.compose(Rot::from_angle(by));
     match def.kind {
         JointKind::Revolute { limits, .. } => {
-            let at = turned(&ends[1], def.angle_b).angle_from(turned(&ends[0], def.angle_a));
+            // The angle nearest to the middle of the limits is meant.
+            let middle = limits.map_or(0.0, |limits| 0.5 * (limits.lower + limits.upper));
+            let from = turned(&ends[0], def.angle_a).compose(Rot::from_angle(middle));
+            let at = middle + turned(&ends[1], def.angle_b).angle_from(from);
             let gives = [0, 1].map(|k| ends[k].inverse_about_anchor());
             let impulse = impulse(motor, limits, [at, b.spin - a.spin], gives, dt);
             for (end, spin) in ends.iter().zip([-impulse * gives[0], impulse * gives[1]]) {
@@ -59,9 +62,11 @@ pub(super) fn foresee(bodies: &Bodies, record: &JointRecord, dt: f32, courses: &
         JointKind::Prismatic { limits, .. } => {
             let line = turned(&ends[0], def.angle_a).x_axis();
             let [from, to] = [0, 1].map(|k| bodies.poses[ends[k].body as usize].p);
-            let at = line.dot(to.relative_to(from) + ends[1].arm - ends[0].arm);
+            let between = to.relative_to(from);
+            let at = line.dot(between + ends[1].arm - ends[0].arm);
             let gives = [ends[0].inv_mass, ends[1].inv_mass];
-            let speed = line.dot(b.velocity - a.velocity);
+            // The line turns with A, and B with it.
+            let speed = line.dot(b.velocity - a.velocity) + a.spin * line.perp().dot(between);
             let impulse = impulse(motor, limits, [at, speed], gives, dt);
             for (end, change) in ends.iter().zip([-impulse * gives[0], impulse * gives[1]]) {
                 keep(bodies, end.body, (line * change, 0.0), dt, courses);
@@ -92,8 +97,9 @@ fn impulse(
 fn keep(bodies: &Bodies, body: u32, (velocity, spin): (Vec2, f32), dt: f32, courses: &mut Courses) {
     let info = &bodies.infos[body as usize];
     let astray = velocity.length() * dt + info.turned_reach(spin * dt);
+    let meets = info.first_shape != NULL && bodies.is_solved(body);
     // Also false for what is not finite.
-    if astray > super::HARMLESS * info.min_extent && astray < f32::MAX && bodies.is_solved(body) {
+    if meets && astray > super::HARMLESS * info.min_extent && astray < f32::MAX {
         let mut course = courses.of(bodies, dt, body);
         course.velocity += velocity;
         course.spin += spin;
