@@ -340,6 +340,12 @@ impl Bodies {
         Vec2::new(row[Slot::VX], row[Slot::VY])
     }
 
+    /// From a body's centre of mass to a point of its frame, world axes.
+    pub(crate) fn arm(&self, index: u32, point: Vec2) -> Vec2 {
+        let arm = point - self.infos[index as usize].local_center;
+        self.poses[index as usize].q.rotate(arm)
+    }
+
     /// Angular velocity, radians a second.
     #[inline]
     pub(crate) fn angular_velocity(&self, index: u32) -> f32 {

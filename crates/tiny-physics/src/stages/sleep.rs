@@ -117,9 +117,7 @@ fn is_driven(bodies: &Bodies, record: &JointRecord) -> bool {
     };
     let (a, b) = (record.body_a, record.body_b);
     let of_anchor = |body: u32, anchor: Vec2| {
-        let arm = anchor - bodies.infos[body as usize].local_center;
-        let arm = bodies.poses[body as usize].q.rotate(arm);
-        bodies.velocity(body) + arm.perp() * bodies.angular_velocity(body)
+        bodies.velocity(body) + bodies.arm(body, anchor).perp() * bodies.angular_velocity(body)
     };
     let spin = bodies.angular_velocity(b) - bodies.angular_velocity(a);
     let speed = of_anchor(b, record.def.anchor_b) - of_anchor(a, record.def.anchor_a);

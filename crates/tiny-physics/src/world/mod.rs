@@ -538,7 +538,8 @@ impl World {
 
     /// Lets steps use this many threads, the calling one included; 0 counts as 1, and without the feature
     /// `parallel` there is never more than 1. Results do not depend on it. A step of less than a third of a
-    /// millisecond or so runs on its caller alone, as others would not be awake in time.
+    /// millisecond or so runs on its caller alone, as others would not be awake in time, and so does the solver where the clock
+    /// says that this takes less time.
     pub fn set_threads(&mut self, threads: usize) {
         if threads != self.threads() {
             self.pool = Pool::new(threads);

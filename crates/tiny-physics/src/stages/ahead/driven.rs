@@ -19,10 +19,8 @@ struct End {
 
 impl End {
     fn new(bodies: &Bodies, body: u32, anchor: Vec2) -> Self {
-        let arm = anchor - bodies.infos[body as usize].local_center;
-        let arm = bodies.poses[body as usize].q.rotate(arm);
         let (inv_mass, inv_inertia) = bodies.inverse_masses(body);
-        Self { body, arm, inv_mass, inv_inertia }
+        Self { body, arm: bodies.arm(body, anchor), inv_mass, inv_inertia }
     }
 
     /// The inverse of its inertia about its anchor.

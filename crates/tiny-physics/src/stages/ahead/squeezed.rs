@@ -353,12 +353,6 @@ impl Scene<'_> {
         for (index, side) in self.contacts.of_body(first) {
             let contact = &self.contacts.records[index as usize];
             let other = contact.other(pressed.body);
-            let inverse_mass = self.bodies.inverse_masses(other).0;
-            let leads_there = inverse_mass == 0.0 || found.lead.contains(&other);
-            // First, as it needs nothing of the contact's lanes.
-            if !(leads_there || found.goes_on(other, most)) {
-                continue;
-            }
             let known = (self.predicted)(index).or_else(|| self.graph.normal(contact));
             let Some(normal) = known else { continue };
             let direction = if side == 0 { normal } else { -normal };
@@ -367,12 +361,13 @@ impl Scene<'_> {
             }
             let apart = self.bodies.velocity(other) - self.bodies.velocity(pressed.body);
             let coming = pressed.coming || apart.dot(direction) < -COMING * self.length_unit;
+            let inverse_mass = self.bodies.inverse_masses(other).0;
             if inverse_mass == 0.0 {
                 found.ground = self.bodies.velocity(other);
             }
-            if leads_there {
+            if inverse_mass == 0.0 || found.lead.contains(&other) {
                 leads = leads.max(Some(coming));
-            } else {
+            } else if found.goes_on(other, most) {
                 let next = Pressed { body: other, direction, coming, ..pressed };
                 leads = leads.max(self.leads_to_fixed(next, most - 1, found));
             }
