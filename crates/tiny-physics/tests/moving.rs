@@ -181,6 +181,92 @@ fn flippers_and_plungers_with_motors_push_what_they_meet() {
     });
 }
 
+/// The same for springs that are let go, and for forces.
+#[test]
+fn springs_and_forces_push_what_they_meet() {
+    // Held back by a joint that is taken away. Of 3,000 of each family 1,786, 1,700 and 284 passed before; now 7, 6 and none.
+    all(300, |random| {
+        let (size, hertz) = (random.range(0.05, 0.3), random.range(2.0, 30.0));
+        let mut world = weightless();
+        let ground = world.add_body(RigidBody::fixed()).unwrap();
+        let plate = ShapeDef::new(rect(0.5, 0.05)).density(random.range(0.5, 20.0));
+        let plate = RigidBody::dynamic().shape(plate).lock_rotation();
+        let plate = world.add_body(plate).unwrap();
+        let pull = random.range(0.3, 2.0);
+        let joint = match random.part() < 0.5 {
+            true => JointDef::prismatic(Vec2::Y)
+                .spring(hertz, random.range(0.0, 1.0))
+                .anchors(Vec2::new(0.0, pull), Vec2::ZERO),
+            false => {
+                let spring = JointDef::distance(0.5).spring(hertz, random.range(0.0, 1.0));
+                spring.anchors(Vec2::new(0.0, pull + 0.5), Vec2::ZERO)
+            }
+        };
+        world.add_joint(ground, plate, joint).unwrap();
+        let latch = world.add_joint(ground, plate, JointDef::weld()).unwrap();
+        steps(&mut world, 3);
+        let gap = random.range(0.0, 0.8) * random.part();
+        let shape = random.shape(size);
+        // The latch gives way a little.
+        let y = world.body(plate).unwrap().position().y as f32 + 0.05 + 1.5 * size + gap;
+        let ball = world.add_body(dynamic(shape, random.range(-0.4, 0.4), y)).unwrap();
+        world.remove_joint(latch).unwrap();
+        (0..20).all(|_| {
+            world.step(DT);
+            seen_from(&world, plate, ball).y > 0.0
+        })
+    });
+    all(300, |random| {
+        let (size, hertz) = (random.range(0.05, 0.3), random.range(2.0, 15.0));
+        let mut world = weightless();
+        let base = world.add_body(RigidBody::fixed().position(Vec2::new(-1.0, 0.0))).unwrap();
+        let bar = ShapeDef::new(rect(1.0, 0.06)).offset(Vec2::X).density(random.range(0.5, 5.0));
+        let bar = world.add_body(RigidBody::dynamic().shape(bar)).unwrap();
+        let hinge = JointDef::revolute().anchors(Vec2::X, Vec2::ZERO);
+        let hinge = hinge.spring(hertz, random.range(0.0, 1.0)).angles(random.range(0.5, 2.0), 0.0);
+        world.add_joint(base, bar, hinge).unwrap();
+        let latch =
+            world.add_joint(base, bar, JointDef::weld().anchors(Vec2::X, Vec2::ZERO)).unwrap();
+        steps(&mut world, 3);
+        let (arm, gap) = (random.range(0.4, 1.9), random.range(0.0, 0.5) * random.part());
+        let shape = random.shape(size);
+        // The latch gives way a little. What has flown off may be seen anywhere later.
+        let pose = world.body(bar).unwrap().pose();
+        let place = pose.apply(Vec2::new(arm, 0.06 + 1.5 * size + gap));
+        let ball = RigidBody::dynamic().shape(shape).position(place).angle(pose.q.angle());
+        let ball = world.add_body(ball).unwrap();
+        world.remove_joint(latch).unwrap();
+        // A known limit: a way of more than a radian in a step is not looked along as the arc that it is.
+        let mut fastest = 0.0_f32;
+        (0..20).all(|_| {
+            let before = world.body(bar).unwrap().angle();
+            world.step(DT);
+            let (turned, place) = (world.body(bar).unwrap().angle(), seen_from(&world, bar, ball));
+            fastest = fastest.max(turned - before);
+            place.y > 0.0 || place.x > 2.2 || turned > 1.5 || fastest > 1.0
+        })
+    });
+    all(300, |random| {
+        let size = random.range(0.05, 0.3);
+        let mut world = weightless();
+        let plate = world.add_body(dynamic(rect(0.5, random.range(0.03, 0.2)), 0.0, 0.0)).unwrap();
+        let gap = random.range(0.0, 0.8) * random.part();
+        let shape = random.shape(size);
+        let ball = dynamic(shape, random.range(-0.3, 0.3), 0.2 + 1.5 * size + gap);
+        let ball = world.add_body(ball).unwrap();
+        let mass = world.body(plate).unwrap().mass();
+        let force = mass * 10_f32.powf(random.range(2.0, 3.7));
+        for _ in 0..1 + (3.0 * random.part()) as u32 {
+            world.body_mut(plate).unwrap().apply_force_to_center(Vec2::new(0.0, force));
+            world.step(DT);
+            if seen_from(&world, plate, ball).y < 0.0 {
+                return false;
+            }
+        }
+        true
+    });
+}
+
 #[test]
 fn wagons_keep_their_crates() {
     all(12, |random| {

@@ -431,6 +431,21 @@ impl JointKind {
         }
     }
 
+    /// May it set bodies going that are at rest?
+    pub(crate) fn drives(&self) -> bool {
+        let moves = |motor: Motor| motor.max > 0.0 && motor.speed != 0.0;
+        match *self {
+            Self::Mouse { max_force, .. } => max_force > 0.0,
+            Self::Motor { velocity, linear_spring, .. } => {
+                velocity != Vec2::ZERO || linear_spring.is_some()
+            }
+            Self::Wheel { spring, .. } => spring.is_some(),
+            mut kind => kind
+                .axis()
+                .is_some_and(|(spring, _, motor)| spring.is_some() || motor.is_some_and(moves)),
+        }
+    }
+
     pub(crate) fn set_motor(&mut self, value: Option<Motor>) -> bool {
         if let Self::Motor { angular_velocity, max_torque, .. } = self {
             (*angular_velocity, *max_torque) = value.map_or((0.0, 0.0), |m| (m.speed, m.max));

@@ -6,7 +6,7 @@ use super::edges::{self, edges};
 use super::joint_blocks::{Impulses, JointClass};
 use super::places::{claim, put};
 use crate::codec::{Generations, record, store};
-use crate::describe::{JointDef, JointKind};
+use crate::describe::JointDef;
 use crate::error::Error;
 use crate::math::Vec2;
 
@@ -79,7 +79,7 @@ store! {
         pub(crate) records: Vec<JointRecord>,
         /// Joints that can break, ascending.
         pub(crate) breakable: Vec<u32>,
-        /// Hinges and sliders with a motor that sets something going, ascending.
+        /// Joints that may set something going, ascending.
         pub(crate) driven: Vec<u32> as derived,
         pub(crate) free: Vec<u32>,
         pub(crate) count: usize,
@@ -160,11 +160,8 @@ impl Joints {
     /// Keeps the lists of some kinds of joints in line with a joint's description.
     pub(crate) fn note_kind(&mut self, index: u32) {
         let JointRecord { alive, def, .. } = self.records[index as usize];
-        let hinged = matches!(def.kind, JointKind::Revolute { .. } | JointKind::Prismatic { .. });
-        let driven =
-            hinged && def.kind.motor().is_some_and(|motor| motor.max > 0.0 && motor.speed != 0.0);
         note(&mut self.breakable, index, alive && def.break_at.is_some());
-        note(&mut self.driven, index, alive && driven);
+        note(&mut self.driven, index, alive && def.kind.drives());
     }
 }
 

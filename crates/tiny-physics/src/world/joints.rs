@@ -8,24 +8,21 @@ use crate::describe::{BodyKind, JointDef, JointKind};
 use crate::dynamics::{JointRecord, NULL, REFINEMENT};
 use crate::error::Error;
 use crate::math::{DVec2, Rot, Vec2};
+use crate::stages::ahead::Held;
 use crate::stages::joint_solver;
 use crate::stages::passivity::may_drive;
 use crate::stages::solve::Lengths;
 
-/// A motor pushes as hard as it can from this part of its greatest force on.
-const SATURATED: f32 = 0.99;
-
 impl World {
-    /// Finds what motors are about to set going; says whether there is any.
-    pub(super) fn foresee_motors(&mut self, lengths: Lengths) -> bool {
-        if self.state.joints.driven.is_empty() || !self.settings.continuous {
+    /// Finds what forces and joints are about to set going; says whether there is any.
+    pub(super) fn foresee(&mut self, lengths: Lengths) -> bool {
+        if !self.settings.continuous {
             return false;
         }
         let mut predictions = core::mem::take(&mut self.scratch.predictions);
-        let (bodies, joints) = (&self.state.bodies, &self.state.joints);
+        let acting = (&self.state.bodies, &self.state.joints, &self.scratch.ways);
         let step = (lengths.dt, self.contact_reach());
-        let stalled = |index| JointRef::new(self, index).is_stalled();
-        let any = predictions.foresee(bodies, joints, step, stalled);
+        let any = predictions.foresee(acting, step, |index| JointRef::new(self, index).held());
         self.scratch.predictions = predictions;
         any
     }
@@ -116,29 +113,39 @@ impl<'a> JointRef<'a> {
     /// Force (newtons) or torque (newton metres) that the motor exerted on B in the last step, positive the way that
     /// positive speeds go; of a [`JointKind::Motor`] the torque. 0 without a motor and while it sleeps.
     pub fn motor_load(&self) -> f32 {
-        let graph = &self.world.state.joint_graph;
-        let impulse = match self.record.def.kind {
+        self.impulse_a_second(match self.record.def.kind {
             JointKind::Wheel { .. } => 1,
             JointKind::Distance { .. } => 2,
             JointKind::Revolute { .. } | JointKind::Prismatic { .. } => 3,
             JointKind::Motor { .. } => 5,
             _ => return 0.0,
-        };
-        let per_second = self.world.state.inv_h * REFINEMENT[graph.pace_of(self.record)] as f32;
-        graph.impulses(self.record)[impulse] * per_second
+        })
     }
 
-    /// Does its motor push as hard as it can, the way it is to go, and one of its bodies against something? Then it goes no faster soon.
-    fn is_stalled(&self) -> bool {
+    fn impulse_a_second(&self, place: usize) -> f32 {
+        let graph = &self.world.state.joint_graph;
+        let per_second = self.world.state.inv_h * REFINEMENT[graph.pace_of(self.record)] as f32;
+        graph.impulses(self.record)[place] * per_second
+    }
+
+    /// What it did in the last step, if one of its bodies presses on something: then that goes no faster soon.
+    fn held(&self) -> Option<Held> {
         let State { bodies, contacts, graph, .. } = &self.world.state;
-        let Some(motor) = self.record.def.kind.motor() else { return false };
-        let load = self.motor_load() * motor.speed.signum();
         let pushes = |body: u32| {
             let mut of_body = contacts.of_body(bodies.infos[body as usize].first_contact);
             bodies.is_dynamic(body)
                 && of_body.any(|(index, _)| graph.impulse(&contacts.records[index as usize]) > 0.0)
         };
-        load > SATURATED * motor.max && (pushes(self.record.body_a) || pushes(self.record.body_b))
+        let (spring, motor) = match self.record.def.kind {
+            JointKind::Motor { .. } | JointKind::Mouse { .. } => {
+                let force = self.force().length();
+                (-force, force)
+            }
+            JointKind::Distance { .. } => (self.impulse_a_second(1), self.motor_load()),
+            _ => (self.impulse_a_second(2), self.motor_load()),
+        };
+        let held = Held { spring, motor };
+        (pushes(self.record.body_a) || pushes(self.record.body_b)).then_some(held)
     }
 
     /// Force on body B in the last step, newtons. The opposite acts on A, but for pulleys, whose rope pulls A its own way, and

@@ -300,7 +300,7 @@ impl World {
 
     /// Predicts contacts that will be made in the step.
     fn predict(&mut self, team: &Team, lengths: Lengths) {
-        if self.foresee_motors(lengths) {
+        if self.foresee(lengths) {
             self.look_again(team, lengths);
             let candidates = &mut self.scratch.predictions.candidates;
             candidates.sort_unstable();

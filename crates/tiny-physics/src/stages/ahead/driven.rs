@@ -1,109 +1,307 @@
-//! What motors set going in a step: it may meet what it would not have met as it moved before.
+//! What forces, motors and springs set going in a step: it may meet what it would not have met as it moved before.
 //!
-//! A flipper lies still and is told to turn at 20 radians a second: it does so from the first substep on. By its velocity at
-//! the start of the step it would hit nothing, and passed a third of the balls that lay in its way.
+//! A flipper lies still and is told to turn at 20 radians a second, or the plunger beside it is let go: they do so from the first
+//! substep on. By their velocities at the start of the step they would hit nothing, and a third of the flippers and more than
+//! half of the plungers passed the ball that lay in their way.
 
-use super::courses::Courses;
-use crate::describe::{JointKind, Limits, Motor};
+use super::courses::{Course, Courses};
+use crate::describe::{JointKind, Limits, Motor, Spring};
 use crate::dynamics::{Bodies, JointRecord, NULL};
 use crate::math::{Rot, Vec2};
 
+/// A motor pushes as hard as it can from this part of its greatest force on.
+const SATURATED: f32 = 0.99;
+/// What presses on something gives way to a spring that gets so much stronger within a step.
+const STRONGER: f32 = 2.0;
+
+/// What a joint that presses one of its bodies on something did in the last step, newtons or newton metres: its spring and
+/// its motor. Of a joint that drags a body somewhere, all its force is its spring's.
+#[derive(Clone, Copy)]
+pub(crate) struct Held {
+    pub(crate) spring: f32,
+    pub(crate) motor: f32,
+}
+
 /// One of the two bodies of a joint.
-struct End {
-    body: u32,
+struct End<'a> {
+    bodies: &'a Bodies,
+    course: Course,
     /// From its centre of mass to its anchor, world.
     arm: Vec2,
     inv_mass: f32,
     inv_inertia: f32,
 }
 
-impl End {
-    fn new(bodies: &Bodies, body: u32, anchor: Vec2) -> Self {
-        let (inv_mass, inv_inertia) = bodies.inverse_masses(body);
-        Self { body, arm: bodies.arm(body, anchor), inv_mass, inv_inertia }
+impl<'a> End<'a> {
+    fn new(bodies: &'a Bodies, course: Course, anchor: Vec2) -> Self {
+        let (inv_mass, inv_inertia) = bodies.inverse_masses(course.body);
+        let arm = bodies.arm(course.body, anchor);
+        Self { bodies, course, arm, inv_mass, inv_inertia }
     }
 
-    /// The inverse of its inertia about its anchor.
-    fn inverse_about_anchor(&self) -> f32 {
+    fn frame(&self, by: f32) -> Rot {
+        self.bodies.poses[self.course.body as usize].q.compose(Rot::from_angle(by))
+    }
+
+    /// Velocity of its anchor.
+    fn velocity(&self) -> Vec2 {
+        self.course.velocity + self.arm.perp() * self.course.spin
+    }
+
+    /// What an impulse at its anchor changes of its velocities.
+    fn pushed(&self, impulse: Vec2) -> (Vec2, f32) {
+        (impulse * self.inv_mass, self.inv_inertia * self.arm.cross(impulse))
+    }
+
+    /// What an angular impulse changes while its anchor stays.
+    fn turned_about_anchor(&self, impulse: f32) -> (Vec2, f32) {
         let Self { arm, inv_mass, inv_inertia, .. } = *self;
         if inv_mass == 0.0 {
-            return inv_inertia;
+            return (Vec2::ZERO, inv_inertia * impulse);
         }
-        inv_inertia * inv_mass / (inv_mass + inv_inertia * arm.dot(arm))
+        let spin = inv_inertia * inv_mass / (inv_mass + inv_inertia * arm.dot(arm)) * impulse;
+        (-arm.perp() * spin, spin)
     }
 }
 
-/// Notes where the bodies of a hinge or slider will go as its motor drives them, if that is far from where they would go as they
-/// move now. They count as free but for the joint.
-pub(super) fn foresee(bodies: &Bodies, record: &JointRecord, dt: f32, courses: &mut Courses) {
-    let def = &record.def;
-    let Some(motor) = def.kind.motor() else { return };
-    let ends = [
-        End::new(bodies, record.body_a, def.anchor_a),
-        End::new(bodies, record.body_b, def.anchor_b),
-    ];
-    let [a, b] = [0, 1].map(|k| courses.of(bodies, dt, ends[k].body));
-    let turned =
-        |end: &End, by: f32| bodies.poses[end.body as usize].q.compose(Rot::from_angle(by));
-    match def.kind {
-        JointKind::Revolute { limits, .. } => {
-            // The angle nearest to the middle of the limits is meant.
-            let middle = limits.map_or(0.0, |limits| 0.5 * (limits.lower + limits.upper));
-            let from = turned(&ends[0], def.angle_a).compose(Rot::from_angle(middle));
-            let at = middle + turned(&ends[1], def.angle_b).angle_from(from);
-            let gives = [0, 1].map(|k| ends[k].inverse_about_anchor());
-            let impulse = impulse(motor, limits, [at, b.spin - a.spin], gives, dt);
-            for (end, spin) in ends.iter().zip([-impulse * gives[0], impulse * gives[1]]) {
-                keep(bodies, end.body, (-end.arm.perp() * spin, spin), dt, courses);
+/// A coordinate of two bodies that something drives, metres or radians.
+struct Coordinate {
+    /// As limits count it, and away from where the spring rests.
+    at: f32,
+    away: f32,
+    speed: f32,
+    /// What an impulse of 1 along it changes of the bodies' velocities, and of its own speed.
+    changes: [(Vec2, f32); 2],
+    give: f32,
+}
+
+impl Coordinate {
+    /// That of a hinge: the angle nearest to the middle of its limits.
+    fn angle(
+        ends: &[End<'_>; 2],
+        [angle_a, angle_b]: [f32; 2],
+        rest: f32,
+        limits: Option<Limits>,
+    ) -> Self {
+        let (from, to) = (ends[0].frame(angle_a), ends[1].frame(angle_b));
+        let rest = Rot::from_angle(rest);
+        let (at, away) = match limits {
+            Some(Limits { lower, upper }) => {
+                let middle = 0.5 * (lower + upper);
+                let turned = Rot::from_angle(middle);
+                let from_middle = to.angle_from(from.compose(turned));
+                (middle + from_middle, from_middle - rest.angle_from(turned))
+            }
+            None => (0.0, to.angle_from(from.compose(rest))),
+        };
+        let changes = [ends[0].turned_about_anchor(-1.0), ends[1].turned_about_anchor(1.0)];
+        let speed = ends[1].course.spin - ends[0].course.spin;
+        Self { at, away, speed, changes, give: changes[1].1 - changes[0].1 }
+    }
+
+    /// That of a slider. Its line turns with A, and B with it.
+    fn slide(ends: &[End<'_>; 2], angle_a: f32, rest: f32) -> Self {
+        let [a, b] = ends;
+        let line = a.frame(angle_a).x_axis();
+        let (gap, velocity) = (gap(ends), b.course.velocity - a.course.velocity);
+        let between = gap + a.arm - b.arm;
+        let at = line.dot(gap);
+        let speed = line.dot(velocity) + a.course.spin * line.perp().dot(between);
+        let changes = [(line * -a.inv_mass, 0.0), (line * b.inv_mass, 0.0)];
+        Self { at, away: at - rest, speed, changes, give: a.inv_mass + b.inv_mass }
+    }
+
+    /// That of two anchors along a line of the world, on which they are as far from each other as it is long.
+    fn along(ends: &[End<'_>; 2], line: Vec2, rest: f32) -> Self {
+        let (line, at) = line.direction_and_length();
+        let changes = [ends[0].pushed(-line), ends[1].pushed(line)];
+        let speed = line.dot(ends[1].velocity() - ends[0].velocity());
+        let gives = [0, 1].map(|k| {
+            let (velocity, spin) = changes[k];
+            line.dot(velocity + ends[k].arm.perp() * spin)
+        });
+        Self { at, away: at - rest, speed, changes, give: gives[1] - gives[0] }
+    }
+
+    /// What an impulse along it changes of one of its bodies.
+    fn change(&self, end: &End<'_>, k: usize, impulse: f32) -> Change {
+        let (velocity, spin) = self.changes[k];
+        Change { body: end.course.body, velocity: velocity * impulse, spin: spin * impulse }
+    }
+}
+
+/// From anchor A to anchor B.
+fn gap([a, b]: &[End<'_>; 2]) -> Vec2 {
+    let [from, to] = [a, b].map(|end| end.bodies.poses[end.course.body as usize].p);
+    to.relative_to(from) + b.arm - a.arm
+}
+
+/// What drives a coordinate.
+#[derive(Clone, Copy)]
+struct Effort {
+    spring: Option<Spring>,
+    /// Greatest force of the spring.
+    strongest: f32,
+    motor: Option<Motor>,
+    limits: Option<Limits>,
+}
+
+impl Effort {
+    /// Of a joint's free coordinate.
+    fn new(spring: Option<Spring>, motor: Option<Motor>, limits: Option<Limits>) -> Self {
+        Self { spring, strongest: f32::MAX, motor, limits }
+    }
+
+    /// Of a spring of bounded force.
+    fn pull(spring: Option<Spring>, strongest: f32) -> Self {
+        Self { spring, strongest, motor: None, limits: None }
+    }
+
+    /// What it gives in a step, in which the coordinate goes no further than its limits.
+    fn impulse(&self, of: &Coordinate, held: Option<Held>, dt: f32) -> f32 {
+        if of.give <= 0.0 {
+            return 0.0;
+        }
+        let spring = self.spring.map_or(0.0, |spring| self.sprung(spring, of, held, dt));
+        let mut speed = of.speed + spring * of.give;
+        if let Some(Motor { speed: wanted, max }) = self.motor {
+            let stalled = held.is_some_and(|held| held.motor * wanted.signum() > SATURATED * max);
+            if !stalled {
+                let most = max * dt * of.give;
+                speed += (wanted - speed).max(-most).min(most);
             }
         }
-        JointKind::Prismatic { limits, .. } => {
-            let line = turned(&ends[0], def.angle_a).x_axis();
-            let [from, to] = [0, 1].map(|k| bodies.poses[ends[k].body as usize].p);
-            let between = to.relative_to(from);
-            let at = line.dot(between + ends[1].arm - ends[0].arm);
-            let gives = [ends[0].inv_mass, ends[1].inv_mass];
-            // The line turns with A, and B with it.
-            let speed = line.dot(b.velocity - a.velocity) + a.spin * line.perp().dot(between);
-            let impulse = impulse(motor, limits, [at, speed], gives, dt);
-            for (end, change) in ends.iter().zip([-impulse * gives[0], impulse * gives[1]]) {
-                keep(bodies, end.body, (line * change, 0.0), dt, courses);
-            }
+        if speed == of.speed {
+            return 0.0;
+        }
+        if let Some(Limits { lower, upper }) = self.limits {
+            speed = speed.min((upper - of.at).max(0.0) / dt).max((lower - of.at).min(0.0) / dt);
+        }
+        (speed - of.speed) / of.give
+    }
+
+    /// What a spring gives, as a mean over the step: what takes the coordinate where it will be, as long as it goes there. Nothing where it
+    /// pressed on something before as hard as now.
+    fn sprung(&self, spring: Spring, of: &Coordinate, held: Option<Held>, dt: f32) -> f32 {
+        let rate = core::f32::consts::TAU * spring.hertz;
+        let force = (-of.away * rate * rate / of.give).max(-self.strongest).min(self.strongest);
+        if held.is_some_and(|held| STRONGER * held.spring * force.signum() > force.abs()) {
+            return 0.0;
+        }
+        // Of a quarter of a swing, at most: 1 - cos x, and damped by about as much as it is slower.
+        let x = (rate * dt).min(core::f32::consts::FRAC_PI_2);
+        let part = x * x * (0.5 - x * x / 24.0) / (1.0 + spring.damping_ratio * x);
+        let most = self.strongest * dt;
+        (-of.away * part / (dt * of.give)).max(-most).min(most)
+    }
+}
+
+/// Notes where the bodies of a joint will go as it drives them, if that is far from where they would go as they
+/// move now. They count as free but for the joint. `held`: what it did in the last step, if it presses on something.
+pub(super) fn by_joint(
+    bodies: &Bodies,
+    record: &JointRecord,
+    held: impl Fn() -> Option<Held>,
+    dt: f32,
+    courses: &mut Courses,
+) {
+    let def = &record.def;
+    let end = |body: u32, anchor: Vec2| End::new(bodies, courses.of(bodies, dt, body), anchor);
+    // A mouse joint does nothing to its A.
+    let body_a = if matches!(def.kind, JointKind::Mouse { .. }) { 0 } else { record.body_a };
+    let ends = [end(body_a, def.anchor_a), end(record.body_b, def.anchor_b)];
+    let mut drive = |coordinate: Coordinate, effort: Effort| {
+        let impulse = |held| effort.impulse(&coordinate, held, dt);
+        let change = |k: usize, impulse| coordinate.change(&ends[k], k, impulse);
+        let is_far = |impulse| [0, 1].into_iter().any(|k| change(k, impulse).is_far(bodies, dt));
+        if is_far(impulse(None)) {
+            let impulse = impulse(held());
+            [0, 1].into_iter().for_each(|k| change(k, impulse).keep(bodies, dt, courses));
+        }
+    };
+    match def.kind {
+        JointKind::Revolute { spring, target_angle, limits, motor } => {
+            let angles = [def.angle_a, def.angle_b];
+            let angle = Coordinate::angle(&ends, angles, target_angle, limits);
+            drive(angle, Effort::new(spring, motor, limits));
+        }
+        JointKind::Prismatic { spring, target, limits, motor } => {
+            let slide = Coordinate::slide(&ends, def.angle_a, target);
+            drive(slide, Effort::new(spring, motor, limits));
+        }
+        JointKind::Wheel { spring, limits, .. } => {
+            let slide = Coordinate::slide(&ends, def.angle_a, 0.0);
+            drive(slide, Effort::new(spring, None, limits));
+        }
+        JointKind::Distance { length, spring, limits, motor } => {
+            drive(Coordinate::along(&ends, gap(&ends), length), Effort::new(spring, motor, limits));
+        }
+        JointKind::Motor { velocity, max_force, linear_spring, max_spring_force, .. } => {
+            let missing = velocity - (ends[1].velocity() - ends[0].velocity());
+            let motor = Motor { speed: missing.length(), max: max_force };
+            let mut missing = Coordinate::along(&ends, missing, 0.0);
+            missing.speed = 0.0;
+            drive(missing, Effort::new(None, Some(motor), None));
+            drive(
+                Coordinate::along(&ends, gap(&ends), 0.0),
+                Effort::pull(linear_spring, max_spring_force),
+            );
+        }
+        JointKind::Mouse { target, spring, max_force } => {
+            let from = bodies.poses[record.body_b as usize].p;
+            let gap = from.relative_to(target) + ends[1].arm;
+            drive(Coordinate::along(&ends, gap, 0.0), Effort::pull(Some(spring), max_force));
         }
         _ => {}
     }
 }
 
-/// What a motor gives in a step, in which it goes no further than the joint's limits.
-fn impulse(
-    motor: Motor,
-    limits: Option<Limits>,
-    [at, speed]: [f32; 2],
-    gives: [f32; 2],
-    dt: f32,
-) -> f32 {
-    let mut wanted = motor.speed;
-    if let Some(Limits { lower, upper }) = limits {
-        wanted = wanted.min((upper - at).max(0.0) / dt).max((lower - at).min(0.0) / dt);
-    }
-    let give = gives[0] + gives[1];
-    let most = motor.max * dt;
-    if give > 0.0 { ((wanted - speed) / give).max(-most).min(most) } else { 0.0 }
+/// The same for what a force does to a body.
+pub(super) fn by_force(bodies: &Bodies, body: u32, dt: f32, courses: &mut Courses) {
+    Change::by_force(bodies, body, dt).keep(bodies, dt, courses);
 }
 
-/// Keeps the course of a body whose velocities will have changed by so much.
-fn keep(bodies: &Bodies, body: u32, (velocity, spin): (Vec2, f32), dt: f32, courses: &mut Courses) {
-    let info = &bodies.infos[body as usize];
-    let astray = velocity.length() * dt + info.turned_reach(spin * dt);
-    let meets = info.first_shape != NULL && bodies.is_solved(body);
-    // Also false for what is not finite.
-    if meets && astray > super::HARMLESS * info.min_extent && astray < f32::MAX {
-        let mut course = courses.of(bodies, dt, body);
-        course.velocity += velocity;
-        course.spin += spin;
-        course.motion += velocity * dt;
-        course.turn += spin * dt;
-        course.astray += astray;
-        courses.keep(&course);
+/// What something changes of a body's velocities, as a mean over the step.
+pub(super) struct Change {
+    body: u32,
+    velocity: Vec2,
+    spin: f32,
+}
+
+impl Change {
+    /// By the forces that the program asked for.
+    pub(super) fn by_force(bodies: &Bodies, body: u32, dt: f32) -> Self {
+        let info = &bodies.infos[body as usize];
+        let (inv_mass, inv_inertia) = bodies.inverse_masses(body);
+        let (force, torque) = (info.force, info.torque);
+        Self { body, velocity: force * (inv_mass * dt), spin: torque * inv_inertia * dt }
+    }
+
+    fn way(&self, bodies: &Bodies, dt: f32) -> f32 {
+        self.velocity.length() * dt + bodies.infos[self.body as usize].turned_reach(self.spin * dt)
+    }
+
+    /// Does it take a body that may meet something far off its way?
+    pub(super) fn is_far(&self, bodies: &Bodies, dt: f32) -> bool {
+        let info = &bodies.infos[self.body as usize];
+        let (way, meets) = (self.way(bodies, dt), info.first_shape != NULL);
+        // Also false for what is not finite.
+        meets
+            && way > super::HARMLESS * info.min_extent
+            && way < f32::MAX
+            && bodies.is_solved(self.body)
+    }
+
+    /// Keeps the course of the body with it, if it is far.
+    fn keep(&self, bodies: &Bodies, dt: f32, courses: &mut Courses) {
+        if self.is_far(bodies, dt) {
+            let mut course = courses.of(bodies, dt, self.body);
+            course.velocity += self.velocity;
+            course.spin += self.spin;
+            course.motion += self.velocity * dt;
+            course.turn += self.spin * dt;
+            course.astray += self.way(bodies, dt);
+            courses.keep(&course);
+        }
     }
 }

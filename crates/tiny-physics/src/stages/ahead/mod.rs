@@ -12,7 +12,7 @@
 //! contacts of bodies that this makes go elsewhere are looked at again, in rounds; a hit that others make come sooner
 //! pushes for longer. The contacts of hard hits are solved more often in the substeps.
 //!
-//! What a motor is about to set going counts as taken off its way, too (`driven`).
+//! What forces, motors and springs are about to set going counts as taken off its way, too (`driven`).
 
 mod again;
 mod courses;
@@ -21,6 +21,7 @@ mod predictions;
 mod squeezed;
 
 pub(crate) use again::Around;
+pub(crate) use driven::Held;
 pub(crate) use predictions::{Predictions, Scene};
 pub(crate) use squeezed::HEAVIER;
 
@@ -31,6 +32,7 @@ use crate::footprint::footprint;
 use crate::math::Vec2;
 use crate::threads::Team;
 use courses::Course;
+use driven::Change;
 
 /// Bodies that one member of the team looks at at a time.
 const CHUNK: usize = 256;
@@ -45,6 +47,8 @@ pub(crate) const SLIGHT: f32 = 0.7;
 pub(crate) struct Ways {
     /// By shape, metres; zero for what is slow. Nothing at all where nothing is fast.
     pub(crate) of_shapes: Vec<Vec2>,
+    /// Bodies that forces take far, ascending by place in the list of what is awake.
+    forced: Vec<u32>,
     found: Vec<Found>,
 }
 
@@ -52,17 +56,19 @@ pub(crate) struct Ways {
 struct Found {
     moved: Moved,
     fast: Vec<(u32, Vec2)>,
+    forced: Vec<u32>,
 }
 
 impl Found {
     fn clear(&mut self) {
+        self.forced.clear();
         self.moved.clear();
         self.fast.clear();
     }
 }
 
-footprint!(Found { moved, fast });
-footprint!(Ways { of_shapes } each { found });
+footprint!(Found { moved, fast, forced });
+footprint!(Ways { of_shapes, forced } each { found });
 
 /// Lets the fat boxes of what moves further in a step of `dt` seconds than `limit` metres, or than half its thickness, hold all
 /// that it goes through, and the tight ones all that it turns through; these are put right when the step ends. However thick it is: what it meets may be small.
@@ -86,10 +92,15 @@ pub(crate) fn reach(
                 if length > if thin { info.min_extent } else { limit } && length < f32::MAX {
                     boxes.reach((info.first_shape, false), &way, &mut found.moved, &mut found.fast);
                 }
+                let is_forced = info.force != Vec2::ZERO || info.torque != 0.0;
+                if is_forced && Change::by_force(bodies, body, dt).is_far(bodies, dt) {
+                    found.forced.push(body);
+                }
             }
         })
     });
     ways.of_shapes.clear();
+    ways.forced.clear();
     let chunks = chunks.len();
     let found = core::mem::take(&mut ways.found);
     found[..chunks].iter().for_each(|found| ways.take_over(found, shapes, broad_phase));
@@ -99,6 +110,7 @@ pub(crate) fn reach(
 impl Ways {
     fn take_over(&mut self, found: &Found, shapes: &mut Shapes, broad_phase: &mut BroadPhase) {
         boxes::take_over(shapes, broad_phase, &found.moved);
+        self.forced.extend_from_slice(&found.forced);
         if !found.fast.is_empty() {
             self.of_shapes.resize(shapes.records.len(), Vec2::ZERO);
         }

@@ -2,7 +2,7 @@
 
 use super::again::{Again, Around, Struck};
 use super::courses::{Course, Courses, Impact};
-use super::driven;
+use super::driven::{self, Held};
 use super::squeezed::{self, Pressed, Squeezed};
 use crate::broad_phase::BroadPhase;
 use crate::dynamics::{
@@ -172,21 +172,29 @@ impl Predictions {
         self.list.is_empty()
     }
 
-    /// Finds what motors take off its way in a step of `dt` seconds, but for those of some joints. Says whether there is any:
-    /// [`Predictions::look_again`] adds its contacts to the candidates.
+    /// Finds what forces and joints take off its way in a step of `dt` seconds; `held` says what a joint that presses on something
+    /// did. Says whether there is any: [`Predictions::look_again`] adds its contacts to the candidates.
     pub(crate) fn foresee(
         &mut self,
-        bodies: &Bodies,
-        joints: &Joints,
+        (bodies, joints, ways): (&Bodies, &Joints, &Ways),
         (dt, reach): (f32, f32),
-        leave_out: impl Fn(u32) -> bool,
+        held: impl Fn(u32) -> Option<Held>,
     ) -> bool {
+        if ways.forced.is_empty() && joints.driven.is_empty() {
+            return false;
+        }
         self.courses.resize(bodies.rows.len());
+        for &body in &ways.forced {
+            driven::by_force(bodies, body, dt, &mut self.courses);
+        }
         for &index in &joints.driven {
             let record = &joints.records[index as usize];
-            if record.place != Place::Asleep && !leave_out(index) {
-                driven::foresee(bodies, record, dt, &mut self.courses);
+            if record.place != Place::Asleep {
+                driven::by_joint(bodies, record, || held(index), dt, &mut self.courses);
             }
+        }
+        if self.courses.list.is_empty() {
+            return false;
         }
         let named = core::mem::take(&mut self.candidates);
         self.budget = BUDGET + bodies.awake.len() / SHARE;
