@@ -208,7 +208,7 @@ fn springs_and_forces_push_what_they_meet() {
         let gap = random.range(0.0, 0.8) * random.part();
         let shape = random.shape(size);
         // The latch gives way a little.
-        let y = world.body(plate).unwrap().position().y as f32 + 0.05 + 1.5 * size + gap;
+        let y = world.body(plate).unwrap().position().y + 0.05 + 1.5 * size + gap;
         let ball = world.add_body(dynamic(shape, random.range(-0.4, 0.4), y)).unwrap();
         world.remove_joint(latch).unwrap();
         (0..20).all(|_| {
