@@ -446,7 +446,8 @@ impl LaneShape {
         let frame = central.compose(rounded.frame);
         let is_general = ShapeClass::of(shape) == ShapeClass::General;
         let (exact, reach, thickness) = if is_general {
-            (0.0, central.p.length() + shape.bounding_radius(), shape.inner_radius())
+            let (core, center) = (shape.core(), central.unapply(Vec2::ZERO));
+            (0.0, core.reach(center) + core.radius, shape.inner_radius())
         } else {
             let reach = frame.p.length() + rounded.half_extents.length() + radius;
             (1.0, reach, if x < y { x } else { y } + radius)

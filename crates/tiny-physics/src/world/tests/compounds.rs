@@ -167,3 +167,24 @@ fn thin_plates_come_to_rest() {
         assert!(!world.body(plate).unwrap().is_awake(), "{half_height}");
     }
 }
+
+/// Reach and rolling of a polygon do not depend on where the origin of its vertices is.
+#[test]
+fn polygons_may_have_their_vertices_anywhere() {
+    let travelled = |at: Vec2| {
+        let hexagon = Polygon::regular(6, 0.5).unwrap();
+        let there: Vec<Vec2> = hexagon.vertices().iter().map(|&vertex| vertex + at).collect();
+        let shape = ShapeDef::new(Polygon::hull(&there).unwrap()).rolling_resistance(0.1);
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let ground = rect(20.0, 0.5).offset(Vec2::new(0.0, -0.5));
+        world.add_body(RigidBody::fixed().shape(ground)).unwrap();
+        let body = RigidBody::dynamic().shape(shape).position(Vec2::new(0.0, 0.45) - at);
+        let id = world.add_body(body.velocity(Vec2::new(3.0, 0.0)).angular_velocity(-6.0)).unwrap();
+        let reach = world.state.bodies.infos[id.index as usize].max_extent;
+        assert!((reach - 0.5).abs() < 1e-4, "{reach}");
+        (0..30).for_each(|_| world.step(1.0 / 60.0));
+        world.body(id).unwrap().center().x
+    };
+    let (here, there) = (travelled(Vec2::ZERO), travelled(Vec2::new(8.0, 0.0)));
+    assert!((here - there).abs() < 0.02, "{here} and {there}");
+}
