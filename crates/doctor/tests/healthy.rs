@@ -39,6 +39,7 @@ const TRUE: &[(&str, Code, &str)] = &[
         Code::Tunnelling,
         "planks of 7 cm meet at 35 cm a step, and neither is a bullet",
     ),
+    ("galton_board", Code::Jitter, "balls that land on a column shake it for a moment"),
     ("sorting", Code::Filter, "parcels are meant to fall through gates: a false alarm"),
 ];
 

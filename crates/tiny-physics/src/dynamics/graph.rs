@@ -513,6 +513,14 @@ impl Graph {
         }
     }
 
+    /// Has a contact that is watched bounce only after others of its bodies.
+    pub(crate) fn hold_back(&mut self, contact: &Contact) {
+        if let Some((bucket, slot)) = self.solved_at(contact) {
+            let surface = &mut self.buckets.list_mut()[bucket].surfaces[slot / BLOCK];
+            (surface.approach_1[slot % BLOCK], surface.approach_2[slot % BLOCK]) = (0.0, 0.0);
+        }
+    }
+
     /// Did a contact that was watched push in this step?
     pub(crate) fn has_pushed(&self, contact: &Contact) -> bool {
         self.solved_at(contact).is_some_and(|(bucket, slot)| {

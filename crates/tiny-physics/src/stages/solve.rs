@@ -191,6 +191,7 @@ impl Solver {
         });
         self.squeezed.list(stores.graph, stores.contacts, squeezed);
         self.hit.list(stores.graph, stores.contacts, predictions.hard.iter().copied());
+        self.bounces.waiting.clone_from(&predictions.waiting);
         self.jointed.list_blocks(stores.graph, |head| head.jointed_a | head.jointed_b != 0);
         let dt = rules.lengths.dt;
         let most = rules.settings.push_speed * rules.settings.length_unit * dt;

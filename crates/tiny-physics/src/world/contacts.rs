@@ -221,7 +221,9 @@ impl World {
         let (surface, manifold) = (&bucket.surfaces[block], &bucket.manifolds[block]);
         let mut fastest: Option<(usize, f32)> = None;
         let ids = [manifold.id_1[lane], manifold.id_2[lane]];
-        let approach = [surface.approach_1[lane], surface.approach_2[lane]];
+        let foreseen = self.scratch.predictions.of(bucket.contacts[slot]);
+        let approach = foreseen
+            .map_or([surface.approach_1[lane], surface.approach_2[lane]], |known| known.parting);
         let total = [surface.total_1[lane], surface.total_2[lane]];
         for (point, k) in (0..2).filter(|&k| ids[k] >= 0.0).enumerate() {
             let speed = -approach[k];

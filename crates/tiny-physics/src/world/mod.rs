@@ -428,6 +428,8 @@ impl World {
             self.state.graph.watch(&self.state.contacts.records[contact as usize]);
         }
         self.update_fresh_manifolds(team, lengths);
+        let State { contacts, graph, .. } = &mut self.state;
+        self.scratch.predictions.hold_back(contacts, graph);
         let predictions = &self.scratch.predictions;
         if !(predictions.squeezed.pressed.is_empty() && self.state.bodies.pressed.is_empty()) {
             let State { bodies, contacts, graph, .. } = &mut self.state;

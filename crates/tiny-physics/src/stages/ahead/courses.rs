@@ -23,6 +23,8 @@ pub(super) struct Course {
     pub(super) astray: f32,
     /// Of the heaviest that presses it on, else its own.
     pub(super) inverse_mass: f32,
+    /// Did it hit what does not bounce?
+    pub(super) stopped: bool,
 }
 
 /// The courses of what is hit, as far as hits are known.
@@ -92,7 +94,8 @@ impl Course {
         let row = &bodies.rows[body as usize];
         let (velocity, spin) = (Vec2::new(row[Slot::VX], row[Slot::VY]), row[Slot::W]);
         let (motion, turn) = (velocity * dt, spin * dt);
-        Self { body, motion, turn, velocity, spin, astray: 0.0, inverse_mass: row[Slot::INV_MASS] }
+        let (inverse_mass, stopped) = (row[Slot::INV_MASS], false);
+        Self { body, motion, turn, velocity, spin, astray: 0.0, inverse_mass, stopped }
     }
 
     /// As far off the way as it is looked for, see [`AMISS`].

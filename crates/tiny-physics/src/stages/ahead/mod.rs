@@ -17,6 +17,8 @@
 mod again;
 mod courses;
 mod driven;
+mod hits;
+mod meeting;
 mod predictions;
 mod squeezed;
 

@@ -3,16 +3,15 @@
 use super::again::{Again, Around, Struck};
 use super::courses::{Course, Courses, Impact};
 use super::driven::{self, Held};
+use super::hits::{Arms, Hit, Prediction};
+use super::meeting::Meeting;
 use super::squeezed::{self, Pressed, Squeezed};
 use crate::broad_phase::BroadPhase;
-use crate::dynamics::{
-    Bodies, ConstraintBlock, Contact, Contacts, Graph, Joints, Place, ShapeRecord, Shapes,
-};
+use crate::dynamics::{Bodies, ConstraintBlock, Contact, Contacts, Graph, Joints, Place, Shapes};
 use crate::footprint::footprint;
-use crate::geometry::manifold::{self, Manifold};
-use crate::geometry::{LINEAR_SLOP, Sweep, SweptBox, ToiState, hit_at, impact_within};
-use crate::math::{Rot, Transform, Vec2};
-use crate::simd::Row;
+use crate::geometry::manifold::Manifold;
+use crate::geometry::{LINEAR_SLOP, ToiState, impact_within};
+use crate::math::{Transform, Vec2};
 use crate::stages::ahead::{Found, HARMLESS, SLIGHT, Ways};
 use crate::stages::boxes;
 use crate::stages::narrow_context::Context;
@@ -24,8 +23,6 @@ use crate::threads::Team;
 const ROUNDS: usize = 6;
 /// Contacts that one member of the team looks at at a time.
 const CHUNK: usize = 32;
-/// What rounding makes of places, as a part of how large and far away things are.
-const ROUNDING: f32 = 1.0e-6;
 /// Points whose separations differ by less than this are hit together, metres; multiplied by the length unit.
 const NEAR: f32 = 0.02;
 /// So many bodies that were taken off their ways may be looked at again in a step, and one in [`SHARE`] of all: those
@@ -34,44 +31,8 @@ const BUDGET: usize = 256;
 const SHARE: usize = 32;
 /// A hit is hard if its bodies would go so far into each other in the step: a part of the thinner one's half thickness.
 const HARD: f32 = 0.2;
-
-/// A contact as it will be at the time of impact, seen from the start of the step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Prediction {
-    /// From A to B, world.
-    pub(crate) normal: Vec2,
-    /// From the centre of mass of A to that of B.
-    pub(crate) between: Vec2,
-    /// How far that of A has come by then, metres.
-    pub(crate) way: Vec2,
-    /// Relative to the centre of mass of A.
-    pub(crate) points: [Vec2; 2],
-    /// Metres at the start of the step; the largest number for a point that is not there.
-    pub(crate) separation: [f32; 2],
-    pub(crate) id: [f32; 2],
-    /// When, as a part of the step.
-    fraction: f32,
-    /// What it has pushed so far, as hits are handed on, N s.
-    pushed: [f32; 2],
-}
-
-/// A hit: where, and how soon.
-#[derive(Clone, Copy, Debug)]
-struct Hit {
-    contact: u32,
-    prediction: Option<Prediction>,
-    fraction: f32,
-    normal: Vec2,
-    /// Of each point; the same twice where there is one.
-    arms: [Arms; 2],
-}
-
-/// Cross products of a point with the normal and with the tangent (the normal turned clockwise), on A and on B.
-#[derive(Clone, Copy, Debug)]
-struct Arms {
-    normal: [f32; 2],
-    tangent: [f32; 2],
-}
+/// What hits before it leave so much of its speed bounces as if they were not.
+const UNSLOWED: f32 = 0.75;
 
 /// The predictions of a step.
 #[derive(Debug, Default)]
@@ -84,6 +45,10 @@ pub(crate) struct Predictions {
     pub(crate) fresh: Vec<u32>,
     /// Those of hard hits, some more than once: they are solved more often.
     pub(crate) hard: Vec<u32>,
+    /// Those whose bodies hit others first, and are slowed.
+    behind: Vec<u32>,
+    /// Bodies of these that something bouncy slows.
+    pub(crate) waiting: Vec<u32>,
     list: Vec<Prediction>,
     /// By contact: place in `list`, plus 1.
     places: Vec<u32>,
@@ -106,6 +71,8 @@ footprint!(Predictions {
     contacts,
     fresh,
     hard,
+    behind,
+    waiting,
     list,
     places,
     courses,
@@ -137,6 +104,8 @@ impl Predictions {
         self.list.clear();
         self.fresh.clear();
         self.hard.clear();
+        self.behind.clear();
+        self.waiting.clear();
         self.squeezed.clear();
         (self.rounds, self.budget) = (0, 0);
         self.courses.clear();
@@ -165,6 +134,11 @@ impl Predictions {
     #[inline]
     pub(crate) fn motion(&self, bodies: &Bodies, dt: f32, body: u32) -> Vec2 {
         self.courses.motion(bodies, dt, body)
+    }
+
+    /// Has what hits something else first bounce after that at the earliest.
+    pub(crate) fn hold_back(&self, contacts: &Contacts, graph: &mut Graph) {
+        self.behind.iter().for_each(|&index| graph.hold_back(&contacts.records[index as usize]));
     }
 
     /// Are there none?
@@ -266,11 +240,6 @@ impl Predictions {
 
     /// Keeps what a hit predicts and hands on its impulse.
     fn take(&mut self, scene: Scene<'_>, hit: &Hit) {
-        if let Some(prediction) = hit.prediction {
-            self.contacts.push(hit.contact);
-            self.list.push(prediction);
-            self.places[hit.contact as usize] = self.list.len() as u32;
-        }
         let contact = &scene.contacts.records[hit.contact as usize];
         let bodies @ [a, b] = [contact.body_a, contact.body_b];
         // What bounces is reflected at the start of the step.
@@ -278,6 +247,15 @@ impl Predictions {
         let rest = (1.0 - fraction) * scene.dt;
         let of = |body| self.courses.of(scene.bodies, scene.dt, body);
         let mut impact = Impact::new(scene.bodies, [of(a), of(b)], rest);
+        if let Some(prediction) = hit.prediction {
+            let parting = hit.parting(&impact.courses);
+            self.contacts.push(hit.contact);
+            self.list.push(Prediction { parting, ..prediction });
+            self.places[hit.contact as usize] = self.list.len() as u32;
+            if contact.restitution > 0.0 {
+                self.note_slowed(scene, hit, &impact.courses, parting);
+            }
+        }
         let astray = [impact.courses[0].astray, impact.courses[1].astray];
         self.note_squeezed(scene, hit, &mut impact.courses);
         let thinner = scene.bodies.thinner_half(bodies);
@@ -288,6 +266,7 @@ impl Predictions {
                 self.hard.push(hit.contact);
             }
             if speed < 0.0 {
+                impact.courses.iter_mut().for_each(|it| it.stopped |= contact.restitution == 0.0);
                 let impulse = -(1.0 + contact.restitution) * speed * mass;
                 *pushed += impulse;
                 impact.push(impulse, hit.normal, arms.normal);
@@ -303,6 +282,19 @@ impl Predictions {
         for (course, astray) in impact.courses.iter().zip(astray) {
             if course.astray > astray {
                 self.courses.keep(course);
+            }
+        }
+    }
+
+    /// Notes a hit of what bounces whose bodies others have slowed before.
+    fn note_slowed(&mut self, scene: Scene<'_>, hit: &Hit, courses: &[Course; 2], now: [f32; 2]) {
+        let first =
+            hit.parting(&[0, 1].map(|k| Course::of(scene.bodies, scene.dt, courses[k].body)));
+        let [first, now] = [first, now].map(|of| of[0].min(of[1]));
+        if first < 0.0 && now > UNSLOWED * first {
+            self.behind.push(hit.contact);
+            if !courses.iter().any(|course| course.stopped) {
+                self.waiting.extend(courses.iter().map(|course| course.body));
             }
         }
     }
@@ -400,24 +392,6 @@ struct Look<'a> {
     known: &'a Predictions,
 }
 
-/// Two shapes on their ways, in a frame that goes with the centre of mass of A.
-struct Meeting<'a> {
-    shapes: [&'a ShapeRecord; 2],
-    rows: [&'a Row; 2],
-    /// Of the bodies at the start, and how far they turn, radians.
-    turned: [Rot; 2],
-    turns: [f32; 2],
-    /// From the centre of mass of A to that of B at the start, and how that changes over the step.
-    between: Vec2,
-    way: Vec2,
-    /// How far A goes in the step.
-    way_of_a: Vec2,
-    /// How far they reach from the centres of mass of their bodies, metres.
-    extents: [f32; 2],
-    /// The same of their bodies: less for a polygon, in whose box there is room.
-    disks: [f32; 2],
-}
-
 impl Look<'_> {
     fn hit(&self, index: u32) -> Option<Hit> {
         let contact = &self.scene.contacts.records[index as usize];
@@ -427,7 +401,7 @@ impl Look<'_> {
         let (bucket, block, lane) = self.scene.graph.lane_of(contact)?;
         let touches = bucket.touches(block, lane);
         if touches && let Some(constraint) = bucket.constraints.get(block) {
-            let hit = touching_hit(index, constraint, lane);
+            let hit = Hit::touching(index, constraint, lane);
             let prediction = self.other_point(contact, constraint, lane);
             return Some(Hit { prediction, ..hit });
         }
@@ -558,114 +532,6 @@ impl Look<'_> {
     }
 }
 
-impl Meeting<'_> {
-    /// Is one of the shapes one-way, and lets the other pass?
-    fn is_let_pass(&self) -> bool {
-        let lets = |k: usize, way: Vec2| one_way::lets_pass(self.shapes[k], self.turned[k], way);
-        lets(0, self.way) || lets(1, -self.way)
-    }
-
-    /// In the frame of shape A.
-    fn manifold(&self, [frame_a, frame_b]: &[Transform; 2], reach: f32) -> Manifold {
-        let [a, b] = self.shapes;
-        manifold::collide(&a.shape, &b.shape, frame_b.relative_to(*frame_a), reach)
-    }
-
-    /// The ways of the shapes.
-    fn sweeps(&self) -> [Sweep; 2] {
-        let sweep = |k: usize, place: Vec2, way: Vec2| {
-            let frame = Transform::new(place, self.turned[k]);
-            Sweep::new(frame, Vec2::ZERO, way, self.turns[k]).child(self.shapes[k].central)
-        };
-        [sweep(0, Vec2::ZERO, Vec2::ZERO), sweep(1, self.between, self.way)]
-    }
-
-    /// A part of the step for which the disks or the boxes around the shapes show that these stay apart; 1 for all of it.
-    fn apart_until(&self, slop: f32) -> f32 {
-        let [a, b] = self.rows;
-        let size = self.between.x.abs() + self.between.y.abs() + self.longest_way();
-        let least =
-            hit_at(a[6] + b[6], slop) + ROUNDING * (self.extents[0] + self.extents[1] + size);
-        if self.disks_apart_until(self.disks[0] + self.disks[1] + least) >= 1.0 {
-            return 1.0;
-        }
-        let swept = |k: usize, way| SweptBox::new(self.rows[k], self.turned[k], way);
-        let still = swept(0, (Vec2::ZERO, Vec2::ZERO, self.turns[0]));
-        let moving = swept(1, (self.between, self.way, self.turns[1]));
-        let boxes = still.apart_until(&moving, least);
-        let disks = self.disks_apart_until(self.extents[0] + self.extents[1] + least);
-        if disks > boxes { disks } else { boxes }
-    }
-
-    /// The part of the step until when the centres of mass are further from each other than `least`; 1 if they always are.
-    fn disks_apart_until(&self, least: f32) -> f32 {
-        let length = self.between.length();
-        let gap = (length - least) * (length + least);
-        let coming = -self.between.dot(self.way);
-        let square = coming * coming - self.way.length_sq() * gap;
-        if gap <= 0.0 {
-            0.0
-        } else if coming <= 0.0 || square <= 0.0 || gap >= coming + square.sqrt() {
-            1.0
-        } else {
-            gap / (coming + square.sqrt())
-        }
-    }
-
-    /// How far a point can come nearer in the step, metres.
-    fn longest_way(&self) -> f32 {
-        let turned = |k: usize| self.turns[k].abs() * self.extents[k];
-        self.way.length() + turned(0) + turned(1)
-    }
-
-    /// Do the disks around the shapes meet on their ways?
-    fn comes_near(&self) -> bool {
-        self.disks_apart_until(self.extents[0] + self.extents[1]) < 1.0
-    }
-
-    /// The contact of the time of impact, its points as far apart as they still have to come.
-    fn predict(&self, manifold: &Manifold, frame: &Transform, fraction: f32) -> Prediction {
-        let (normal, between) =
-            (frame.q.rotate(manifold.normal), self.between + self.way * fraction);
-        let mut prediction = Prediction {
-            normal,
-            between,
-            way: self.way_of_a * fraction,
-            points: [Vec2::ZERO; 2],
-            separation: [f32::MAX; 2],
-            id: [0.0; 2],
-            fraction,
-            pushed: [0.0; 2],
-        };
-        for (k, point) in manifold.points().iter().enumerate() {
-            let arm = frame.apply(point.point);
-            let turned =
-                (arm - between).cross(normal) * self.turns[1] - arm.cross(normal) * self.turns[0];
-            let opened = fraction * (normal.dot(self.way) + turned);
-            let coming = if opened < 0.0 { -opened } else { 0.0 };
-            prediction.points[k] = arm;
-            prediction.separation[k] = point.separation + coming;
-            prediction.id[k] = f32::from(point.id);
-        }
-        prediction
-    }
-}
-
-impl Prediction {
-    /// `near` is how far points may be apart that are hit together, metres.
-    fn hit(&self, contact: u32, near: f32) -> Hit {
-        let Self { fraction, normal, between, .. } = *self;
-        // One that still has to come when the other is there is not hit.
-        let is_hit = |k: usize| self.separation[k] <= self.separation[1 - k] + near;
-        let arm = |k: usize| {
-            let point = self.points[if is_hit(k) { k } else { 1 - k }];
-            let on = |axis: Vec2| [point.cross(axis), (point - between).cross(axis)];
-            Arms { normal: on(normal), tangent: on(-normal.perp()) }
-        };
-        Hit { contact, prediction: None, fraction, normal, arms: [arm(0), arm(1)] }
-    }
-}
-
 /// Lists hits by time, then by contact: what comes first is handed on first.
 fn list_by_time(found: &[Vec<Hit>], order: &mut Vec<(u64, u32)>) {
     order.clear();
@@ -676,18 +542,4 @@ fn list_by_time(found: &[Vec<Hit>], order: &mut Vec<(u64, u32)>) {
         order.extend(hits.iter().enumerate().map(|(k, hit)| (key(hit), place(k))));
     }
     order.sort_unstable_by_key(|&(key, _)| key);
-}
-
-/// That of a contact that touches already.
-fn touching_hit(contact: u32, constraint: &ConstraintBlock, lane: usize) -> Hit {
-    let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
-    let there = |k: usize| constraint.points[k].normal_mass[lane] > 0.0;
-    let arm = |k: usize| {
-        let point = &constraint.points[if there(k) { k } else { 1 - k }];
-        Arms {
-            normal: [point.normal_arm_a[lane], point.normal_arm_b[lane]],
-            tangent: [point.tangent_arm_a[lane], point.tangent_arm_b[lane]],
-        }
-    };
-    Hit { contact, prediction: None, fraction: 0.0, normal, arms: [arm(0), arm(1)] }
 }

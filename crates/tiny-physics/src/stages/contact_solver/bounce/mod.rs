@@ -79,10 +79,12 @@ pub(crate) struct Memory {
     /// Has a body bounced in the round before?
     marks: Vec<bool>,
     marked: Vec<u32>,
+    /// Bodies that wait for what they hit first: they are looked at in the second round.
+    pub(crate) waiting: Vec<u32>,
 }
 
 footprint!(Batch { blocks, aims, sources, targets } none { place });
-footprint!(Memory { marks, marked } each { batches, hits });
+footprint!(Memory { marks, marked, waiting } each { batches, hits });
 
 /// Reflects what hits something bouncy, round by round.
 pub(crate) fn run(
@@ -94,7 +96,7 @@ pub(crate) fn run(
     schedule: &Schedule,
     memory: &mut Memory,
 ) {
-    let Memory { batches, hits, marks, marked } = memory;
+    let Memory { batches, hits, marks, marked, waiting } = memory;
     marks.resize(bodies.infos.len(), false);
     for round in 0..ROUNDS {
         let rows = SharedRows::new(&mut bodies.rows);
@@ -104,7 +106,7 @@ pub(crate) fn run(
         let hits = search.run(team, level, schedule, hits);
         let count = copy_out(team, graph, hits, batches);
         marked.drain(..).for_each(|body| marks[body as usize] = false);
-        if count == 0 {
+        if count == 0 && (round > 0 || waiting.is_empty()) {
             return;
         }
         let batches = &mut batches[..count];
@@ -117,8 +119,19 @@ pub(crate) fn run(
             batch.add_totals(graph);
             batch.mark(bodies, marks, marked);
         }
+        if round == 0 {
+            waiting.iter().for_each(|&body| mark(body, bodies, marks, marked));
+        }
     }
     marked.drain(..).for_each(|body| marks[body as usize] = false);
+}
+
+/// Marks a body that can move.
+fn mark(body: u32, bodies: &Bodies, marks: &mut [bool], marked: &mut Vec<u32>) {
+    if bodies.is_dynamic(body) && !marks[body as usize] {
+        marks[body as usize] = true;
+        marked.push(body);
+    }
 }
 
 /// Copies out what bounces, place by place. Gives the number of batches.
@@ -196,12 +209,8 @@ impl Batch {
     fn mark(&self, bodies: &Bodies, marks: &mut [bool], marked: &mut Vec<u32>) {
         for index in 0..self.sources.len() {
             let block = &self.blocks[index / BLOCK];
-            for body in [block.body_a[index % BLOCK], block.body_b[index % BLOCK]] {
-                if bodies.is_dynamic(body) && !marks[body as usize] {
-                    marks[body as usize] = true;
-                    marked.push(body);
-                }
-            }
+            mark(block.body_a[index % BLOCK], bodies, marks, marked);
+            mark(block.body_b[index % BLOCK], bodies, marks, marked);
         }
     }
 

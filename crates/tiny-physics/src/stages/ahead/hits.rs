@@ -1,0 +1,83 @@
+//! Hits, and the contacts that are foreseen for them.
+
+use super::courses::Course;
+use crate::dynamics::ConstraintBlock;
+use crate::math::Vec2;
+
+/// A contact as it will be at the time of impact, seen from the start of the step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Prediction {
+    /// From A to B, world.
+    pub(crate) normal: Vec2,
+    /// From the centre of mass of A to that of B.
+    pub(crate) between: Vec2,
+    /// How far that of A has come by then, metres.
+    pub(crate) way: Vec2,
+    /// Relative to the centre of mass of A.
+    pub(crate) points: [Vec2; 2],
+    /// Metres at the start of the step; the largest number for a point that is not there.
+    pub(crate) separation: [f32; 2],
+    pub(crate) id: [f32; 2],
+    /// When, as a part of the step.
+    pub(super) fraction: f32,
+    /// What it has pushed so far, as hits are handed on, N s.
+    pub(super) pushed: [f32; 2],
+    /// How fast its points part after the hits before it, m/s.
+    pub(crate) parting: [f32; 2],
+}
+
+/// A hit: where, and how soon.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hit {
+    pub(super) contact: u32,
+    pub(super) prediction: Option<Prediction>,
+    pub(super) fraction: f32,
+    pub(super) normal: Vec2,
+    /// Of each point; the same twice where there is one.
+    pub(super) arms: [Arms; 2],
+}
+
+/// Cross products of a point with the normal and with the tangent (the normal turned clockwise), on A and on B.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arms {
+    pub(super) normal: [f32; 2],
+    pub(super) tangent: [f32; 2],
+}
+
+impl Hit {
+    /// That of a contact that touches already.
+    pub(super) fn touching(contact: u32, constraint: &ConstraintBlock, lane: usize) -> Self {
+        let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
+        let there = |k: usize| constraint.points[k].normal_mass[lane] > 0.0;
+        let arm = |k: usize| {
+            let point = &constraint.points[if there(k) { k } else { 1 - k }];
+            Arms {
+                normal: [point.normal_arm_a[lane], point.normal_arm_b[lane]],
+                tangent: [point.tangent_arm_a[lane], point.tangent_arm_b[lane]],
+            }
+        };
+        Self { contact, prediction: None, fraction: 0.0, normal, arms: [arm(0), arm(1)] }
+    }
+
+    /// How fast its points part, as these bodies move.
+    pub(super) fn parting(&self, [a, b]: &[Course; 2]) -> [f32; 2] {
+        self.arms.map(|arms| {
+            b.speed_at(arms.normal[1], self.normal) - a.speed_at(arms.normal[0], self.normal)
+        })
+    }
+}
+
+impl Prediction {
+    /// `near` is how far points may be apart that are hit together, metres.
+    pub(super) fn hit(&self, contact: u32, near: f32) -> Hit {
+        let Self { fraction, normal, between, .. } = *self;
+        // One that still has to come when the other is there is not hit.
+        let is_hit = |k: usize| self.separation[k] <= self.separation[1 - k] + near;
+        let arm = |k: usize| {
+            let point = self.points[if is_hit(k) { k } else { 1 - k }];
+            let on = |axis: Vec2| [point.cross(axis), (point - between).cross(axis)];
+            Arms { normal: on(normal), tangent: on(-normal.perp()) }
+        };
+        Hit { contact, prediction: None, fraction, normal, arms: [arm(0), arm(1)] }
+    }
+}

@@ -1,0 +1,129 @@
+//! Two shapes on their ways: whether they come near, when, and the contact that they have then.
+
+use super::hits::Prediction;
+use crate::dynamics::ShapeRecord;
+use crate::geometry::manifold::{self, Manifold};
+use crate::geometry::{Sweep, SweptBox, hit_at};
+use crate::math::{Rot, Transform, Vec2};
+use crate::simd::Row;
+use crate::stages::one_way;
+
+/// What rounding makes of places, as a part of how large and far away things are.
+const ROUNDING: f32 = 1.0e-6;
+
+/// Two shapes on their ways, in a frame that goes with the centre of mass of A.
+pub(super) struct Meeting<'a> {
+    pub(super) shapes: [&'a ShapeRecord; 2],
+    pub(super) rows: [&'a Row; 2],
+    /// Of the bodies at the start, and how far they turn, radians.
+    pub(super) turned: [Rot; 2],
+    pub(super) turns: [f32; 2],
+    /// From the centre of mass of A to that of B at the start, and how that changes over the step.
+    pub(super) between: Vec2,
+    pub(super) way: Vec2,
+    /// How far A goes in the step.
+    pub(super) way_of_a: Vec2,
+    /// How far they reach from the centres of mass of their bodies, metres.
+    pub(super) extents: [f32; 2],
+    /// The same of their bodies: less for a polygon, in whose box there is room.
+    pub(super) disks: [f32; 2],
+}
+
+impl Meeting<'_> {
+    /// Is one of the shapes one-way, and lets the other pass?
+    pub(super) fn is_let_pass(&self) -> bool {
+        let lets = |k: usize, way: Vec2| one_way::lets_pass(self.shapes[k], self.turned[k], way);
+        lets(0, self.way) || lets(1, -self.way)
+    }
+
+    /// In the frame of shape A.
+    pub(super) fn manifold(&self, [frame_a, frame_b]: &[Transform; 2], reach: f32) -> Manifold {
+        let [a, b] = self.shapes;
+        manifold::collide(&a.shape, &b.shape, frame_b.relative_to(*frame_a), reach)
+    }
+
+    /// The ways of the shapes.
+    pub(super) fn sweeps(&self) -> [Sweep; 2] {
+        let sweep = |k: usize, place: Vec2, way: Vec2| {
+            let frame = Transform::new(place, self.turned[k]);
+            Sweep::new(frame, Vec2::ZERO, way, self.turns[k]).child(self.shapes[k].central)
+        };
+        [sweep(0, Vec2::ZERO, Vec2::ZERO), sweep(1, self.between, self.way)]
+    }
+
+    /// A part of the step for which the disks or the boxes around the shapes show that these stay apart; 1 for all of it.
+    pub(super) fn apart_until(&self, slop: f32) -> f32 {
+        let [a, b] = self.rows;
+        let size = self.between.x.abs() + self.between.y.abs() + self.longest_way();
+        let least =
+            hit_at(a[6] + b[6], slop) + ROUNDING * (self.extents[0] + self.extents[1] + size);
+        if self.disks_apart_until(self.disks[0] + self.disks[1] + least) >= 1.0 {
+            return 1.0;
+        }
+        let swept = |k: usize, way| SweptBox::new(self.rows[k], self.turned[k], way);
+        let still = swept(0, (Vec2::ZERO, Vec2::ZERO, self.turns[0]));
+        let moving = swept(1, (self.between, self.way, self.turns[1]));
+        let boxes = still.apart_until(&moving, least);
+        let disks = self.disks_apart_until(self.extents[0] + self.extents[1] + least);
+        if disks > boxes { disks } else { boxes }
+    }
+
+    /// The part of the step until when the centres of mass are further from each other than `least`; 1 if they always are.
+    fn disks_apart_until(&self, least: f32) -> f32 {
+        let length = self.between.length();
+        let gap = (length - least) * (length + least);
+        let coming = -self.between.dot(self.way);
+        let square = coming * coming - self.way.length_sq() * gap;
+        if gap <= 0.0 {
+            0.0
+        } else if coming <= 0.0 || square <= 0.0 || gap >= coming + square.sqrt() {
+            1.0
+        } else {
+            gap / (coming + square.sqrt())
+        }
+    }
+
+    /// How far a point can come nearer in the step, metres.
+    pub(super) fn longest_way(&self) -> f32 {
+        let turned = |k: usize| self.turns[k].abs() * self.extents[k];
+        self.way.length() + turned(0) + turned(1)
+    }
+
+    /// Do the disks around the shapes meet on their ways?
+    pub(super) fn comes_near(&self) -> bool {
+        self.disks_apart_until(self.extents[0] + self.extents[1]) < 1.0
+    }
+
+    /// The contact of the time of impact, its points as far apart as they still have to come.
+    pub(super) fn predict(
+        &self,
+        manifold: &Manifold,
+        frame: &Transform,
+        fraction: f32,
+    ) -> Prediction {
+        let (normal, between) =
+            (frame.q.rotate(manifold.normal), self.between + self.way * fraction);
+        let mut prediction = Prediction {
+            normal,
+            between,
+            way: self.way_of_a * fraction,
+            points: [Vec2::ZERO; 2],
+            separation: [f32::MAX; 2],
+            id: [0.0; 2],
+            fraction,
+            pushed: [0.0; 2],
+            parting: [0.0; 2],
+        };
+        for (k, point) in manifold.points().iter().enumerate() {
+            let arm = frame.apply(point.point);
+            let turned =
+                (arm - between).cross(normal) * self.turns[1] - arm.cross(normal) * self.turns[0];
+            let opened = fraction * (normal.dot(self.way) + turned);
+            let coming = if opened < 0.0 { -opened } else { 0.0 };
+            prediction.points[k] = arm;
+            prediction.separation[k] = point.separation + coming;
+            prediction.id[k] = f32::from(point.id);
+        }
+        prediction
+    }
+}
