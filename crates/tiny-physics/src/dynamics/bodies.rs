@@ -1,5 +1,6 @@
 //! Bodies: hot rows for the solver, poses, and everything else.
 
+use super::body_rows::{Slot, inverses};
 use super::pace::{PLAIN, is_jointed};
 use super::places::{claim, put};
 use crate::codec::{Data, Generations, Reader, Sink, kept_as_described, record, store};
@@ -10,20 +11,6 @@ use crate::simd::Row;
 
 /// No record: the end of a list.
 pub(crate) const NULL: u32 = u32::MAX;
-
-/// Positions of the parts of a body's [`Row`].
-pub(crate) struct Slot;
-
-impl Slot {
-    pub(crate) const VX: usize = 0;
-    pub(crate) const VY: usize = 1;
-    pub(crate) const W: usize = 2;
-    pub(crate) const INV_MASS: usize = 3;
-    pub(crate) const DX: usize = 4;
-    pub(crate) const DY: usize = 5;
-    pub(crate) const DA: usize = 6;
-    pub(crate) const INV_INERTIA: usize = 7;
-}
 
 /// What a substep adds to a body's velocity; computed once a step.
 #[derive(Clone, Copy, Default, PartialEq, Debug)]
@@ -352,11 +339,17 @@ impl Bodies {
         self.rows[index as usize][Slot::W]
     }
 
-    /// Inverse mass and inverse inertia as the solver uses them.
+    /// Inverse masses along x and y and inverse inertia as the solver uses them.
+    #[inline]
+    pub(crate) fn inverses(&self, index: u32) -> [f32; 3] {
+        inverses::<f32>((), &self.rows[index as usize])
+    }
+
+    /// Inverse mass and inverse inertia, where locks do not matter.
     #[inline]
     pub(crate) fn inverse_masses(&self, index: u32) -> (f32, f32) {
-        let row = &self.rows[index as usize];
-        (row[Slot::INV_MASS], row[Slot::INV_INERTIA])
+        let [x, y, turn] = self.inverses(index);
+        (if x > y { x } else { y }, turn)
     }
 
     pub(crate) fn set_velocity(&mut self, index: u32, velocity: Vec2) {
@@ -389,9 +382,13 @@ impl Bodies {
         let dynamic = info.kind == BodyKind::Dynamic;
         let turns = dynamic && !info.locks.rotation && !info.never_turns && info.inertia > 0.0;
         let row = &mut self.rows[index as usize];
-        let moves = dynamic && info.mass > 0.0 && (turns || !(info.locks.x && info.locks.y));
-        row[Slot::INV_MASS] = if moves { 1.0 / info.mass } else { 0.0 };
-        row[Slot::INV_INERTIA] = if turns { 1.0 / info.inertia } else { 0.0 };
+        let Locks { x, y, .. } = info.locks;
+        let moves = dynamic && info.mass > 0.0 && !(x && y);
+        let inv_inertia = if turns { 1.0 / info.inertia } else { 0.0 };
+        let inv_mass = if moves { 1.0 / info.mass } else { 0.0 };
+        row[Slot::INV_MASS] = if moves && (x || y) { -inv_mass } else { inv_mass };
+        row[Slot::INV_INERTIA] =
+            if moves && y { -inv_inertia.max(f32::MIN_POSITIVE) } else { inv_inertia };
     }
 }
 

@@ -6,6 +6,7 @@
 mod awake;
 mod blocks;
 mod bodies;
+mod body_rows;
 mod chosen;
 mod coloured;
 mod contacts;
@@ -31,7 +32,8 @@ mod waiting;
 pub(crate) use blocks::{
     BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags,
 };
-pub(crate) use bodies::{Bodies, BodyInfo, Given, GivenPoint, Motion, NULL, Slot};
+pub(crate) use bodies::{Bodies, BodyInfo, Given, GivenPoint, Motion, NULL};
+pub(crate) use body_rows::{Slot, inverse_mass_along, inverses, locked};
 pub(crate) use chosen::Chosen;
 pub(crate) use coloured::{COLOURS, IDLE, Place, colour_at, is_overflow, pace_at};
 pub(crate) use contacts::{Contact, Contacts, SavedPoint};

@@ -9,12 +9,14 @@ use super::ahead::{HEAVIER, Predictions};
 use super::islands::Stores;
 use crate::dynamics::{
     Bodies, Bucket, ConstraintBlock, Contact, Contacts, Graph, Joints, ManifoldBlock, Shapes, Slot,
+    inverses,
 };
 use crate::footprint::footprint;
 use crate::geometry::Shape;
 use crate::geometry::manifold::{self, Manifold};
 use crate::math::{Transform, Vec2};
 use crate::simd::{BLOCK, Row};
+use crate::stages::effective_mass::inverses_along;
 use crate::threads::Team;
 
 /// What finding contacts needs beyond the stores.
@@ -251,8 +253,8 @@ impl Course {
             turning[1] += point.normal_arm_b[lane] * push + point.tangent_arm_b[lane] * rub;
         }
         [(0, -linear), (1, linear)].map(|(k, linear)| {
-            let by_mass = linear * self.rows[k][Slot::INV_MASS];
-            [by_mass.x, by_mass.y, turning[k] * self.rows[k][Slot::INV_INERTIA]]
+            let [x, y, turn] = inverses::<f32>((), &self.rows[k]);
+            [linear.x * x, linear.y * y, turning[k] * turn]
         })
     }
 
@@ -285,16 +287,16 @@ impl Course {
             point.separation[lane] = place.separation - normal.dot(self.motion) - turned;
             [point.normal_arm_a[lane], point.normal_arm_b[lane]] = along;
             [point.tangent_arm_a[lane], point.tangent_arm_b[lane]] = across;
-            point.normal_mass[lane] = self.mass(along);
-            point.tangent_mass[lane] = self.mass(across);
+            point.normal_mass[lane] = self.mass(normal, along);
+            point.tangent_mass[lane] = self.mass(normal.perp(), across);
         }
     }
 
-    /// Effective mass.
-    fn mass(&self, arms: [f32; 2]) -> f32 {
+    /// Effective mass along an axis.
+    fn mass(&self, axis: Vec2, arms: [f32; 2]) -> f32 {
         let [a, b] = [0, 1].map(|k| {
-            let row = &self.rows[k];
-            row[Slot::INV_MASS] + row[Slot::INV_INERTIA] * arms[k] * arms[k]
+            let [linear, turn] = inverses_along(&self.rows[k], axis);
+            linear + turn * arms[k] * arms[k]
         });
         if a + b > 0.0 { 1.0 / (a + b) } else { 0.0 }
     }

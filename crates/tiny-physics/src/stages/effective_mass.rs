@@ -1,7 +1,8 @@
 //! Effective masses of contacts: what an impulse at a point moves.
 
-use crate::dynamics::{Bodies, Contact, Graph};
-use crate::simd::Lanes;
+use crate::dynamics::{Bodies, Contact, Graph, inverse_mass_along, inverses};
+use crate::math::Vec2;
+use crate::simd::{Lanes, Row};
 
 /// 1 / (sum of inverse masses + arms squared times inverse inertias), zero where nothing can move.
 #[inline(always)]
@@ -11,19 +12,33 @@ pub(super) fn effective_mass<L: Lanes>(token: L::Token, arm: [L; 2], [mass, a, b
     L::select(k.gt(zero), L::splat(token, 1.0) / k, zero)
 }
 
+/// Inverse masses of a body along a direction and in turning.
+#[inline(always)]
+pub(super) fn inverses_along(row: &Row, direction: Vec2) -> [f32; 2] {
+    let [x, y, turn] = inverses::<f32>((), row);
+    let linear = if x == y { x } else { inverse_mass_along([direction.x, direction.y], [x, y]) };
+    [linear, turn]
+}
+
 /// Has the constraint of a contact follow the masses of its bodies, which are others than when it was written.
 pub(super) fn follow(graph: &mut Graph, contact: &Contact, bodies: &Bodies) {
     let Some((constraint, lane)) = graph.solved_mut(contact) else { return };
-    let [(mass_a, a), (mass_b, b)] =
-        [contact.body_a, contact.body_b].map(|body| bodies.inverse_masses(body));
-    let inverses = [mass_a + mass_b, a, b];
-    let anew = |mass: &mut f32, arms: [f32; 2]| {
+    let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
+    let inverses = |axis: Vec2| {
+        let [a, b] = [contact.body_a, contact.body_b]
+            .map(|body| inverses_along(&bodies.rows[body as usize], axis));
+        [a[0] + b[0], a[1], b[1]]
+    };
+    let (along, across) = (inverses(normal), inverses(normal.perp()));
+    let anew = |mass: &mut f32, arms: [f32; 2], inverses: [f32; 3]| {
         if *mass > 0.0 {
             *mass = effective_mass::<f32>((), arms, inverses);
         }
     };
     for point in &mut constraint.points {
-        anew(&mut point.normal_mass[lane], [point.normal_arm_a[lane], point.normal_arm_b[lane]]);
-        anew(&mut point.tangent_mass[lane], [point.tangent_arm_a[lane], point.tangent_arm_b[lane]]);
+        let arms = [point.normal_arm_a[lane], point.normal_arm_b[lane]];
+        anew(&mut point.normal_mass[lane], arms, along);
+        let arms = [point.tangent_arm_a[lane], point.tangent_arm_b[lane]];
+        anew(&mut point.tangent_mass[lane], arms, across);
     }
 }

@@ -41,8 +41,8 @@ fn motion(info: &BodyInfo, row: &Row, gravity: Vec2, h: f32) -> Motion {
     if info.kind != BodyKind::Dynamic {
         return Motion { gain: [0.0, 0.0, 0.0, carry], factor: [1.0; 4] };
     }
-    let linear = (gravity * info.gravity_scale + info.force * row[Slot::INV_MASS]) * h;
-    let mut gain = [linear.x, linear.y, info.torque * row[Slot::INV_INERTIA] * h, carry];
+    let linear = (gravity * info.gravity_scale + info.force * row[Slot::INV_MASS].abs()) * h;
+    let mut gain = [linear.x, linear.y, info.torque * row[Slot::INV_INERTIA].abs() * h, carry];
     let damping = 1.0 / (1.0 + h * info.linear_damping);
     let mut factor = [damping, damping, 1.0 / (1.0 + h * info.angular_damping), 1.0];
     let locks = info.locks;

@@ -36,7 +36,8 @@ impl<L: Lanes> Lead<L> {
         let far = (x.abs() + y.abs() + turned) / limit;
         let share = ((one - far) * L::splat(token, 2.0)).clamp(zero, one);
         // What lies on something that turns and that nothing moves goes its arc: see [`arcs`](super::arcs).
-        let led = |row: &[L; 8]| (row[Slot::INV_MASS] + row[Slot::INV_INERTIA]).eq(zero);
+        let led =
+            |row: &[L; 8]| (row[Slot::INV_MASS].abs() + row[Slot::INV_INERTIA].abs()).eq(zero);
         let spin =
             L::select(led(a), turns[0].abs(), zero) + L::select(led(b), turns[1].abs(), zero);
         // Over a seam goes what bore on one shape and will on the next: both are looked at alike.

@@ -10,7 +10,10 @@ use super::effective_mass::effective_mass;
 use super::middle::Lead;
 use super::narrow_context::Context;
 use super::surfaces::{self, LanePoints};
-use crate::dynamics::{BlockHead, Blocks, Graph, ManifoldBlock, NULL, Schedule, flags};
+use crate::dynamics::{
+    BlockHead, Blocks, Graph, ManifoldBlock, NULL, Schedule, Slot, flags, inverse_mass_along,
+    locked,
+};
 use crate::geometry::manifold::{self, LaneManifold, LanePair, Outline, PairClass};
 use crate::math::{Pose, Rot, Transform, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, Row, RowSource, RowsOf, dispatch};
@@ -526,7 +529,8 @@ fn write_constraint<L: Lanes, K: PairKernel>(
         };
         let (normal_impulse, tangent_impulse) = (carry(0), carry(1));
         let arms = Arms::compute(geometry, k);
-        let (normal_mass, tangent_mass) = arms.masses(token, &body_a, &body_b);
+        let (normal_mass, tangent_mass) =
+            arms.masses(token, geometry.manifold.normal, [body_a, body_b]);
         *approach = geometry.manifold.normal[0] * (body_b[0] - body_a[0])
             + geometry.manifold.normal[1] * (body_b[1] - body_a[1])
             + arms.normal[1] * body_b[2]
@@ -590,9 +594,15 @@ impl<L: Lanes> Arms<L> {
 
     /// Effective masses along normal and tangent.
     #[inline(always)]
-    fn masses(&self, token: L::Token, body_a: &[L; 8], body_b: &[L; 8]) -> (L, L) {
-        let inverses = [body_a[3] + body_b[3], body_a[7], body_b[7]];
-        let normal = effective_mass(token, self.normal, inverses);
-        (normal, effective_mass(token, self.tangent, inverses))
+    fn masses(&self, token: L::Token, [x, y]: [L; 2], [mut a, mut b]: [[L; 8]; 2]) -> (L, L) {
+        let mut along = a[Slot::INV_MASS] + b[Slot::INV_MASS];
+        let mut across = along;
+        if let Some([free_a, free_b]) = locked(token, [&mut a, &mut b]) {
+            let both = [free_a[0] + free_b[0], free_a[1] + free_b[1]];
+            (along, across) = (inverse_mass_along([x, y], both), inverse_mass_along([y, x], both));
+        }
+        let turns = [a[Slot::INV_INERTIA], b[Slot::INV_INERTIA]];
+        let mass = |arms, linear| effective_mass(token, arms, [linear, turns[0], turns[1]]);
+        (mass(self.normal, along), mass(self.tangent, across))
     }
 }

@@ -21,7 +21,7 @@
 
 use super::islands::Stores;
 use crate::describe::{JointDef, JointKind, Motor};
-use crate::dynamics::{Bodies, DisjointSets, NULL, Slot};
+use crate::dynamics::{Bodies, DisjointSets, NULL, Slot, inverses};
 use crate::math::DVec2;
 use crate::simd::BLOCK;
 
@@ -80,10 +80,10 @@ impl State {
         let (row, start) = (&bodies.rows[body as usize], &bodies.starts[body as usize]);
         let (info, pose) = (&bodies.infos[body as usize], &bodies.poses[body as usize]);
         let own = |inverse: f32, mass: f32| if inverse > 0.0 { f64::from(mass) } else { 0.0 };
-        let mass = own(row[Slot::INV_MASS], info.mass);
+        let [x, y, turn] = inverses::<f32>((), row);
         let g = core::array::from_fn(|k| f64::from(bodies.motions[body as usize].gain[k]));
         Self {
-            masses: [mass, mass, own(row[Slot::INV_INERTIA], info.inertia)],
+            masses: [own(x, info.mass), own(y, info.mass), own(turn, info.inertia)],
             v: core::array::from_fn(|k| f64::from(row[k])),
             u: core::array::from_fn(|k| f64::from(start[k]) - g[k]),
             g,

@@ -23,7 +23,7 @@ use super::islands::Stores;
 use super::joint_solver::trees;
 use super::passivity::may_drive;
 use crate::describe::JointDef;
-use crate::dynamics::{Bodies, Bucket, JointTree, Joints, NULL, Slot, flags};
+use crate::dynamics::{Bodies, Bucket, JointTree, Joints, NULL, Slot, flags, inverses};
 use crate::simd::{BLOCK, FourKernel, Lanes, Row, Simd, SimdLevel, dispatch_fours};
 
 /// Numbers that the answers of a tree may have: touched bodies times bodies. Others stay with the lanes.
@@ -414,7 +414,7 @@ impl Touch {
         if self.rolling > 0.0 {
             let limit = self.rolling * (self.points[0].load + self.points[1].load);
             let inverse =
-                |k: usize| velocities.rows[self.sides[k].body as usize][Slot::INV_INERTIA];
+                |k: usize| velocities.rows[self.sides[k].body as usize][Slot::INV_INERTIA].abs();
             let (give, old) = (inverse(0) + inverse(1), self.rolling_impulse);
             let mass = if give > 0.0 { 1.0 / give } else { 0.0 };
             let wanted = old - mass * velocities.along(&self.sides, ABOUT);
@@ -486,7 +486,13 @@ fn give(sides: &[Side; 2], on: [Planar; 2], answers: &[Answers], rows: &[Row]) -
         None => {
             let row = &rows[sides[k].body as usize];
             let [x, y, turn] = on[k];
-            row[Slot::INV_MASS] * (x * x + y * y) + row[Slot::INV_INERTIA] * turn * turn
+            let [mass_x, mass_y, inv_inertia] = inverses::<f32>((), row);
+            let linear = if mass_x == mass_y {
+                mass_x * (x * x + y * y)
+            } else {
+                mass_x * x * x + mass_y * y * y
+            };
+            linear + inv_inertia * turn * turn
         }
         Some(at) => dot(on[k], answers[at.answers as usize].change(at.touched, at.node, on[k])),
     });
@@ -507,9 +513,9 @@ fn dot(a: Planar, b: Planar) -> f32 {
 
 #[inline(always)]
 fn push_body(row: &mut Row, on: Planar, impulse: f32) {
-    row[Slot::VX] += row[Slot::INV_MASS] * (on[0] * impulse);
-    row[Slot::VY] += row[Slot::INV_MASS] * (on[1] * impulse);
-    row[Slot::W] += row[Slot::INV_INERTIA] * (on[2] * impulse);
+    for (k, inverse) in inverses::<f32>((), row).into_iter().enumerate() {
+        row[k] += inverse * (on[k] * impulse);
+    }
 }
 
 impl Side {

@@ -215,8 +215,8 @@ impl BodyMut<'_> {
 
     fn apply_impulses(&mut self, linear: Vec2, angular: f32) {
         let (index, bodies) = (self.index, &self.world.state.bodies);
-        let (inv_mass, inv_inertia) = bodies.inverse_masses(index);
-        let velocity = bodies.velocity(index) + linear * inv_mass;
+        let [x, y, inv_inertia] = bodies.inverses(index);
+        let velocity = bodies.velocity(index) + Vec2::new(linear.x * x, linear.y * y);
         let turning = bodies.angular_velocity(index) + angular * inv_inertia;
         if self.is_dynamic() && self.accept(&[velocity.x, velocity.y, turning]) {
             self.give_velocity(velocity, turning);

@@ -7,7 +7,7 @@ use crate::broad_phase::ProxyId;
 use crate::describe::{BodyKind, JointKind};
 use crate::dynamics::{
     BodyInfo, Bucket, COLOURS, Contact, FrameLanes, IDLE, JointBucket, JointClass, JointLanes,
-    JointRecord, NULL, PACES, PLAIN, Place, colour_at, guard, joint_classes,
+    JointRecord, NULL, PACES, PLAIN, Place, Slot, colour_at, guard, joint_classes,
 };
 use crate::geometry::manifold::{PairClass, ShapeClass};
 use crate::simd::BLOCK;
@@ -98,10 +98,11 @@ impl World {
             ensure(!info.awake || moves, "a body that cannot move is awake")?;
             ensure(pose.is_finite(), "a body is nowhere")?;
             ensure(usize::from(info.pace) < PACES, "a body has no pace")?;
-            let (inv_mass, inv_inertia) = bodies.inverse_masses(index as u32);
-            let moved = inv_mass != 0.0 || inv_inertia != 0.0;
-            let right = info.kind == BodyKind::Dynamic || !moved;
-            ensure(right && inv_mass >= 0.0 && inv_inertia >= 0.0, "a body moves that cannot")?;
+            let row = &bodies.rows[index];
+            let [mass, turn] = [Slot::INV_MASS, Slot::INV_INERTIA].map(|slot| row[slot]);
+            let right = info.kind == BodyKind::Dynamic || mass == 0.0 && turn == 0.0;
+            let locked = info.locks.x != info.locks.y;
+            ensure(right && (locked || mass >= 0.0 && turn >= 0.0), "a body moves that cannot")?;
             let next = info.island_next;
             let sleeps = |i: u32| {
                 bodies.infos.get(i as usize).is_some_and(|info| {

@@ -94,7 +94,7 @@ impl Course {
         let row = &bodies.rows[body as usize];
         let (velocity, spin) = (Vec2::new(row[Slot::VX], row[Slot::VY]), row[Slot::W]);
         let (motion, turn) = (velocity * dt, spin * dt);
-        let (inverse_mass, stopped) = (row[Slot::INV_MASS], false);
+        let (inverse_mass, stopped) = (row[Slot::INV_MASS].abs(), false);
         Self { body, motion, turn, velocity, spin, astray: 0.0, inverse_mass, stopped }
     }
 
@@ -120,28 +120,28 @@ impl Course {
 /// Two bodies that hit each other, and how many seconds they go on afterwards.
 pub(super) struct Impact {
     pub(super) courses: [Course; 2],
-    /// Inverse mass and inertia, and how far they reach from their centres of mass.
-    bodies: [[f32; 3]; 2],
+    /// Inverse masses along x and y and inverse inertia.
+    inverses: [[f32; 3]; 2],
+    /// How far they reach from their centres of mass.
+    reach: [f32; 2],
     rest: f32,
 }
 
 impl Impact {
     #[inline]
     pub(super) fn new(bodies: &Bodies, courses: [Course; 2], rest: f32) -> Self {
-        let bodies = courses.map(|course| {
-            let row = &bodies.rows[course.body as usize];
-            let reach = bodies.infos[course.body as usize].max_extent;
-            [row[Slot::INV_MASS], row[Slot::INV_INERTIA], reach]
-        });
-        Self { courses, bodies, rest }
+        let inverses = courses.map(|course| bodies.inverses(course.body));
+        let reach = courses.map(|course| bodies.infos[course.body as usize].max_extent);
+        Self { courses, inverses, reach, rest }
     }
 
     /// How fast B leaves A along an axis, and the mass that an impulse along it moves: nothing where neither can move.
     pub(super) fn approach(&self, axis: Vec2, arms: [f32; 2]) -> (f32, f32) {
         let [a, b] = [0, 1].map(|k| self.courses[k].speed_at(arms[k], axis));
         let [give_a, give_b] = [0, 1].map(|k| {
-            let [inv_mass, inv_inertia, _] = self.bodies[k];
-            inv_mass + inv_inertia * arms[k] * arms[k]
+            let [x, y, turn] = self.inverses[k];
+            let linear = if x == y { x } else { x * axis.x * axis.x + y * axis.y * axis.y };
+            linear + turn * arms[k] * arms[k]
         });
         let give = give_a + give_b;
         (b - a, if give > 0.0 { 1.0 / give } else { 0.0 })
@@ -150,9 +150,9 @@ impl Impact {
     /// Gives B an impulse along an axis, and A the opposite one.
     pub(super) fn push(&mut self, impulse: f32, axis: Vec2, arms: [f32; 2]) {
         for (k, impulse) in [-impulse, impulse].into_iter().enumerate() {
-            let [inv_mass, inv_inertia, _] = self.bodies[k];
-            self.courses[k].velocity += axis * (impulse * inv_mass);
-            self.courses[k].spin += impulse * arms[k] * inv_inertia;
+            let [x, y, turn] = self.inverses[k];
+            self.courses[k].velocity += Vec2::new(axis.x * (impulse * x), axis.y * (impulse * y));
+            self.courses[k].spin += impulse * arms[k] * turn;
         }
         self.shift(impulse, axis, arms, self.rest);
     }
@@ -160,11 +160,12 @@ impl Impact {
     /// Moves the bodies on by what an impulse does in a time.
     pub(super) fn shift(&mut self, impulse: f32, axis: Vec2, arms: [f32; 2], time: f32) {
         for (k, impulse) in [-impulse, impulse].into_iter().enumerate() {
-            let ([inv_mass, inv_inertia, reach], course) = (self.bodies[k], &mut self.courses[k]);
-            let (velocity, spin) = (axis * (impulse * inv_mass), impulse * arms[k] * inv_inertia);
+            let ([x, y, turn], course) = (self.inverses[k], &mut self.courses[k]);
+            let velocity = Vec2::new(axis.x * (impulse * x), axis.y * (impulse * y));
+            let spin = impulse * arms[k] * turn;
             course.motion += velocity * time;
             course.turn += spin * time;
-            course.astray += (velocity.length() + spin.abs() * reach) * time;
+            course.astray += (velocity.length() + spin.abs() * self.reach[k]) * time;
         }
     }
 }

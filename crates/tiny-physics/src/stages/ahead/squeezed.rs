@@ -156,7 +156,7 @@ impl Squeezed {
             {
                 self.weighed.push(weighed);
                 let info = &mut bodies.infos[body as usize];
-                info.gravity_scale *= info.mass * bodies.rows[body as usize][Slot::INV_MASS];
+                info.gravity_scale *= info.mass * bodies.rows[body as usize][Slot::INV_MASS].abs();
             }
         }
         bodies.pressed = pressed;
@@ -299,7 +299,7 @@ fn weigh(
     graph: &mut Graph,
 ) -> Option<Weighed> {
     let row = &mut bodies.rows[body as usize];
-    let part = SHARE * by / row[Slot::INV_MASS];
+    let part = SHARE * by / row[Slot::INV_MASS].abs();
     if part >= 1.0 {
         return None;
     }

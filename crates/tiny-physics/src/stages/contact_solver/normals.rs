@@ -131,7 +131,8 @@ impl<L: Lanes> Normal<L> {
         let zero = stride.constants.zero;
         let one = L::splat(stride.token, 1.0);
         let k12 = {
-            let inv_mass = pair.a[Slot::INV_MASS] + pair.b[Slot::INV_MASS];
+            let [mass_a, mass_b] = pair.inverse_masses();
+            let inv_mass = mass_a + mass_b;
             let (turn_a, turn_b) = (first.arm_a * second.arm_a, first.arm_b * second.arm_b);
             inv_mass + pair.a[Slot::INV_INERTIA] * turn_a + pair.b[Slot::INV_INERTIA] * turn_b
         };

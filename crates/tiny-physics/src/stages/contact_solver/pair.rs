@@ -1,7 +1,7 @@
 //! What the kernels of contacts work on: the parameters in lanes, and the two bodies of each lane.
 
 use super::{Parameters, Softness};
-use crate::dynamics::{ConstraintBlock, Slot};
+use crate::dynamics::{ConstraintBlock, Slot, inverse_mass_along, locked};
 use crate::simd::{BLOCK, Lanes};
 use crate::threads::SharedRows;
 
@@ -60,16 +60,18 @@ pub(super) struct Pair<L: Lanes> {
     pub(super) a: [L; 8],
     pub(super) b: [L; 8],
     pub(super) normal: [L; 2],
+    /// Inverse masses of A and B along x and y, where some are locked along one of them.
+    locked: Option<[[L; 2]; 2]>,
 }
 
 impl<L: Lanes> Pair<L> {
     #[inline(always)]
     pub(super) fn load(stride: &Stride<'_, L>, block: &ConstraintBlock) -> Self {
-        Self {
-            a: L::gather(stride.token, stride.rows, &block.body_a[stride.at..]),
-            b: L::gather(stride.token, stride.rows, &block.body_b[stride.at..]),
-            normal: [stride.load(&block.normal_x), stride.load(&block.normal_y)],
-        }
+        let mut a = L::gather(stride.token, stride.rows, &block.body_a[stride.at..]);
+        let mut b = L::gather(stride.token, stride.rows, &block.body_b[stride.at..]);
+        let normal = [stride.load(&block.normal_x), stride.load(&block.normal_y)];
+        let locked = locked(stride.token, [&mut a, &mut b]);
+        Self { a, b, normal, locked }
     }
 
     /// Writes the velocities back, except to bodies that nothing moves.
@@ -87,7 +89,8 @@ impl<L: Lanes> Pair<L> {
         only: (u32, u32),
     ) {
         let zero = stride.constants.zero;
-        let mask = |body: &[L; 8]| L::bits(zero.lt(body[Slot::INV_MASS] + body[Slot::INV_INERTIA]));
+        let mask =
+            |body: &[L; 8]| L::bits(zero.lt(body[Slot::INV_MASS].abs() + body[Slot::INV_INERTIA]));
         let (write_a, write_b) = (mask(&self.a) & only.0, mask(&self.b) & only.1);
         let half = |body: [L; 8]| [body[0], body[1], body[2], body[3]];
         L::scatter(half(self.a), stride.rows, &block.body_a[stride.at..], write_a);
@@ -124,11 +127,22 @@ impl<L: Lanes> Pair<L> {
     /// Velocity along the normal per impulse along it.
     #[inline(always)]
     pub(super) fn response(&self, arm_a: L, arm_b: L) -> L {
-        let (a, b) = (&self.a, &self.b);
-        a[Slot::INV_MASS]
-            + b[Slot::INV_MASS]
-            + a[Slot::INV_INERTIA] * arm_a * arm_a
-            + b[Slot::INV_INERTIA] * arm_b * arm_b
+        let [mass_a, mass_b] = self.inverse_masses();
+        mass_a
+            + mass_b
+            + self.a[Slot::INV_INERTIA] * arm_a * arm_a
+            + self.b[Slot::INV_INERTIA] * arm_b * arm_b
+    }
+
+    /// Inverse masses of A and B along the normal.
+    #[inline(always)]
+    pub(super) fn inverse_masses(&self) -> [L; 2] {
+        match &self.locked {
+            None => [self.a[Slot::INV_MASS], self.b[Slot::INV_MASS]],
+            Some([a, b]) => {
+                [inverse_mass_along(self.normal, *a), inverse_mass_along(self.normal, *b)]
+            }
+        }
     }
 
     /// Applies an impulse along the normal.
@@ -146,6 +160,15 @@ impl<L: Lanes> Pair<L> {
     #[inline(always)]
     pub(super) fn apply(&mut self, linear: [L; 2], impulse: L, arm_a: L, arm_b: L) {
         let (a, b) = (&mut self.a, &mut self.b);
+        if let Some([free_a, free_b]) = &self.locked {
+            for k in [Slot::VX, Slot::VY] {
+                a[k] = a[k] - free_a[k] * linear[k];
+                b[k] = b[k] + free_b[k] * linear[k];
+            }
+            a[Slot::W] = a[Slot::W] - a[Slot::INV_INERTIA] * (arm_a * impulse);
+            b[Slot::W] = b[Slot::W] + b[Slot::INV_INERTIA] * (arm_b * impulse);
+            return;
+        }
         a[Slot::VX] = a[Slot::VX] - a[Slot::INV_MASS] * linear[0];
         a[Slot::VY] = a[Slot::VY] - a[Slot::INV_MASS] * linear[1];
         a[Slot::W] = a[Slot::W] - a[Slot::INV_INERTIA] * (arm_a * impulse);
@@ -157,10 +180,8 @@ impl<L: Lanes> Pair<L> {
     /// Softness of each lane: that against static bodies where one of the two has no mass.
     #[inline(always)]
     pub(super) fn softness(&self, constants: &Constants<L>) -> [L; 3] {
-        let fixed = L::or(
-            self.a[Slot::INV_MASS].eq(constants.zero),
-            self.b[Slot::INV_MASS].eq(constants.zero),
-        );
+        let [mass_a, mass_b] = self.inverse_masses();
+        let fixed = L::or(mass_a.eq(constants.zero), mass_b.eq(constants.zero));
         let choose = |k: usize| L::select(fixed, constants.static_soft[k], constants.soft[k]);
         [choose(0), choose(1), choose(2)]
     }

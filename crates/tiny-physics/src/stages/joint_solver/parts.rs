@@ -1,7 +1,9 @@
 //! What the kernels of all joints share: lanes of a stride, pairs of bodies, small linear systems.
 
 use crate::describe::JointDef;
-use crate::dynamics::{AngleLanes, DirectionLanes, FrameLanes, Slot, SoftLanes};
+use crate::dynamics::{
+    AngleLanes, DirectionLanes, FrameLanes, Slot, SoftLanes, inverse_mass_along, locked,
+};
 use crate::math::{Pose, Rot};
 use crate::simd::{BLOCK, Lanes};
 use crate::threads::SharedRows;
@@ -360,26 +362,29 @@ pub(super) struct Pair<L: Lanes> {
     pub(super) anchor_b: [L; 2],
     /// From anchor A to anchor B.
     pub(super) gap: [L; 2],
+    /// Inverse masses of A and B along x and y, where some are locked along one of them.
+    locked: Option<[[L; 2]; 2]>,
 }
 
 /// The lanes whose body something can move, as bits.
 #[inline(always)]
 fn movable<L: Lanes>(stride: &Stride<L>, body: &[L; 8]) -> u32 {
-    L::bits(stride.zero.lt(body[Slot::INV_MASS] + body[Slot::INV_INERTIA]))
+    L::bits(stride.zero.lt(body[Slot::INV_MASS].abs() + body[Slot::INV_INERTIA]))
 }
 
 impl<L: Lanes> Pair<L> {
     #[inline(always)]
     pub(super) fn load(stride: &Stride<L>, rows: SharedRows<'_>, frame: &FrameLanes) -> Self {
-        let a = L::gather(stride.token, rows, &frame.body_a[stride.at..]);
-        let b = L::gather(stride.token, rows, &frame.body_b[stride.at..]);
+        let mut a = L::gather(stride.token, rows, &frame.body_a[stride.at..]);
+        let mut b = L::gather(stride.token, rows, &frame.body_b[stride.at..]);
+        let locked = locked(stride.token, [&mut a, &mut b]);
         let (turn_a, turn_b) = (turn(stride, a[Slot::DA]), turn(stride, b[Slot::DA]));
         let anchor_a = rotate(turn_a, stride.load2(&frame.a_x, &frame.a_y));
         let anchor_b = rotate(turn_b, stride.load2(&frame.b_x, &frame.b_y));
         let between = stride.load2(&frame.between_x, &frame.between_y);
         let moved = [b[Slot::DX] - a[Slot::DX], b[Slot::DY] - a[Slot::DY]];
         let gap = add(add(between, moved), sub(anchor_b, anchor_a));
-        Self { turn_a, anchor_a, anchor_b, gap, a, b }
+        Self { turn_a, anchor_a, anchor_b, gap, locked, a, b }
     }
 
     /// Writes the velocities back, except to bodies that nothing moves.
@@ -391,10 +396,20 @@ impl<L: Lanes> Pair<L> {
         L::scatter([bx, by, bw, bm], rows, &frame.body_b[stride.at..], write_b);
     }
 
-    /// Sum of the inverse masses.
+    /// Inverse masses of A and B along x and y.
     #[inline(always)]
-    pub(super) fn inv_mass(&self) -> L {
-        self.a[Slot::INV_MASS] + self.b[Slot::INV_MASS]
+    fn inv_masses(&self) -> [[L; 2]; 2] {
+        let [a, b] = [self.a[Slot::INV_MASS], self.b[Slot::INV_MASS]];
+        self.locked.unwrap_or([[a, a], [b, b]])
+    }
+
+    /// Sum of the inverse masses along a direction.
+    #[inline(always)]
+    fn inv_mass(&self, direction: [L; 2]) -> L {
+        match self.locked {
+            None => self.a[Slot::INV_MASS] + self.b[Slot::INV_MASS],
+            Some([a, b]) => inverse_mass_along(direction, add(a, b)),
+        }
     }
 
     /// Sum of the inverse moments of inertia.
@@ -460,7 +475,7 @@ impl<L: Lanes> Pair<L> {
     /// Inverse effective mass along a direction.
     #[inline(always)]
     pub(super) fn inv_mass_along(&self, row: &Row<L>) -> L {
-        self.inv_mass()
+        self.inv_mass(row.direction)
             + self.a[Slot::INV_INERTIA] * row.arm_a * row.arm_a
             + self.b[Slot::INV_INERTIA] * row.arm_b * row.arm_b
     }
@@ -469,12 +484,13 @@ impl<L: Lanes> Pair<L> {
     /// make them.
     #[inline(always)]
     pub(super) fn apply(&mut self, impulse: [L; 2], angular_a: L, angular_b: L) {
+        let [mass_a, mass_b] = self.inv_masses();
         let (a, b) = (&mut self.a, &mut self.b);
-        a[Slot::VX] = a[Slot::VX] - a[Slot::INV_MASS] * impulse[0];
-        a[Slot::VY] = a[Slot::VY] - a[Slot::INV_MASS] * impulse[1];
+        a[Slot::VX] = a[Slot::VX] - mass_a[0] * impulse[0];
+        a[Slot::VY] = a[Slot::VY] - mass_a[1] * impulse[1];
         a[Slot::W] = a[Slot::W] - a[Slot::INV_INERTIA] * angular_a;
-        b[Slot::VX] = b[Slot::VX] + b[Slot::INV_MASS] * impulse[0];
-        b[Slot::VY] = b[Slot::VY] + b[Slot::INV_MASS] * impulse[1];
+        b[Slot::VX] = b[Slot::VX] + mass_b[0] * impulse[0];
+        b[Slot::VY] = b[Slot::VY] + mass_b[1] * impulse[1];
         b[Slot::W] = b[Slot::W] + b[Slot::INV_INERTIA] * angular_b;
     }
 
@@ -495,17 +511,19 @@ impl<L: Lanes> Pair<L> {
     /// Response of the anchors' velocity to an impulse there, inverted:
     ///
     /// ```text
-    /// K = (mA + mB) 1 + iA [ay^2 -ax ay; -ax ay ax^2] + iB [by^2 -bx by; -bx by bx^2]
+    /// K = mA + mB + iA [ay^2 -ax ay; -ax ay ax^2] + iB [by^2 -bx by; -bx by bx^2]
     /// ```
     #[inline(always)]
     pub(super) fn point_mass(&self, stride: &Stride<L>) -> Symmetric<L> {
-        let (ia, ib, m) = (self.a[Slot::INV_INERTIA], self.b[Slot::INV_INERTIA], self.inv_mass());
+        let (ia, ib) = (self.a[Slot::INV_INERTIA], self.b[Slot::INV_INERTIA]);
+        let [mass_a, mass_b] = self.inv_masses();
+        let [mx, my] = add(mass_a, mass_b);
         let ([ax, ay], [bx, by]) = (self.anchor_a, self.anchor_b);
         Symmetric::invert(
             stride,
-            m + ia * ay * ay + ib * by * by,
+            mx + ia * ay * ay + ib * by * by,
             -(ia * ax * ay) - ib * bx * by,
-            m + ia * ax * ax + ib * bx * bx,
+            my + ia * ax * ax + ib * bx * bx,
         )
     }
 
@@ -576,18 +594,29 @@ impl<L: Lanes> Sides<L> {
     #[inline(always)]
     pub(super) fn inv_mass(&self, pair: &Pair<L>) -> L {
         let (a, b) = (&pair.a, &pair.b);
-        a[Slot::INV_MASS] * dot(self.directions[0], self.directions[0])
-            + b[Slot::INV_MASS] * dot(self.directions[1], self.directions[1])
+        let [linear_a, linear_b] = match pair.locked {
+            None => [
+                a[Slot::INV_MASS] * dot(self.directions[0], self.directions[0]),
+                b[Slot::INV_MASS] * dot(self.directions[1], self.directions[1]),
+            ],
+            Some([a, b]) => [
+                inverse_mass_along(self.directions[0], a),
+                inverse_mass_along(self.directions[1], b),
+            ],
+        };
+        linear_a
+            + linear_b
             + a[Slot::INV_INERTIA] * self.arms[0] * self.arms[0]
             + b[Slot::INV_INERTIA] * self.arms[1] * self.arms[1]
     }
 
     #[inline(always)]
     pub(super) fn apply(&self, pair: &mut Pair<L>, impulse: L) {
+        let masses = pair.inv_masses();
         for (side, body) in [&mut pair.a, &mut pair.b].into_iter().enumerate() {
-            let linear = body[Slot::INV_MASS] * impulse;
-            body[Slot::VX] = body[Slot::VX] + self.directions[side][0] * linear;
-            body[Slot::VY] = body[Slot::VY] + self.directions[side][1] * linear;
+            let [x, y] = scale(masses[side], impulse);
+            body[Slot::VX] = body[Slot::VX] + self.directions[side][0] * x;
+            body[Slot::VY] = body[Slot::VY] + self.directions[side][1] * y;
             body[Slot::W] = body[Slot::W] + body[Slot::INV_INERTIA] * (self.arms[side] * impulse);
         }
     }

@@ -75,7 +75,7 @@ impl Search<'_> {
             }
         }
         let zero = stride.constants.zero;
-        let moves = zero.lt(rows[Slot::INV_MASS] + rows[Slot::INV_INERTIA]);
+        let moves = zero.lt(rows[Slot::INV_MASS].abs() + rows[Slot::INV_INERTIA]);
         let mut moving = [zero; 3];
         for (moving, gains) in moving.iter_mut().zip(&gains) {
             *moving = L::select(moves, L::load(stride.token, gains), zero);

@@ -70,15 +70,15 @@ pub(super) fn invert(
 
 /// Mass matrix of a body. What nothing moves in a direction is `heavy` there.
 fn mass(node: &TreeNode, heavy: f64) -> [Three; 3] {
-    let [m, _, inertia, _] = node.inv.map(|inv| if inv > 0.0 { 1.0 / inv } else { heavy });
-    [[m, 0.0, 0.0, 0.0], [0.0, m, 0.0, 0.0], [0.0, 0.0, inertia, 0.0]]
+    let [x, y, inertia, _] = node.inv.map(|inv| if inv > 0.0 { 1.0 / inv } else { heavy });
+    [[x, 0.0, 0.0, 0.0], [0.0, y, 0.0, 0.0], [0.0, 0.0, inertia, 0.0]]
 }
 
 /// A mass and moment of inertia that the bodies of the tree cannot move.
 fn heavy(nodes: &[TreeNode]) -> f64 {
     const MORE: f64 = 1.0e9;
     let mut least = f64::MAX;
-    for &inv in nodes.iter().flat_map(|node| &node.inv[1..3]) {
+    for &inv in nodes.iter().flat_map(|node| &node.inv[..3]) {
         least = if inv > 0.0 && inv < least { inv } else { least };
     }
     if least < f64::MAX { MORE / least } else { 1.0 }

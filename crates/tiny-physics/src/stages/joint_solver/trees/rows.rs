@@ -6,7 +6,7 @@
 use super::factor::{dot3, invert};
 use crate::dynamics::{
     FrameLanes, Impulses, JointColour, JointTree, Joints, Slot, TreeAxis, TreeLink, TreeNode,
-    TreeRow, is_jointed, with_bucket,
+    TreeRow, inverses, is_jointed, with_bucket,
 };
 use crate::simd::{BLOCK, Simd, Three, add_times, times};
 use crate::stages::joint_solver::JointKernel;
@@ -154,12 +154,10 @@ pub(super) fn load(tree: &mut JointTree, rows: SharedRows<'_>) {
 pub(super) fn store(tree: &JointTree, rows: SharedRows<'_>) {
     for node in &tree.nodes[..tree.dynamic] {
         rows.update(node.body, |row| {
-            if row[Slot::INV_MASS] > 0.0 {
-                row[Slot::VX] = node.v[0] as f32;
-                row[Slot::VY] = node.v[1] as f32;
-            }
-            if row[Slot::INV_INERTIA] > 0.0 {
-                row[Slot::W] = node.v[2] as f32;
+            for (k, inverse) in inverses::<f32>((), row).into_iter().enumerate() {
+                if inverse > 0.0 {
+                    row[k] = node.v[k] as f32;
+                }
             }
         });
     }
@@ -176,12 +174,11 @@ pub(super) fn refresh<S: Simd>(
 ) {
     let JointTree { nodes, dynamic, links, axes, pace, begun, fresh, factored, .. } = tree;
     for node in nodes.iter_mut() {
-        let row = rows.read(node.body);
+        let [x, y, turn] = inverses::<f32>((), &rows.read(node.body));
         if !*begun {
-            node.own_inv_inertia = f64::from(row[Slot::INV_INERTIA]);
+            node.own_inv_inertia = f64::from(turn);
         }
-        let inv_mass = f64::from(row[Slot::INV_MASS]);
-        node.inv = [inv_mass, inv_mass, node.own_inv_inertia, 0.0];
+        node.inv = [f64::from(x), f64::from(y), node.own_inv_inertia, 0.0];
         node.g = [0.0; 4];
     }
     for (index, link) in links.iter_mut().enumerate() {
@@ -227,8 +224,8 @@ pub(super) fn restore(tree: &JointTree, rows: SharedRows<'_>) {
 
 fn give_inertia(rows: SharedRows<'_>, body: u32, inverse: f64) {
     rows.update(body, |row| {
-        if row[Slot::INV_INERTIA] > 0.0 {
-            row[Slot::INV_INERTIA] = inverse as f32;
+        if inverses::<f32>((), row)[2] > 0.0 {
+            row[Slot::INV_INERTIA] = (inverse as f32).copysign(row[Slot::INV_INERTIA]);
         }
     });
 }
@@ -297,8 +294,9 @@ fn tie<S: Simd>(simd: S, link: &mut TreeLink, axis: &mut TreeAxis, a: &TreeNode,
 fn response(first: &[Three; 2], second: &[Three; 2], a: &TreeNode, b: &TreeNode) -> f64 {
     let of = |side: usize, node: &TreeNode| {
         let (first, second) = (&first[side], &second[side]);
-        node.inv[0] * (first[0] * second[0] + first[1] * second[1])
-            + node.inv[2] * first[2] * second[2]
+        let ([x, y, turn, _], along) = (node.inv, [first[0] * second[0], first[1] * second[1]]);
+        let linear = if x == y { x * (along[0] + along[1]) } else { x * along[0] + y * along[1] };
+        linear + turn * first[2] * second[2]
     };
     of(0, a) + of(1, b)
 }

@@ -1,0 +1,48 @@
+//! The rows of bodies that the solver works on, and what impulses do by them: along each axis, and in turning.
+
+use crate::simd::Lanes;
+
+/// Positions of the parts of a body's [`Row`](crate::simd::Row).
+pub(crate) struct Slot;
+
+impl Slot {
+    pub(crate) const VX: usize = 0;
+    pub(crate) const VY: usize = 1;
+    pub(crate) const W: usize = 2;
+    pub(crate) const INV_MASS: usize = 3;
+    pub(crate) const DX: usize = 4;
+    pub(crate) const DY: usize = 5;
+    pub(crate) const DA: usize = 6;
+    pub(crate) const INV_INERTIA: usize = 7;
+}
+
+/// Inverse masses along x and y and inverse inertia, by the rows of bodies. What is locked along one axis has a negative inverse mass
+/// there: along y if its inverse inertia is negative, too, else along x.
+#[inline(always)]
+pub(crate) fn inverses<L: Lanes>(token: L::Token, row: &[L; 8]) -> [L; 3] {
+    let zero = L::splat(token, 0.0);
+    let (mass, turn) = (row[Slot::INV_MASS], row[Slot::INV_INERTIA]);
+    let (locked, along_y) = (mass.lt(zero), turn.lt(zero));
+    let turn = (turn.abs() - L::splat(token, f32::MIN_POSITIVE)).max(zero);
+    let x = L::select(L::and(locked, L::not(along_y)), zero, mass.abs());
+    [x, L::select(L::and(locked, along_y), zero, mass.abs()), turn]
+}
+
+/// Inverse masses of two bodies along x and y, where a lane has one that is locked along an axis; their rows then have the inverse
+/// inertias as they are.
+#[inline(always)]
+pub(crate) fn locked<L: Lanes>(token: L::Token, [a, b]: [&mut [L; 8]; 2]) -> Option<[[L; 2]; 2]> {
+    let lock = a[Slot::INV_MASS].min(b[Slot::INV_MASS]).lt(L::splat(token, 0.0));
+    if L::bits(lock) == 0 {
+        return None;
+    }
+    let [[x_a, y_a, turn_a], [x_b, y_b, turn_b]] = [inverses(token, a), inverses(token, b)];
+    (a[Slot::INV_INERTIA], b[Slot::INV_INERTIA]) = (turn_a, turn_b);
+    Some([[x_a, y_a], [x_b, y_b]])
+}
+
+/// Inverse mass along a direction, of those along x and y.
+#[inline(always)]
+pub(crate) fn inverse_mass_along<L: Lanes>(direction: [L; 2], [x, y]: [L; 2]) -> L {
+    direction[0] * direction[0] * x + direction[1] * direction[1] * y
+}
