@@ -29,6 +29,8 @@ use crate::math::{Aabb, DVec2, Pose, Transform, Vec2};
 const TOLERANCE: f32 = 0.002;
 /// A face counts as covered at a point if it is so this far to both sides, metres; multiplied likewise.
 const REACH: f32 = 0.02;
+/// Lines count as so thick where they go on from a face: more than [`REACH`], metres; multiplied likewise.
+const THICK: f32 = 0.05;
 /// A corner's normal is free if the neighbours rise by no more than this above it, metres.
 const CONE_TOLERANCE: f32 = 5.0e-4;
 /// A corner of a chain has a normal if the next segment rises by no more than this sine above it.
@@ -159,14 +161,15 @@ impl<'a> Seams<'a> {
     /// `middle` is that of the other shape.
     pub(crate) fn is_ghost(&self, points: [Option<Vec2>; 2], normal: Vec2, middle: Vec2) -> bool {
         if let Some(link) = self.record.link {
-            return !self.link_has(link, normal);
+            return !self.link_has(link, normal, middle);
         }
         if let Some(face) = face_of(&self.core, normal) {
             return self.guard & guard::face(face) != 0 && self.is_covered(face, points, middle);
         }
         let is_ghost = |point: Vec2| {
             let vertex = nearest_vertex(&self.core, point);
-            self.guard & guard::corner(vertex) != 0 && self.goes_on(vertex, normal)
+            self.guard & guard::corner(vertex) != 0
+                && self.goes_on(self.core.points[vertex], normal, middle)
         };
         // The end of a board that comes down tilted has a true corner beside the one within the board.
         let count = if self.kind() == Some(ProxyKind::Dynamic) { 2 } else { 1 };
@@ -175,17 +178,20 @@ impl<'a> Seams<'a> {
     }
 
     /// Has a segment of a chain this normal: that of its face, or one of a corner that sticks out?
-    fn link_has(&self, link: ChainLink, normal: Vec2) -> bool {
+    fn link_has(&self, link: ChainLink, normal: Vec2, middle: Vec2) -> bool {
         if face_of(&self.core, normal) == Some(0) {
             return true;
         }
         let (a, b) = (self.core.points[0], self.core.points[1]);
         let (corner, end) =
             if normal.dot(b - a) < 0.0 { (a, link.previous) } else { (b, link.next) };
-        let free = end.is_none_or(|end| {
-            let way = self.record.box_frame.unapply(end) - corner;
-            normal.dot(way) <= LINK_TOLERANCE * way.length()
-        });
+        let free = match end {
+            None => !self.goes_on(corner, normal, middle),
+            Some(end) => {
+                let way = self.record.box_frame.unapply(end) - corner;
+                normal.dot(way) <= LINK_TOLERANCE * way.length()
+            }
+        };
         free && normal.dot(self.core.normal(0)) > 0.0
     }
 
@@ -212,7 +218,7 @@ impl<'a> Seams<'a> {
             }
         }
         let mut covered = [false; 4];
-        self.each_neighbour(&probes[..count], |neighbour| {
+        self.each_neighbour(&probes[..count], middle, |neighbour| {
             // What the other shape is in itself makes no surface for it.
             if point_gap(neighbour, middle) <= 0.0 {
                 return;
@@ -225,11 +231,10 @@ impl<'a> Seams<'a> {
     }
 
     /// Does another static shape go on from a corner in the direction of the normal?
-    fn goes_on(&self, vertex: usize, normal: Vec2) -> bool {
+    fn goes_on(&self, corner: Vec2, normal: Vec2, middle: Vec2) -> bool {
         let unit = self.ground.length_unit;
-        let corner = self.core.points[vertex];
         let mut ghost = false;
-        self.each_neighbour(&[corner], |neighbour| {
+        self.each_neighbour(&[corner], middle, |neighbour| {
             ghost |= point_gap(neighbour, corner) <= TOLERANCE * unit
                 && support_height(neighbour, normal) - normal.dot(corner) > CONE_TOLERANCE * unit;
         });
@@ -237,9 +242,10 @@ impl<'a> Seams<'a> {
     }
 
     /// Does what makes one surface with this shape at a point lie over a face, by a real width?
-    fn lies_over(&self, (start, end): (Vec2, Vec2), along: Vec2, point: Vec2) -> bool {
+    fn lies_over(&self, (start, end): (Vec2, Vec2), point: Vec2, middle: Vec2) -> bool {
+        let along = (end - start).normalized();
         let mut over = false;
-        self.each_neighbour(&[point], |neighbour| {
+        self.each_neighbour(&[point], middle, |neighbour| {
             let behind = along.dot(end).min(support_height(neighbour, along));
             let before = along.dot(start).max(-support_height(neighbour, -along));
             over |= behind - before > REACH * self.ground.length_unit;
@@ -256,8 +262,8 @@ impl<'a> Seams<'a> {
     }
 
     /// Visits the cores of the shapes near some points that make one surface with this one, in this frame
-    /// and no fixed order.
-    fn each_neighbour(&self, points: &[Vec2], mut visit: impl FnMut(&Core)) {
+    /// and no fixed order, as what has its middle there meets them.
+    fn each_neighbour(&self, points: &[Vec2], middle: Vec2, mut visit: impl FnMut(&Core)) {
         let Ground { shapes, poses, broad_phase, length_unit, .. } = self.ground;
         let pose = self.own_pose();
         let bounds = world_box(pose, points, TOLERANCE * length_unit);
@@ -270,7 +276,12 @@ impl<'a> Seams<'a> {
                 && neighbour.filter.collides(&self.other.filter)
             {
                 let place = boxed_pose(poses, neighbour).relative_to(pose);
-                visit(&boxed_core(neighbour).transformed(place));
+                let core = boxed_core(neighbour).transformed(place);
+                let is_before =
+                    core.count < 2 || core.normal(0).dot(middle - core.points[0]) >= 0.0;
+                if let Some(core) = solid(core, neighbour.link, is_before, length_unit) {
+                    visit(&core);
+                }
             }
         });
     }
@@ -331,7 +342,7 @@ impl<'a> View<'a> {
         if face.dot(middle(&self.other_core) - a) < 0.0 {
             return Verdict::Drop;
         }
-        if self.seams.link_has(link, normal) {
+        if self.seams.link_has(link, normal, middle(&self.other_core)) {
             return Verdict::Keep;
         }
         let Self { seams, other_core, context, .. } = self;
@@ -347,11 +358,9 @@ impl<'a> View<'a> {
         let Some(face) = face_of(other_core, -normal) else { return false };
         let k = usize::from(!lane.is_valid(0, self.context.speculative_distance));
         let corner = nearest_vertex(&seams.core, self.frame.unapply(lane.point(k)));
-        let (start, end) = other_core.edge(face);
-        let along = (end - start).normalized();
         seams.kind() == Some(ProxyKind::Dynamic)
             && face_of(&seams.core, normal).is_none()
-            && seams.lies_over((start, end), along, seams.core.points[corner])
+            && seams.lies_over(other_core.edge(face), seams.core.points[corner], middle(other_core))
     }
 
     fn is_ghost(&self, lane: &LanePoints, normal: Vec2) -> bool {
@@ -427,9 +436,26 @@ impl<'a> View<'a> {
 /// Can a shape cover another, `own`, of the same kind of body? What moves makes a surface only with the
 /// rest of its body.
 fn is_ground(record: &ShapeRecord, own: &ShapeRecord, kind: ProxyKind) -> bool {
-    let solid = !record.sensor && record.link.is_none();
+    let solid = !record.sensor;
     let together = kind == ProxyKind::Static || record.body == own.body;
     solid && together && (own.one_way.is_some() || record.one_way.is_none())
+}
+
+/// What goes on behind a core: a line, from before or behind its first face, is one side of something thick. The segment of a chain is
+/// so from before alone; nothing is there from behind.
+fn solid(core: Core, link: Option<ChainLink>, is_before: bool, length_unit: f32) -> Option<Core> {
+    if core.count != 2 || core.radius > 0.0 {
+        return Some(core);
+    }
+    let ([a, b], inwards) =
+        ([core.points[0], core.points[1]], core.normal(0) * (-THICK * length_unit));
+    if is_before {
+        Some(Core::new(&[a, b, b + inwards, a + inwards], 0.0))
+    } else if link.is_none() {
+        Some(Core::new(&[b, a, a - inwards, b - inwards], 0.0))
+    } else {
+        None
+    }
 }
 
 /// The core in the frame of the shape's rounded box.
@@ -519,12 +545,16 @@ fn touched_features(
         let neighbour = &shapes.records[other as usize];
         if other != index && is_ground(neighbour, record, kind) {
             let place = boxed_pose(&bodies.poses, neighbour).relative_to(pose);
-            let neighbour = boxed_core(neighbour).transformed(place);
-            let touched = touched_by(&core, &neighbour, tolerance);
-            // A part that only sticks in another costs no looks: what is inside meets nothing.
-            let counts =
-                kind != ProxyKind::Dynamic || goes_on_flush(&core, &neighbour, touched, tolerance);
-            bits |= if counts { touched } else { 0 };
+            let line = boxed_core(neighbour).transformed(place);
+            let sides = [true, false].map(|side| solid(line, neighbour.link, side, length_unit));
+            let both = if sides[0] == sides[1] { 1 } else { 2 };
+            for neighbour in sides.iter().take(both).flatten() {
+                let touched = touched_by(&core, neighbour, tolerance);
+                // A part that only sticks in another costs no looks: what is inside meets nothing.
+                let counts = kind != ProxyKind::Dynamic
+                    || goes_on_flush(&core, neighbour, touched, tolerance);
+                bits |= if counts { touched } else { 0 };
+            }
         }
     });
     if bits == 0 || record.one_way.is_some() {
