@@ -5,7 +5,7 @@ use super::rests;
 use super::solve::Lengths;
 use crate::broad_phase::BroadPhase;
 use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, BodyInfo, Motion, Shapes, Slot};
+use crate::dynamics::{Bodies, BodyInfo, Motion, NULL, Shapes, Slot};
 use crate::geometry::Sweep;
 use crate::math::{Aabb, Pose, Transform, Vec2};
 use crate::simd::Row;
@@ -224,16 +224,27 @@ fn time_rest(
     let larger = |a: f32, b: f32| if a > b { a } else { b };
     let speed = larger(Vec2::new(row[Slot::VX], row[Slot::VY]).length(), way / dt);
     let spin = larger(row[Slot::W].abs(), turn.abs() / dt);
-    let fastest = larger(speed, spin * info.max_extent);
+    let extent = turning_extent(info, length_unit);
+    let fastest = larger(speed, spin * extent);
     info.calm = rests::calmer(info.calm, fastest / length_unit, options.calm);
     info.stirred = larger(info.stirred - dt, 0.0);
     // A platform that creeps must not stop.
     let limit = if info.kind == BodyKind::Dynamic { info.sleep_speed * length_unit } else { 0.0 };
     let most = limit * h / PATIENCE;
-    if info.can_sleep && fastest <= limit && is_held(row, [base, gain], [most, info.max_extent]) {
+    if info.can_sleep && fastest <= limit && is_held(row, [base, gain], [most, extent]) {
         info.sleep_time += dt;
     } else {
         info.sleep_time = 0.0;
+    }
+}
+
+/// Radius at which turning counts as speed: that of its shapes, else of gyration; any for what the user moves.
+#[inline]
+fn turning_extent(info: &BodyInfo, length_unit: f32) -> f32 {
+    match info.first_shape {
+        NULL if info.mass > 0.0 => (info.inertia / info.mass).sqrt(),
+        NULL => length_unit,
+        _ => info.max_extent,
     }
 }
 

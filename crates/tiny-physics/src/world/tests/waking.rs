@@ -399,3 +399,34 @@ fn a_platform_added_asleep_with_a_velocity_moves() {
     run(&mut world, 60);
     assert!((world.body(lift).unwrap().position().x - 2.0).abs() < 0.01);
 }
+
+/// A flywheel without shapes, free, on a hinge, or led, turns on; one that a brake stops sleeps. All of them fell asleep at full
+/// speed within a second: the turning of what has no shapes counted for nothing.
+#[test]
+fn what_has_no_shapes_turns_on() {
+    for case in 0..24 {
+        let mut world = World::new(Vec2::ZERO);
+        let (spin, inertia) = (0.3 * 1.2_f32.powi(case), 0.02 * 1.3_f32.powi(case));
+        let wheel = match case % 4 {
+            0 => RigidBody::kinematic(),
+            _ => RigidBody::dynamic().mass(2.0).inertia(inertia),
+        };
+        let wheel = world.add_body(wheel.angular_velocity(spin)).unwrap();
+        let base = world.add_body(RigidBody::fixed()).unwrap();
+        if case % 4 > 1 {
+            world.add_joint(base, wheel, JointDef::revolute()).unwrap();
+        }
+        run(&mut world, 120);
+        let left = world.body(wheel).unwrap().angular_velocity();
+        let seen = 0.05 / (inertia / 2.0).sqrt();
+        assert!(
+            (left - spin).abs() < 1.0e-3 * spin || spin < seen,
+            "case {case}: {left} of {spin}"
+        );
+        if case % 4 > 1 {
+            world.add_joint(base, wheel, JointDef::friction(0.0, 20.0 * spin * inertia)).unwrap();
+            run(&mut world, 120);
+            assert!(!is_awake(&world, wheel), "case {case}: awake");
+        }
+    }
+}
