@@ -499,8 +499,26 @@ impl<L: Lanes> Pair<L> {
     /// ```
     #[inline(always)]
     pub(super) fn point_mass(&self, stride: &Stride<L>) -> Symmetric<L> {
-        let (ia, ib, m) = (self.a[Slot::INV_INERTIA], self.b[Slot::INV_INERTIA], self.inv_mass());
-        let ([ax, ay], [bx, by]) = (self.anchor_a, self.anchor_b);
+        let inertias = [self.a[Slot::INV_INERTIA], self.b[Slot::INV_INERTIA]];
+        Self::answer(stride, self.inv_mass(), inertias, [self.anchor_a, self.anchor_b])
+    }
+
+    /// The same where, if `held` is above 0, the bodies do not turn against each other. The response is `K - k k^T / (iA + iB)` then, with
+    /// k as in [`Self::twist`]: K with the arm from anchor to anchor, and both inertias together.
+    #[inline(always)]
+    pub(super) fn point_mass_where(&self, stride: &Stride<L>, held: L) -> Symmetric<L> {
+        let (ia, ib, held) =
+            (self.a[Slot::INV_INERTIA], self.b[Slot::INV_INERTIA], held.gt(stride.zero));
+        let together = ia * ib * stride.invert(ia + ib);
+        let inertias = [L::select(held, together, ia), L::select(held, stride.zero, ib)];
+        let ([ax, ay], [x, y]) = (self.anchor_a, sub(self.anchor_a, self.anchor_b));
+        let arm = [L::select(held, x, ax), L::select(held, y, ay)];
+        Self::answer(stride, self.inv_mass(), inertias, [arm, self.anchor_b])
+    }
+
+    #[inline(always)]
+    fn answer(stride: &Stride<L>, m: L, [ia, ib]: [L; 2], arms: [[L; 2]; 2]) -> Symmetric<L> {
+        let [[ax, ay], [bx, by]] = arms;
         Symmetric::invert(
             stride,
             m + ia * ay * ay + ib * by * by,
