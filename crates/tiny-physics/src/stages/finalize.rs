@@ -5,7 +5,7 @@ use super::rests;
 use super::solve::Lengths;
 use crate::broad_phase::BroadPhase;
 use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, BodyInfo, Motion, NULL, Shapes, Slot};
+use crate::dynamics::{Bodies, BodyInfo, Motion, Shapes, Slot};
 use crate::geometry::Sweep;
 use crate::math::{Aabb, Pose, Transform, Vec2};
 use crate::simd::Row;
@@ -224,7 +224,7 @@ fn time_rest(
     let larger = |a: f32, b: f32| if a > b { a } else { b };
     let speed = larger(Vec2::new(row[Slot::VX], row[Slot::VY]).length(), way / dt);
     let spin = larger(row[Slot::W].abs(), turn.abs() / dt);
-    let extent = turning_extent(info, length_unit);
+    let extent = rests::turning_extent(info, length_unit);
     let fastest = larger(speed, spin * extent);
     info.calm = rests::calmer(info.calm, fastest / length_unit, options.calm);
     info.stirred = larger(info.stirred - dt, 0.0);
@@ -235,16 +235,6 @@ fn time_rest(
         info.sleep_time += dt;
     } else {
         info.sleep_time = 0.0;
-    }
-}
-
-/// Radius at which turning counts as speed: that of its shapes, else of gyration; any for what the user moves.
-#[inline]
-fn turning_extent(info: &BodyInfo, length_unit: f32) -> f32 {
-    match info.first_shape {
-        NULL if info.mass > 0.0 => (info.inertia / info.mass).sqrt(),
-        NULL => length_unit,
-        _ => info.max_extent,
     }
 }
 
