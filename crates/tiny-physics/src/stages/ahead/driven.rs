@@ -6,7 +6,7 @@
 
 use super::courses::{Course, Courses};
 use crate::describe::{JointDef, JointKind, Limits, Motor, Spring};
-use crate::dynamics::{Bodies, JointRecord, Joints, NULL};
+use crate::dynamics::{Bodies, JointRecord, Joints, NULL, REFINEMENT};
 use crate::math::{Rot, Vec2};
 
 /// A motor pushes as hard as it can from this part of its greatest force on.
@@ -15,6 +15,13 @@ const SATURATED: f32 = 0.99;
 const STRONGER: f32 = 2.0;
 /// Joints of a body that are looked through for one that holds it.
 const HINGES: usize = 8;
+/// A motor that gets so much of its speed goes on, and a spring of whose pull so much goes into motion and damping: the rest is held.
+const GOES: f32 = 0.5;
+const YIELDS: f32 = 0.25;
+/// A spring is at its rest so near to it, metres (times the length unit) or radians, and where it pulls no more than this, by the second
+/// squared: what would take 20 seconds to get to the usual sleep speed.
+const NEAR: f32 = 0.005;
+const FAINT: f32 = 0.0025;
 
 /// What a joint that presses one of its bodies on something did in the last step, newtons or newton metres: its spring and
 /// its motor. Of a joint that drags a body somewhere, all its force is its spring's.
@@ -325,6 +332,43 @@ pub(super) fn by_joint(
             [0, 1].into_iter().for_each(|k| change(k, impulse).keep(bodies, dt, courses));
         }
     }
+}
+
+/// Does a joint move its bodies? However slowly it does, they do not rest. What a spring pulls goes into motion and damping, but for what
+/// is held: then it moves nothing. `h` is the plain substep length, seconds.
+pub(crate) fn moves(
+    (bodies, joints): (&Bodies, &Joints),
+    record: &JointRecord,
+    (h, length_unit): (f32, f32),
+) -> bool {
+    let pace = bodies.common_pace(record.body_a, record.body_b);
+    let inv_h = REFINEMENT[pace] as f32 / h;
+    let now = ends(bodies, record, |body| Course::of(bodies, 0.0, body));
+    let gains = ends(bodies, record, |body| Course::gained(bodies, inv_h, body));
+    let goes = |Motor { speed, max }: Motor, now: f32| {
+        max > 0.0 && speed != 0.0 && now * speed.signum() >= GOES * speed.abs()
+    };
+    let pulls = |spring: Spring, strongest: f32, now: &Coordinate, gain: f32| {
+        let (rate, unit) =
+            (core::f32::consts::TAU * spring.hertz, if now.turns { 1.0 } else { length_unit });
+        let pull = (rate * rate * now.away.abs()).min(strongest * now.give);
+        let moved = gain + 2.0 * spring.damping_ratio * rate * now.speed;
+        now.away.abs() > NEAR * unit
+            && pull > FAINT * unit
+            && -moved * now.away.signum() > YIELDS * pull
+    };
+    if let JointKind::Motor { velocity, max_force, .. } = record.def.kind {
+        let motor = Motor { speed: velocity.length(), max: max_force };
+        if goes(motor, (now[1].velocity() - now[0].velocity()).length()) {
+            return true;
+        }
+    }
+    let along = |ends| efforts(joints, &record.def, ends).into_iter().flatten();
+    along(&now).zip(along(&gains)).any(|((now, effort), (gain, _))| {
+        let Effort { spring, strongest, motor, .. } = effort;
+        motor.is_some_and(|motor| goes(motor, now.speed))
+            || spring.is_some_and(|spring| pulls(spring, strongest, &now, gain.speed))
+    })
 }
 
 /// The same for what a force does to a body.
