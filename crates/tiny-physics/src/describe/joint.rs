@@ -436,10 +436,11 @@ impl JointKind {
         let moves = |motor: Motor| motor.max > 0.0 && motor.speed != 0.0;
         match *self {
             Self::Mouse { max_force, .. } => max_force > 0.0,
-            Self::Motor { velocity, linear_spring, .. } => {
-                velocity != Vec2::ZERO || linear_spring.is_some()
+            Self::Motor { velocity, linear_spring, angular_spring, .. } => {
+                let springs = linear_spring.is_some() || angular_spring.is_some();
+                springs || velocity != Vec2::ZERO || self.motor().is_some_and(moves)
             }
-            Self::Wheel { spring, .. } => spring.is_some(),
+            Self::Weld { linear, angular } => linear.is_some() || angular.is_some(),
             mut kind => kind
                 .axis()
                 .is_some_and(|(spring, _, motor)| spring.is_some() || motor.is_some_and(moves)),

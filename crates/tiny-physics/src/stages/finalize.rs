@@ -224,13 +224,14 @@ fn time_rest(
     let larger = |a: f32, b: f32| if a > b { a } else { b };
     let speed = larger(Vec2::new(row[Slot::VX], row[Slot::VY]).length(), way / dt);
     let spin = larger(row[Slot::W].abs(), turn.abs() / dt);
-    let fastest = larger(speed, spin * info.max_extent);
+    let extent = rests::turning_extent(info, length_unit);
+    let fastest = larger(speed, spin * extent);
     info.calm = rests::calmer(info.calm, fastest / length_unit, options.calm);
     info.stirred = larger(info.stirred - dt, 0.0);
     // A platform that creeps must not stop.
     let limit = if info.kind == BodyKind::Dynamic { info.sleep_speed * length_unit } else { 0.0 };
     let most = limit * h / PATIENCE;
-    if info.can_sleep && fastest <= limit && is_held(row, [base, gain], [most, info.max_extent]) {
+    if info.can_sleep && fastest <= limit && is_held(row, [base, gain], [most, extent]) {
         info.sleep_time += dt;
     } else {
         info.sleep_time = 0.0;

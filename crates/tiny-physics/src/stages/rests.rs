@@ -5,7 +5,9 @@
 //! at the plain pace, less the one that it has. From then on the spring pushes as at that depth, and the island goes
 //! back to the plain pace as it stands. A rest is never more than the load accounts for, so it goes with the load.
 
-use crate::dynamics::{Bodies, Bucket, Graph, PointLanes, REFINEMENT, flags, pace_at};
+use crate::dynamics::{
+    Bodies, BodyInfo, Bucket, Graph, NULL, PointLanes, REFINEMENT, flags, pace_at,
+};
 use crate::simd::BLOCK;
 
 /// Speed of bodies that have settled at most, length units a second. What sways goes on swaying at softer springs, twice
@@ -109,4 +111,14 @@ pub(crate) fn calm_of(dt: f32) -> u8 {
 /// How nearly a body has settled after a step, from before, its speed in it, length units a second, and what the step adds.
 pub(crate) fn calmer(calm: u8, speed: f32, share: u8) -> u8 {
     if speed < CALM_SPEED { calm.saturating_add(share) } else { 0 }
+}
+
+/// Radius at which turning counts as speed: that of its shapes, else of gyration; any for what the user moves.
+#[inline]
+pub(super) fn turning_extent(info: &BodyInfo, length_unit: f32) -> f32 {
+    match info.first_shape {
+        NULL if info.mass > 0.0 => (info.inertia / info.mass).sqrt(),
+        NULL => length_unit,
+        _ => info.max_extent,
+    }
 }

@@ -5,11 +5,10 @@
 //! in which every body has rested fall asleep together. A sleeping island is a ring of bodies; waking
 //! one wakes the ring.
 
+use super::ahead;
 use super::islands::{self, Islands, Stores};
-use crate::describe::{BodyKind, JointKind};
-use crate::dynamics::{
-    Bodies, Bucket, Contacts, Graph, JointRecord, Joints, NULL, Place, flags, next_edge,
-};
+use crate::describe::BodyKind;
+use crate::dynamics::{Bodies, Bucket, Contacts, Graph, Joints, NULL, Place, flags, next_edge};
 use crate::math::Vec2;
 use crate::simd::BLOCK;
 use std::collections::BTreeSet;
@@ -36,12 +35,14 @@ pub(crate) struct Sets {
 crate::footprint::footprint!(Sets { islands, restless, resting });
 
 /// Finds islands at rest and lists their bodies in `found`, each island ended by [`NULL`]: those in which every
-/// body has rested and none is moved or carried by what it lies on.
+/// body has rested and none is moved or carried by what it lies on, or by a joint. `lengths` are those of a plain substep, seconds,
+/// and of the world's unit.
 pub(crate) fn find_resting(
     bodies: &Bodies,
     graph: &Graph,
     joints: &Joints,
     time_to_sleep: f32,
+    lengths: (f32, f32),
     sets: &mut Sets,
     found: &mut Vec<u32>,
 ) {
@@ -67,14 +68,19 @@ pub(crate) fn find_resting(
             }
         }
     }
-    for record in joints.tying().filter(|record| is_driven(bodies, record)) {
+    let driven = joints.driven.iter().map(|&index| &joints.records[index as usize]);
+    let rested = |i: u32| bodies.infos[i as usize].sleep_time >= time_to_sleep;
+    let may_rest = |body: u32| rested(body) || !bodies.is_dynamic(body);
+    let driven = driven.filter(|record| {
+        record.place != Place::Asleep && may_rest(record.body_a) && may_rest(record.body_b)
+    });
+    for record in driven.filter(|record| ahead::moves((bodies, joints), record, lengths)) {
         for body in [record.body_a, record.body_b] {
             restless[body as usize] |= bodies.is_dynamic(body);
         }
     }
     for &body in &bodies.awake {
-        let rested = bodies.infos[body as usize].sleep_time >= time_to_sleep;
-        if !rested || restless[body as usize] {
+        if !rested(body) || restless[body as usize] {
             restless[sets.root(body) as usize] = true;
         }
     }
@@ -104,25 +110,6 @@ fn carried(bucket: &Bucket) -> impl Iterator<Item = (u32, u32)> + '_ {
     };
     let belts = |slot: &usize| bucket.heads[slot / BLOCK].flags & flags::TANGENT_SPEED != 0;
     (0..bucket.contacts.len()).filter(belts).filter(runs).map(|slot| bucket.bodies(slot))
-}
-
-/// Does a motor move its bodies? However slowly it does, they do not rest.
-fn is_driven(bodies: &Bodies, record: &JointRecord) -> bool {
-    let kind = record.def.kind;
-    let own = kind.motor().filter(|motor| motor.max > 0.0).map_or(0.0, |motor| motor.speed.abs());
-    let (turn, way) = match kind {
-        JointKind::Motor { velocity, max_force, .. } if max_force > 0.0 => (own, velocity.length()),
-        JointKind::Distance { .. } | JointKind::Prismatic { .. } => (0.0, own),
-        _ => (own, 0.0),
-    };
-    let (a, b) = (record.body_a, record.body_b);
-    let of_anchor = |body: u32, anchor: Vec2| {
-        bodies.velocity(body) + bodies.arm(body, anchor).perp() * bodies.angular_velocity(body)
-    };
-    let spin = bodies.angular_velocity(b) - bodies.angular_velocity(a);
-    let speed = of_anchor(b, record.def.anchor_b) - of_anchor(a, record.def.anchor_a);
-    let goes = |told: f32, now: f32| told > 0.0 && now >= 0.5 * told;
-    goes(turn, spin.abs()) || goes(way, speed.length())
 }
 
 /// May what lies on a body that is not dynamic sleep? Not on a kinematic one that moves or stays awake.

@@ -22,7 +22,8 @@ impl World {
         let mut predictions = core::mem::take(&mut self.scratch.predictions);
         let acting = (&self.state.bodies, &self.state.joints, &self.scratch.ways);
         let step = (lengths.dt, self.contact_reach());
-        let any = predictions.foresee(acting, step, |index| JointRef::new(self, index).held());
+        let any = predictions
+            .foresee(acting, step, |index, turns| JointRef::new(self, index).held(turns));
         self.scratch.predictions = predictions;
         any
     }
@@ -128,8 +129,8 @@ impl<'a> JointRef<'a> {
         graph.impulses(self.record)[place] * per_second
     }
 
-    /// What it did in the last step, if one of its bodies presses on something: then that goes no faster soon.
-    fn held(&self) -> Option<Held> {
+    /// What it did in the last step, in turning or not, if one of its bodies presses on something: then that goes no faster soon.
+    fn held(&self, turns: bool) -> Option<Held> {
         let State { bodies, contacts, graph, .. } = &self.world.state;
         let pushes = |body: u32| {
             let mut of_body = contacts.of_body(bodies.infos[body as usize].first_contact);
@@ -137,7 +138,9 @@ impl<'a> JointRef<'a> {
                 && of_body.any(|(index, _)| graph.impulse(&contacts.records[index as usize]) > 0.0)
         };
         let (spring, motor) = match self.record.def.kind {
-            JointKind::Motor { .. } | JointKind::Mouse { .. } => {
+            JointKind::Motor { .. } | JointKind::Mouse { .. } | JointKind::Weld { .. }
+                if !turns =>
+            {
                 let force = self.force().length();
                 (-force, force)
             }

@@ -521,6 +521,7 @@ impl World {
             &self.state.graph,
             &self.state.joints,
             self.settings.time_to_sleep,
+            (1.0 / self.state.inv_h, self.settings.length_unit),
             &mut self.scratch.sets,
             &mut islands,
         );

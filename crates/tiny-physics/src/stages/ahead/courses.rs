@@ -98,6 +98,15 @@ impl Course {
         Self { body, motion, turn, velocity, spin, astray: 0.0, inverse_mass, stopped }
     }
 
+    /// How its velocities change by the second, as forces and impulses have done in the last substep. `inv_h` is 1 / its length.
+    pub(super) fn gained(bodies: &Bodies, inv_h: f32, body: u32) -> Self {
+        let at = body as usize;
+        let (row, base, gain) = (&bodies.rows[at], &bodies.starts[at], &bodies.motions[at].gain);
+        let inv_h = if bodies.is_solved(body) { inv_h } else { 0.0 };
+        let [x, y, spin] = [0, 1, 2].map(|k| (row[k] - base[k] + gain[k]) * inv_h);
+        Self { velocity: Vec2::new(x, y), spin, ..Self::of(bodies, 0.0, body) }
+    }
+
     /// As far off the way as it is looked for, see [`AMISS`].
     fn amiss(&self, bodies: &Bodies, dt: f32) -> Self {
         let first = Self::of(bodies, dt, self.body);

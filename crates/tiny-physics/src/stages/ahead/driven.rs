@@ -5,14 +5,23 @@
 //! half of the plungers passed the ball that lay in their way.
 
 use super::courses::{Course, Courses};
-use crate::describe::{JointKind, Limits, Motor, Spring};
-use crate::dynamics::{Bodies, JointRecord, NULL};
+use crate::describe::{JointDef, JointKind, Limits, Motor, Spring};
+use crate::dynamics::{Bodies, JointRecord, Joints, NULL, REFINEMENT};
 use crate::math::{Rot, Vec2};
 
 /// A motor pushes as hard as it can from this part of its greatest force on.
 const SATURATED: f32 = 0.99;
 /// What presses on something gives way to a spring that gets so much stronger within a step.
 const STRONGER: f32 = 2.0;
+/// Joints of a body that are looked through for one that holds it.
+const HINGES: usize = 8;
+/// A motor that gets so much of its speed goes on, and a spring of whose pull so much goes into motion and damping: the rest is held.
+const GOES: f32 = 0.5;
+const YIELDS: f32 = 0.25;
+/// A spring is at its rest so near to it, metres (times the length unit) or radians, and where it pulls no more than this, by the second
+/// squared: what would take 20 seconds to get to the usual sleep speed.
+const NEAR: f32 = 0.005;
+const FAINT: f32 = 0.0025;
 
 /// What a joint that presses one of its bodies on something did in the last step, newtons or newton metres: its spring and
 /// its motor. Of a joint that drags a body somewhere, all its force is its spring's.
@@ -53,14 +62,37 @@ impl<'a> End<'a> {
         (impulse * self.inv_mass, self.inv_inertia * self.arm.cross(impulse))
     }
 
-    /// What an angular impulse changes while its anchor stays.
-    fn turned_about_anchor(&self, impulse: f32) -> (Vec2, f32) {
-        let Self { arm, inv_mass, inv_inertia, .. } = *self;
+    /// What an angular impulse changes while the end of an arm stays.
+    fn turned_about(&self, arm: Vec2, impulse: f32) -> (Vec2, f32) {
+        let Self { inv_mass, inv_inertia, .. } = *self;
         if inv_mass == 0.0 {
             return (Vec2::ZERO, inv_inertia * impulse);
         }
         let spin = inv_inertia * inv_mass / (inv_mass + inv_inertia * arm.dot(arm)) * impulse;
         (-arm.perp() * spin, spin)
+    }
+
+    /// The arm to what a joint's torque turns it about: the anchor there, or one by which another joint holds it, or its centre.
+    fn pivot(&self, joints: &Joints, def: &JointDef, side: usize) -> Vec2 {
+        if self.inv_mass == 0.0 || holds(def, side) {
+            return self.arm;
+        }
+        let body = self.course.body;
+        let others = joints.of_body(self.bodies.infos[body as usize].first_joint).take(HINGES);
+        let mut others = others.map(|(index, side)| (&joints.records[index as usize].def, side));
+        let hinge = others.find(|&(def, side)| def.enabled && holds(def, side as usize));
+        hinge.map_or(Vec2::ZERO, |(def, side)| {
+            self.bodies.arm(body, [def.anchor_a, def.anchor_b][side as usize])
+        })
+    }
+}
+
+/// Does a joint hold one of its bodies at its anchor?
+fn holds(def: &JointDef, side: usize) -> bool {
+    match def.kind {
+        JointKind::Revolute { .. } | JointKind::Weld { linear: None, .. } => true,
+        JointKind::Wheel { .. } => side == 1,
+        _ => false,
     }
 }
 
@@ -73,17 +105,19 @@ struct Coordinate {
     /// What an impulse of 1 along it changes of the bodies' velocities, and of its own speed.
     changes: [(Vec2, f32); 2],
     give: f32,
+    /// Is it an angle?
+    turns: bool,
 }
 
 impl Coordinate {
-    /// That of a hinge: the angle nearest to the middle of its limits.
+    /// The angle of a joint, that nearest to the middle of its limits.
     fn angle(
+        (joints, def): (&Joints, &JointDef),
         ends: &[End<'_>; 2],
-        [angle_a, angle_b]: [f32; 2],
         rest: f32,
         limits: Option<Limits>,
     ) -> Self {
-        let (from, to) = (ends[0].frame(angle_a), ends[1].frame(angle_b));
+        let (from, to) = (ends[0].frame(def.angle_a), ends[1].frame(def.angle_b));
         let rest = Rot::from_angle(rest);
         let (at, away) = match limits {
             Some(Limits { lower, upper }) => {
@@ -94,9 +128,10 @@ impl Coordinate {
             }
             None => (0.0, to.angle_from(from.compose(rest))),
         };
-        let changes = [ends[0].turned_about_anchor(-1.0), ends[1].turned_about_anchor(1.0)];
+        let turned = |k: usize, by| ends[k].turned_about(ends[k].pivot(joints, def, k), by);
+        let changes = [turned(0, -1.0), turned(1, 1.0)];
         let speed = ends[1].course.spin - ends[0].course.spin;
-        Self { at, away, speed, changes, give: changes[1].1 - changes[0].1 }
+        Self { at, away, speed, changes, give: changes[1].1 - changes[0].1, turns: true }
     }
 
     /// That of a slider. Its line turns with A, and B with it.
@@ -108,7 +143,8 @@ impl Coordinate {
         let at = line.dot(gap);
         let speed = line.dot(velocity) + a.course.spin * line.perp().dot(between);
         let changes = [(line * -a.inv_mass, 0.0), (line * b.inv_mass, 0.0)];
-        Self { at, away: at - rest, speed, changes, give: a.inv_mass + b.inv_mass }
+        let give = a.inv_mass + b.inv_mass;
+        Self { at, away: at - rest, speed, changes, give, turns: false }
     }
 
     /// That of two anchors along a line of the world, on which they are as far from each other as it is long.
@@ -120,7 +156,7 @@ impl Coordinate {
             let (velocity, spin) = changes[k];
             line.dot(velocity + ends[k].arm.perp() * spin)
         });
-        Self { at, away: at - rest, speed, changes, give: gives[1] - gives[0] }
+        Self { at, away: at - rest, speed, changes, give: gives[1] - gives[0], turns: false }
     }
 
     /// What an impulse along it changes of one of its bodies.
@@ -196,64 +232,143 @@ impl Effort {
     }
 }
 
-/// Notes where the bodies of a joint will go as it drives them, if that is far from where they would go as they
-/// move now. They count as free but for the joint. `held`: what it did in the last step, if it presses on something.
-pub(super) fn by_joint(
-    bodies: &Bodies,
+/// The bodies of a joint, going as they are said to.
+fn ends<'a>(
+    bodies: &'a Bodies,
     record: &JointRecord,
-    held: impl Fn() -> Option<Held>,
+    course: impl Fn(u32) -> Course,
+) -> [End<'a>; 2] {
+    let JointDef { kind, anchor_a, anchor_b, .. } = record.def;
+    // A mouse joint does nothing to its A.
+    let body_a = if matches!(kind, JointKind::Mouse { .. }) { 0 } else { record.body_a };
+    [(body_a, anchor_a), (record.body_b, anchor_b)]
+        .map(|(body, anchor)| End::new(bodies, course(body), anchor))
+}
+
+/// What drives the bodies of a joint, along which coordinates.
+fn efforts(
+    joints: &Joints,
+    def: &JointDef,
+    ends: &[End<'_>; 2],
+) -> [Option<(Coordinate, Effort)>; 3] {
+    let angle = |rest, limits| Coordinate::angle((joints, def), ends, rest, limits);
+    match def.kind {
+        JointKind::Revolute { spring, target_angle, limits, motor } => {
+            let effort = Effort::new(spring, motor, limits);
+            [Some((angle(target_angle, limits), effort)), None, None]
+        }
+        JointKind::Prismatic { spring, target, limits, motor } => {
+            let slide = Coordinate::slide(ends, def.angle_a, target);
+            [Some((slide, Effort::new(spring, motor, limits))), None, None]
+        }
+        JointKind::Wheel { spring, limits, motor } => {
+            let slide = Coordinate::slide(ends, def.angle_a, 0.0);
+            let turning = Effort::new(None, motor, None);
+            [
+                Some((slide, Effort::new(spring, None, limits))),
+                Some((angle(0.0, None), turning)),
+                None,
+            ]
+        }
+        JointKind::Distance { length, spring, limits, motor } => {
+            let apart = Coordinate::along(ends, gap(ends), length);
+            [Some((apart, Effort::new(spring, motor, limits))), None, None]
+        }
+        JointKind::Weld { linear, angular } => {
+            let place = Coordinate::along(ends, gap(ends), 0.0);
+            [
+                Some((place, Effort::pull(linear, f32::MAX))),
+                Some((angle(0.0, None), Effort::pull(angular, f32::MAX))),
+                None,
+            ]
+        }
+        JointKind::Motor {
+            velocity,
+            max_force,
+            linear_spring,
+            max_spring_force,
+            angular_spring,
+            max_spring_torque,
+            ..
+        } => {
+            let missing = velocity - (ends[1].velocity() - ends[0].velocity());
+            let motor = Motor { speed: missing.length(), max: max_force };
+            let missing = Coordinate { speed: 0.0, ..Coordinate::along(ends, missing, 0.0) };
+            let place = Coordinate::along(ends, gap(ends), 0.0);
+            let twist = Effort::pull(angular_spring, max_spring_torque);
+            [
+                Some((missing, Effort::new(None, Some(motor), None))),
+                Some((place, Effort::pull(linear_spring, max_spring_force))),
+                Some((angle(0.0, None), Effort { motor: def.kind.motor(), ..twist })),
+            ]
+        }
+        JointKind::Mouse { target, spring, max_force } => {
+            let from = ends[1].bodies.poses[ends[1].course.body as usize].p;
+            let gap = from.relative_to(target) + ends[1].arm;
+            let place = Coordinate::along(ends, gap, 0.0);
+            [Some((place, Effort::pull(Some(spring), max_force))), None, None]
+        }
+        _ => [None, None, None],
+    }
+}
+
+/// Notes where the bodies of a joint will go as it drives them, if that is far from where they would go as they
+/// move now. They count as free but for the joint, and for what they turn about. `held`: what it did in the last step, in turning or
+/// not, if it presses on something.
+pub(super) fn by_joint(
+    (bodies, joints): (&Bodies, &Joints),
+    record: &JointRecord,
+    held: impl Fn(bool) -> Option<Held>,
     dt: f32,
     courses: &mut Courses,
 ) {
-    let def = &record.def;
-    let end = |body: u32, anchor: Vec2| End::new(bodies, courses.of(bodies, dt, body), anchor);
-    // A mouse joint does nothing to its A.
-    let body_a = if matches!(def.kind, JointKind::Mouse { .. }) { 0 } else { record.body_a };
-    let ends = [end(body_a, def.anchor_a), end(record.body_b, def.anchor_b)];
-    let mut drive = |coordinate: Coordinate, effort: Effort| {
+    let ends = ends(bodies, record, |body| courses.of(bodies, dt, body));
+    for (coordinate, effort) in efforts(joints, &record.def, &ends).into_iter().flatten() {
         let impulse = |held| effort.impulse(&coordinate, held, dt);
         let change = |k: usize, impulse| coordinate.change(&ends[k], k, impulse);
         let is_far = |impulse| [0, 1].into_iter().any(|k| change(k, impulse).is_far(bodies, dt));
         if is_far(impulse(None)) {
-            let impulse = impulse(held());
+            let impulse = impulse(held(coordinate.turns));
             [0, 1].into_iter().for_each(|k| change(k, impulse).keep(bodies, dt, courses));
         }
-    };
-    match def.kind {
-        JointKind::Revolute { spring, target_angle, limits, motor } => {
-            let angles = [def.angle_a, def.angle_b];
-            let angle = Coordinate::angle(&ends, angles, target_angle, limits);
-            drive(angle, Effort::new(spring, motor, limits));
-        }
-        JointKind::Prismatic { spring, target, limits, motor } => {
-            let slide = Coordinate::slide(&ends, def.angle_a, target);
-            drive(slide, Effort::new(spring, motor, limits));
-        }
-        JointKind::Wheel { spring, limits, .. } => {
-            let slide = Coordinate::slide(&ends, def.angle_a, 0.0);
-            drive(slide, Effort::new(spring, None, limits));
-        }
-        JointKind::Distance { length, spring, limits, motor } => {
-            drive(Coordinate::along(&ends, gap(&ends), length), Effort::new(spring, motor, limits));
-        }
-        JointKind::Motor { velocity, max_force, linear_spring, max_spring_force, .. } => {
-            let missing = velocity - (ends[1].velocity() - ends[0].velocity());
-            let motor = Motor { speed: missing.length(), max: max_force };
-            let mut missing = Coordinate::along(&ends, missing, 0.0);
-            missing.speed = 0.0;
-            drive(missing, Effort::new(None, Some(motor), None));
-            drive(
-                Coordinate::along(&ends, gap(&ends), 0.0),
-                Effort::pull(linear_spring, max_spring_force),
-            );
-        }
-        JointKind::Mouse { target, spring, max_force } => {
-            let from = bodies.poses[record.body_b as usize].p;
-            let gap = from.relative_to(target) + ends[1].arm;
-            drive(Coordinate::along(&ends, gap, 0.0), Effort::pull(Some(spring), max_force));
-        }
-        _ => {}
     }
+}
+
+/// Does a joint move its bodies? However slowly it does, they do not rest. What a spring pulls goes into motion and damping, but for what
+/// is held: then it moves nothing. `h` is the plain substep length, seconds.
+pub(crate) fn moves(
+    (bodies, joints): (&Bodies, &Joints),
+    record: &JointRecord,
+    (h, length_unit): (f32, f32),
+) -> bool {
+    let pace = bodies.common_pace(record.body_a, record.body_b);
+    let inv_h = REFINEMENT[pace] as f32 / h;
+    let now = ends(bodies, record, |body| Course::of(bodies, 0.0, body));
+    let gains = ends(bodies, record, |body| Course::gained(bodies, inv_h, body));
+    let goes = |Motor { speed, max }: Motor, now: f32| {
+        max > 0.0 && speed != 0.0 && now * speed.signum() >= GOES * speed.abs()
+    };
+    let pulls = |spring: Spring, strongest: f32, now: &Coordinate, gain: f32| {
+        let (rate, unit) =
+            (core::f32::consts::TAU * spring.hertz, if now.turns { 1.0 } else { length_unit });
+        let pull = (rate * rate * now.away.abs()).min(strongest * now.give);
+        let moved = gain + 2.0 * spring.damping_ratio * rate * now.speed;
+        now.away.abs() > NEAR * unit
+            && pull > FAINT * unit
+            && -moved * now.away.signum() > YIELDS * pull
+    };
+    if let JointKind::Motor { velocity, max_force, .. } = record.def.kind {
+        let motor = Motor { speed: velocity.length(), max: max_force };
+        if goes(motor, (now[1].velocity() - now[0].velocity()).length()) {
+            return true;
+        }
+    }
+    let along = |ends| efforts(joints, &record.def, ends).into_iter().flatten();
+    along(&now).zip(along(&gains)).any(|((now, effort), (gain, _))| {
+        let Effort { spring, strongest, motor, .. } = effort;
+        motor.is_some_and(|motor| goes(motor, now.speed))
+            || spring.is_some_and(|spring| pulls(spring, strongest, &now, gain.speed))
+    })
 }
 
 /// The same for what a force does to a body.

@@ -23,7 +23,7 @@ mod predictions;
 mod squeezed;
 
 pub(crate) use again::Around;
-pub(crate) use driven::Held;
+pub(crate) use driven::{Held, moves};
 pub(crate) use predictions::{Predictions, Scene};
 pub(crate) use squeezed::HEAVIER;
 

@@ -152,7 +152,7 @@ impl Predictions {
         &mut self,
         (bodies, joints, ways): (&Bodies, &Joints, &Ways),
         (dt, reach): (f32, f32),
-        held: impl Fn(u32) -> Option<Held>,
+        held: impl Fn(u32, bool) -> Option<Held>,
     ) -> bool {
         if ways.forced.is_empty() && joints.driven.is_empty() {
             return false;
@@ -164,7 +164,8 @@ impl Predictions {
         for &index in &joints.driven {
             let record = &joints.records[index as usize];
             if record.place != Place::Asleep {
-                driven::by_joint(bodies, record, || held(index), dt, &mut self.courses);
+                let held = |turns| held(index, turns);
+                driven::by_joint((bodies, joints), record, held, dt, &mut self.courses);
             }
         }
         if self.courses.list.is_empty() {

@@ -515,10 +515,27 @@ impl<L: Lanes> Pair<L> {
     /// ```
     #[inline(always)]
     pub(super) fn point_mass(&self, stride: &Stride<L>) -> Symmetric<L> {
-        let (ia, ib) = (self.a[Slot::INV_INERTIA], self.b[Slot::INV_INERTIA]);
+        let inertias = [self.a[Slot::INV_INERTIA], self.b[Slot::INV_INERTIA]];
+        self.answer(stride, inertias, [self.anchor_a, self.anchor_b])
+    }
+
+    /// The same where, if `held` is above 0, the bodies do not turn against each other. The response is `K - k k^T / (iA + iB)` then, with
+    /// k as in [`Self::twist`]: K with the arm from anchor to anchor, and both inertias together.
+    #[inline(always)]
+    pub(super) fn point_mass_where(&self, stride: &Stride<L>, held: L) -> Symmetric<L> {
+        let (ia, ib, held) =
+            (self.a[Slot::INV_INERTIA], self.b[Slot::INV_INERTIA], held.gt(stride.zero));
+        let together = ia * ib * stride.invert(ia + ib);
+        let inertias = [L::select(held, together, ia), L::select(held, stride.zero, ib)];
+        let ([ax, ay], [x, y]) = (self.anchor_a, sub(self.anchor_a, self.anchor_b));
+        let arm = [L::select(held, x, ax), L::select(held, y, ay)];
+        self.answer(stride, inertias, [arm, self.anchor_b])
+    }
+
+    #[inline(always)]
+    fn answer(&self, stride: &Stride<L>, [ia, ib]: [L; 2], arms: [[L; 2]; 2]) -> Symmetric<L> {
         let [mass_a, mass_b] = self.inv_masses();
-        let [mx, my] = add(mass_a, mass_b);
-        let ([ax, ay], [bx, by]) = (self.anchor_a, self.anchor_b);
+        let ([mx, my], [[ax, ay], [bx, by]]) = (add(mass_a, mass_b), arms);
         Symmetric::invert(
             stride,
             mx + ia * ay * ay + ib * by * by,

@@ -44,25 +44,37 @@ impl JointKernel for WeldBlock {
     fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let linear = Soft::<L, BIAS>::load(stride, &self.linear);
         let angular = Soft::<L, BIAS>::load(stride, &self.angular);
-        let inverse = pair.point_mass(stride);
+        let [rigid_point, rigid] =
+            [stride.load(&self.linear.rigid), stride.load(&self.angular.rigid)];
+        // A springy point of bodies that do not turn against each other: what it gives comes after what holds the angle.
+        let upright = rigid * (stride.one - rigid_point);
+        let inverse = pair.point_mass_where(stride, upright);
+        let coupling = pair.twist();
+        let per_point = scale(coupling, upright * stride.invert(pair.inv_inertia()));
+
+        let old_twist = stride.load(&self.twist.impulse);
+        let angle = pair.angle(stride, &self.angle);
+        let angular = angular.in_part(angular.part(stride, angle, stride.snap_turn));
+        let demand_turn = angular.demand(pair.spin(), angle);
 
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         let linear = linear.hold2(stride, pair.gap);
         let demand = linear.demand2(pair.anchor_velocity_in::<BIAS>(stride), pair.gap);
+        // A rigid angle decays with what the point does to it.
+        let acting = pair.inv_inertia() * old_twist + dot(coupling, old);
+        let turn = demand_turn + angular.impulse_scale * acting;
+        let demand = sub(demand, scale(per_point, linear.mass_scale * turn));
         let alone = scale(inverse.apply(demand), -stride.one);
-        let coupling = pair.twist();
         // Only a rigid point carries the angle along.
-        let per_angular = scale(inverse.apply(coupling), stride.load(&self.linear.rigid));
+        let per_angular = scale(inverse.apply(coupling), rigid_point);
         let inv_mass = complement(stride, pair.inv_inertia(), coupling, per_angular);
 
-        let old_twist = stride.load(&self.twist.impulse);
-        let angle = pair.angle(stride, &self.angle);
         // A rigid angle takes away all of the spin that the point's correction makes, a spring its part.
-        let rigid = stride.load(&self.angular.rigid);
         let part = rigid + (stride.one - rigid) * angular.mass_scale;
-        let angular = angular.in_part(angular.part(stride, angle, stride.snap_turn));
-        let demand = angular.demand(pair.spin(), angle) + part * dot(coupling, alone);
+        let demand = demand_turn + part * dot(coupling, alone);
         let twist = -(stride.invert(inv_mass) * demand) - angular.impulse_scale * old_twist;
+        let decay = linear.impulse_scale - angular.impulse_scale;
+        let twist = twist + decay * dot(per_point, old);
         let carried = add(old, scale(per_angular, old_twist));
         let change =
             sub(sub(alone, scale(carried, linear.impulse_scale)), scale(per_angular, twist));

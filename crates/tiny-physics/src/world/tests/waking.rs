@@ -1,7 +1,7 @@
 //! What changes from outside wakes those whom it concerns, and no others.
 
 use super::*;
-use crate::describe::{JointDef, JointKind, Material, Tile, TileForm, TileGrid};
+use crate::describe::{JointDef, JointKind, Material, Spring, Tile, TileForm, TileGrid};
 
 /// A crate that sleeps on the ground at x.
 fn sleeper(world: &mut World, x: f32) -> BodyId {
@@ -398,4 +398,138 @@ fn a_platform_added_asleep_with_a_velocity_moves() {
     let lift = world.add_body(lift).unwrap();
     run(&mut world, 60);
     assert!((world.body(lift).unwrap().position().x - 2.0).abs() < 0.01);
+}
+
+/// A flywheel without shapes, free, on a hinge, or led, turns on; one that a brake stops sleeps. All of them fell asleep at full
+/// speed within a second: the turning of what has no shapes counted for nothing.
+#[test]
+fn what_has_no_shapes_turns_on() {
+    for case in 0..24 {
+        let mut world = World::new(Vec2::ZERO);
+        let (spin, inertia) = (0.3 * 1.2_f32.powi(case), 0.02 * 1.3_f32.powi(case));
+        let wheel = match case % 4 {
+            0 => RigidBody::kinematic(),
+            _ => RigidBody::dynamic().mass(2.0).inertia(inertia),
+        };
+        let wheel = world.add_body(wheel.angular_velocity(spin)).unwrap();
+        let base = world.add_body(RigidBody::fixed()).unwrap();
+        if case % 4 > 1 {
+            world.add_joint(base, wheel, JointDef::revolute()).unwrap();
+        }
+        run(&mut world, 120);
+        let left = world.body(wheel).unwrap().angular_velocity();
+        let seen = 0.05 / (inertia / 2.0).sqrt();
+        assert!(
+            (left - spin).abs() < 1.0e-3 * spin || spin < seen,
+            "case {case}: {left} of {spin}"
+        );
+        if case % 4 > 1 {
+            world.add_joint(base, wheel, JointDef::friction(0.0, 20.0 * spin * inertia)).unwrap();
+            run(&mut world, 120);
+            assert!(!is_awake(&world, wheel), "case {case}: awake");
+        }
+    }
+}
+
+/// Springs of every kind, however slow, sleep no sooner than at their rest; those that push against something do sleep. A door of 0.3 hertz and
+/// damping ratio 4, let go at 1 radian, fell asleep at 0.18 for good, and what springs of 0.1 hertz set going within a second.
+#[test]
+fn no_spring_is_too_slow_to_go_on() {
+    for case in 0..70 {
+        let kind = case % 7;
+        let part = |k: f32| (k * (case + 1) as f32).fract();
+        let (hertz, zeta) = (0.08 + 0.5 * part(0.618_034), 5.0 * part(0.414_214));
+        let spring = Some(Spring { hertz, damping_ratio: zeta });
+        let drive = JointKind::Motor {
+            velocity: Vec2::ZERO,
+            angular_velocity: 0.0,
+            max_force: 0.0,
+            max_torque: 0.0,
+            linear_spring: spring,
+            max_spring_force: 1.0e3,
+            angular_spring: spring,
+            max_spring_torque: 1.0e3,
+        };
+        let mouse = JointKind::Mouse {
+            target: DVec2::ZERO,
+            spring: Spring { hertz, damping_ratio: zeta },
+            max_force: 1.0e3,
+        };
+        let (joint, place, angle) = match kind {
+            0 => (JointDef::revolute().anchors(Vec2::ZERO, -Vec2::X), Vec2::ZERO, 1.0),
+            1 => (JointDef::prismatic(Vec2::Y), Vec2::new(0.0, 0.6), 0.0),
+            2 => (JointDef::distance(1.0).anchors(-Vec2::Y, Vec2::ZERO), Vec2::new(0.0, 0.6), 0.0),
+            3 => (JointDef::weld(), Vec2::new(0.3, 0.6), 0.5),
+            4 => (JointDef::wheel(Vec2::Y), Vec2::new(0.0, 0.6), 0.0),
+            5 => (JointDef::new(drive), Vec2::new(0.3, 0.6), 0.5),
+            _ => (JointDef::new(mouse), Vec2::new(0.3, 0.6), 0.0),
+        };
+        let mut world = World::new(Vec2::ZERO);
+        let base = world.add_body(RigidBody::fixed()).unwrap();
+        let body = RigidBody::dynamic().angle(angle).shape(rect(1.0, 0.05));
+        let hung = if kind == 0 { Vec2::new(angle.cos(), angle.sin()) } else { place };
+        let body = world.add_body(body.position(hung)).unwrap();
+        world.add_joint(base, body, joint.spring(hertz, zeta)).unwrap();
+        run(&mut world, 1500);
+        let rest = if kind == 0 { Vec2::X } else { Vec2::ZERO };
+        let body = world.body(body).unwrap();
+        let off = (body.position() - rest).length() + body.angle().abs();
+        let rate = core::f32::consts::TAU * hertz;
+        let least = 0.02 + 0.005 / (rate * rate);
+        assert!(body.is_awake() || off < least, "{case}: {hertz} Hz, {zeta}: {off} off");
+        // That of a slow one is exp(-rate t / (2 zeta)).
+        let done = if zeta > 0.3 { rate * 25.0 / (2.0 * zeta).max(1.0 / zeta) } else { 0.0 };
+        assert!(!body.is_awake() || done < 7.0, "{case}: {hertz} Hz, {zeta}: awake, {off} off");
+    }
+}
+
+/// A spring that is blocked, borne or balanced lets its bodies sleep.
+#[test]
+fn springs_that_are_held_sleep() {
+    for case in 0..40 {
+        let part = |k: f32| (k * (case + 1) as f32).fract();
+        let (hertz, zeta) = (0.3 + 2.0 * part(0.618_034), 0.3 + 3.0 * part(0.414_214));
+        let mut world = world();
+        let ground = RigidBody::fixed().position(Vec2::new(0.0, -1.0)).shape(rect(50.0, 1.0));
+        let ground = world.add_body(ground).unwrap();
+        let bodies = match case % 4 {
+            // A door pressed on a peg, a slider that bears its body, a crate that friction holds back, a cart on two wheels.
+            0 => {
+                let door = add(&mut world, 0.0, 3.0, rect(1.0, 0.05));
+                world.add_body(fixed(0.7, 3.3, circle(0.1))).unwrap();
+                let hinge = JointDef::revolute().anchors((-1.0, 4.0), -Vec2::X).angles(1.5, 0.0);
+                world.body_mut(door).unwrap().set_gravity_scale(0.0);
+                world.add_joint(ground, door, hinge.spring(hertz, zeta)).unwrap();
+                vec![door]
+            }
+            1 => {
+                let lift = add(&mut world, 0.0, 30.0, rect(0.5, 0.2));
+                let slider = JointDef::prismatic(Vec2::Y).anchors((0.0, 31.0), Vec2::ZERO);
+                world.add_joint(ground, lift, slider.spring(hertz.max(0.8), zeta)).unwrap();
+                vec![lift]
+            }
+            2 => {
+                let crate_ = add(&mut world, 0.0, 0.5, rect(0.5, 0.5));
+                let spring = JointDef::distance(1.0).anchors((1.2, 1.5), Vec2::ZERO);
+                let spring = spring.spring(0.3, zeta).collide_connected();
+                world.add_joint(ground, crate_, spring).unwrap();
+                vec![crate_]
+            }
+            _ => {
+                let cart = add(&mut world, 0.0, 1.0, rect(1.0, 0.2));
+                let mut all = vec![cart];
+                for x in [-0.8, 0.8] {
+                    let wheel = add(&mut world, x, 0.3, circle(0.3));
+                    let axle = JointDef::wheel(Vec2::Y).anchors((x, -0.7), Vec2::ZERO);
+                    let axle = axle.spring(1.0 + hertz, zeta).limits(-0.3, 0.3);
+                    world.add_joint(cart, wheel, axle.motor(0.0, 5.0)).unwrap();
+                    all.push(wheel);
+                }
+                all
+            }
+        };
+        run(&mut world, 1500);
+        let awake = bodies.iter().filter(|&&body| is_awake(&world, body)).count();
+        assert!(awake == 0, "{case}: {hertz} Hz, {zeta}: {awake} awake");
+    }
 }
