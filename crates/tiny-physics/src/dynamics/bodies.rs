@@ -292,6 +292,13 @@ impl Bodies {
         self.refined > 0 && self.awake.iter().any(is_refined)
     }
 
+    /// The paces of awake dynamic bodies, as bits; nothing where all are of the plain one.
+    pub(crate) fn paces(&self) -> u32 {
+        let awake = if self.refined > 0 { &self.awake[..] } else { &[] };
+        let dynamic = awake.iter().filter(|&&body| self.is_dynamic(body));
+        dynamic.fold(0, |paces, &body| paces | 1 << self.infos[body as usize].pace)
+    }
+
     /// Do two dynamic bodies have different paces? The next step brings them in line.
     #[inline]
     pub(crate) fn are_mixed(&self, a: u32, b: u32) -> bool {

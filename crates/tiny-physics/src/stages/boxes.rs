@@ -131,13 +131,13 @@ pub(crate) fn update(
 /// The box of a shape on a body whose centre of mass has this pose.
 pub(crate) fn shape_box(shapes: &Shapes, shape: u32, pose: Pose) -> Aabb {
     let row = &shapes.rows[shape as usize];
-    let record = &shapes.records[shape as usize];
-    match &record.shape {
-        Shape::Polygon(polygon) if guard::exact(row[7]) != 1.0 => {
-            polygon_box(polygon, pose.compose(record.central))
+    if guard::exact(row[7]) != 1.0 {
+        let record = &shapes.records[shape as usize];
+        if let Shape::Polygon(polygon) = &record.shape {
+            return polygon_box(polygon, pose.compose(record.central));
         }
-        _ => rounded_box(row, pose),
     }
+    rounded_box(row, pose)
 }
 
 /// The box of a polygon.

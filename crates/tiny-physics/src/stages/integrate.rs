@@ -67,19 +67,61 @@ pub(crate) fn velocities(
     bodies: &mut Bodies,
     first: bool,
 ) {
-    let Bodies { rows, motions, starts, .. } = bodies;
-    let (rows, starts) = (SharedRows::new(rows), SharedSlice::new(starts));
+    let columns = Columns::new(bodies);
     team.for_each_chunk(listed.len(), CHUNK, |range| {
-        let listed = &listed[range];
-        dispatch_fours(level, Velocities { listed, rows, starts, motions, first });
+        dispatch_fours(level, Velocities { listed: &listed[range], columns, first });
     });
+}
+
+/// What a substep reads and writes, of all bodies.
+#[derive(Clone, Copy)]
+struct Columns<'a> {
+    rows: SharedRows<'a>,
+    starts: SharedSlice<'a, [f32; 4]>,
+    motions: &'a [Motion],
+    /// Are lists of bodies ascending?
+    ascending: bool,
+}
+
+impl<'a> Columns<'a> {
+    fn new(bodies: &'a mut Bodies) -> Self {
+        let Bodies { rows, motions, starts, awake_unsorted, .. } = bodies;
+        let (rows, starts) = (SharedRows::new(rows), SharedSlice::new(starts));
+        Self { rows, starts, motions, ascending: !*awake_unsorted }
+    }
+
+    /// Changes each body of a chunk. Most chunks have no gaps and need no look at the numbers of their bodies; with few it would cost more.
+    #[inline(always)]
+    fn for_each(self, listed: &[u32], mut change: impl FnMut(&mut Row, &mut [f32; 4], &Motion)) {
+        let Self { rows, starts, motions, ascending } = self;
+        let (Some(&first), Some(&last)) = (listed.first(), listed.last()) else { return };
+        let range = first as usize..last as usize + 1;
+        if ascending && listed.len() > 3 && range.len() == listed.len() {
+            let both = rows.range(range.clone()).iter_mut().zip(starts.range(range.clone()));
+            for ((row, start), motion) in both.zip(&motions[range]) {
+                change(row, start, motion);
+            }
+            return;
+        }
+        for &index in listed {
+            rows.update(
+                index,
+                #[inline(always)]
+                |row| {
+                    starts.update(
+                        index,
+                        #[inline(always)]
+                        |start| change(row, start, &motions[index as usize]),
+                    );
+                },
+            );
+        }
+    }
 }
 
 struct Velocities<'a> {
     listed: &'a [u32],
-    rows: SharedRows<'a>,
-    starts: SharedSlice<'a, [f32; 4]>,
-    motions: &'a [Motion],
+    columns: Columns<'a>,
     first: bool,
 }
 
@@ -87,25 +129,22 @@ impl FourKernel for Velocities<'_> {
     /// The inverse mass goes along and comes out as it was.
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { listed, rows, starts, motions, first } = self;
+        let Self { listed, columns, first } = self;
         let planar = f32x4::simd_from(simd, [1.0, 1.0, 1.0, 0.0]);
         let carried = if first { f32x4::splat(simd, 0.0) } else { planar };
-        for &index in listed {
-            let Motion { gain, factor } = &motions[index as usize];
-            let carry = f32x4::splat(simd, gain[3]) * carried;
-            let (gain, factor) = (f32x4::simd_from(simd, *gain), f32x4::simd_from(simd, *factor));
-            rows.update(
-                index,
-                #[inline(always)]
-                |row| {
-                    let now = f32x4::from_slice(simd, &row[..4]);
-                    let base = now * factor + gain * planar;
-                    let before = starts.update(index, |at| core::mem::replace(at, base.into()));
-                    let before = f32x4::simd_from(simd, before);
-                    (base + (now - before) * carry).store_slice(&mut row[..4]);
-                },
-            );
-        }
+        columns.for_each(
+            listed,
+            #[inline(always)]
+            |row, start, Motion { gain, factor }| {
+                let carry = f32x4::splat(simd, gain[3]) * carried;
+                let gain = f32x4::simd_from(simd, *gain);
+                let factor = f32x4::simd_from(simd, *factor);
+                let now = f32x4::from_slice(simd, &row[..4]);
+                let base = now * factor + gain * planar;
+                let before = f32x4::simd_from(simd, core::mem::replace(start, base.into()));
+                (base + (now - before) * carry).store_slice(&mut row[..4]);
+            },
+        );
     }
 }
 
@@ -135,12 +174,10 @@ pub(crate) fn positions(
     h: f32,
     max_speed: f32,
 ) {
-    let Bodies { rows, motions, starts, .. } = bodies;
-    let (rows, starts) = (SharedRows::new(rows), SharedSlice::new(starts));
+    let columns = Columns::new(bodies);
     let limits = Limits { speed: max_speed, turn_rate: MAX_TURN / h };
     team.for_each_chunk(listed.len(), CHUNK, |range| {
-        let listed = &listed[range];
-        dispatch_fours(level, Positions { listed, rows, starts, motions, h, limits });
+        dispatch_fours(level, Positions { listed: &listed[range], columns, h, limits });
     });
 }
 
@@ -153,9 +190,7 @@ struct Limits {
 
 struct Positions<'a> {
     listed: &'a [u32],
-    rows: SharedRows<'a>,
-    starts: SharedSlice<'a, [f32; 4]>,
-    motions: &'a [Motion],
+    columns: Columns<'a>,
     h: f32,
     limits: Limits,
 }
@@ -163,33 +198,29 @@ struct Positions<'a> {
 impl FourKernel for Positions<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { listed, rows, starts, motions, h, limits } = self;
+        let Self { listed, columns, h, limits } = self;
         let zero = f32x4::splat(simd, 0.0);
         let way = f32x4::simd_from(simd, [h, h, h, 0.0]);
         // What is slower along each axis needs no closer look.
         let Limits { speed, turn_rate } = limits;
         let most = f32x4::simd_from(simd, [0.7 * speed, 0.7 * speed, turn_rate, f32::INFINITY]);
-        for &index in listed {
-            let factor = f32x4::simd_from(simd, motions[index as usize].factor);
-            rows.update(
-                index,
-                #[inline(always)]
-                |row| {
-                    let now = f32x4::from_slice(simd, &row[..4]);
-                    let mut v = factor.simd_eq(zero).select(zero, now);
-                    if v.abs().simd_gt(most).any_true() {
-                        let cut = f32x4::simd_from(simd, limits.cut(v.into()));
-                        starts.update(index, |start| {
-                            *start = (cut - (v - f32x4::simd_from(simd, *start))).into();
-                        });
-                        v = cut;
-                    }
-                    v.store_slice(&mut row[..4]);
-                    let moved = f32x4::from_slice(simd, &row[4..]);
-                    (moved + way * v).store_slice(&mut row[4..]);
-                },
-            );
-        }
+        columns.for_each(
+            listed,
+            #[inline(always)]
+            |row, start, motion| {
+                let factor = f32x4::simd_from(simd, motion.factor);
+                let now = f32x4::from_slice(simd, &row[..4]);
+                let mut v = factor.simd_eq(zero).select(zero, now);
+                if v.abs().simd_gt(most).any_true() {
+                    let cut = f32x4::simd_from(simd, limits.cut(v.into()));
+                    *start = (cut - (v - f32x4::simd_from(simd, *start))).into();
+                    v = cut;
+                }
+                v.store_slice(&mut row[..4]);
+                let moved = f32x4::from_slice(simd, &row[4..]);
+                (moved + way * v).store_slice(&mut row[4..]);
+            },
+        );
     }
 }
 

@@ -199,12 +199,12 @@ impl Solver {
         stores.joint_graph.grow_forest(stores.bodies, stores.joints);
         let h = rules.lengths.h;
         joint_solver::describe(stores.joint_graph, stores.joints, &stores.bodies.infos, h);
-        if stores.bodies.any_refined() {
+        let present = stores.bodies.paces();
+        if present & !(1 << PLAIN) != 0 {
             let mut listed = core::mem::take(&mut self.listed);
-            for pace in (0..PACES).rev() {
+            for pace in (0..PACES).rev().filter(|&pace| pace == PLAIN || present >> pace & 1 != 0) {
                 paces::list_bodies(stores.bodies, pace, &mut listed);
-                let counts = |&body: &u32| pace == PLAIN || stores.bodies.is_dynamic(body);
-                if !listed.iter().any(counts) {
+                if listed.is_empty() {
                     continue;
                 }
                 let lengths = rules.lengths.refined(pace);
