@@ -3,7 +3,7 @@
 mod common;
 
 use common::{DT, Random, steps};
-use tiny_physics::{BodyId, JointDef, Locks, RigidBody, Shape, Vec2, World};
+use tiny_physics::{BodyId, JointDef, Locks, RigidBody, Shape, SimdLevel, Vec2, World};
 
 /// Along x or y.
 fn axis(is_y: bool) -> Vec2 {
@@ -105,5 +105,44 @@ fn what_is_locked_along_an_axis_is_pushed_along_the_other() {
         world.body_mut(carriage).expect("a carriage").apply_impulse_to_center(Vec2::new(3.0, 3.0));
         let velocity = world.body(carriage).expect("a carriage").velocity();
         assert!((velocity - along * 2.0).length() < 0.01, "{is_y}: {velocity:?}");
+    }
+}
+
+/// Balls, crates and chains of joints among bodies that are locked in every way, after so many steps.
+fn hash_of_a_heap(level: SimdLevel, threads: usize) -> u64 {
+    let mut random = Random::new(5);
+    let mut world = World::new(Vec2::new(2.0, -10.0));
+    world.set_simd(level).expect("a level");
+    world.set_threads(threads);
+    let trough = Shape::rect(20.0, 0.5).expect("a floor");
+    for angle in [-0.4_f32, 0.4] {
+        let place = Vec2::new(angle * 45.0, 6.0);
+        let floor = RigidBody::fixed().position(place).angle(angle).shape(trough);
+        world.add_body(floor).expect("a floor");
+    }
+    let mut last: Option<BodyId> = None;
+    for i in 0..120 {
+        let place = Vec2::new((i % 12) as f32 - 6.0, 2.0 + (i / 12) as f32);
+        let half = random.range(0.2, 0.45);
+        let shape = if i % 3 == 0 { Shape::circle(half) } else { Shape::rect(half, 0.3) };
+        let lock = |one| i % 15 == one;
+        let locks = Locks { x: lock(1), y: lock(2), rotation: i % 30 == 2 };
+        let body = add(&mut world, shape.expect("a shape"), random.range(0.5, 9.0), place, locks);
+        if let Some(before) = last.filter(|_| i % 4 == 1) {
+            let joint = JointDef::distance(1.0);
+            world.add_joint(before, body, joint).expect("a joint");
+        }
+        last = Some(body);
+    }
+    steps(&mut world, 150);
+    world.state_hash()
+}
+
+/// What is locked changes no bits of what is solved beside it: strides are wider at some levels than at others.
+#[test]
+fn what_is_locked_moves_alike_at_every_level() {
+    let scalar = hash_of_a_heap(SimdLevel::Scalar, 1);
+    for level in SimdLevel::available() {
+        assert_eq!(hash_of_a_heap(level, 2), scalar, "{level}");
     }
 }

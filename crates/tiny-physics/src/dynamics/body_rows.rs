@@ -41,8 +41,10 @@ pub(crate) fn locked<L: Lanes>(token: L::Token, [a, b]: [&mut [L; 8]; 2]) -> Opt
     Some([[x_a, y_a], [x_b, y_b]])
 }
 
-/// Inverse mass along a direction, of those along x and y.
+/// Inverse mass along a unit direction, of those along x and y. Where these are the same it is that to the bit, as in strides without
+/// anything locked.
 #[inline(always)]
 pub(crate) fn inverse_mass_along<L: Lanes>(direction: [L; 2], [x, y]: [L; 2]) -> L {
-    direction[0] * direction[0] * x + direction[1] * direction[1] * y
+    let along = direction[0] * direction[0] * x + direction[1] * direction[1] * y;
+    L::select(x.eq(y), x, along)
 }

@@ -565,7 +565,7 @@ fn write_constraint<L: Lanes, K: PairKernel>(
         zero.store(&mut surface.total_1[at..]);
         zero.store(&mut surface.total_2[at..]);
     }
-    let [a, b] = [body_a[3], body_b[3]];
+    let [a, b] = [body_a[3].abs(), body_b[3].abs()];
     let deepest = geometry.manifold.separation[0].min(geometry.manifold.separation[1]);
     let deep = L::splat(token, -SUNK * context.speculative_distance);
     let uneven = a.max(b).gt(L::splat(token, HEAVIER) * a.min(b));
@@ -598,8 +598,8 @@ impl<L: Lanes> Arms<L> {
         let mut along = a[Slot::INV_MASS] + b[Slot::INV_MASS];
         let mut across = along;
         if let Some([free_a, free_b]) = locked(token, [&mut a, &mut b]) {
-            let both = [free_a[0] + free_b[0], free_a[1] + free_b[1]];
-            (along, across) = (inverse_mass_along([x, y], both), inverse_mass_along([y, x], both));
+            along = inverse_mass_along([x, y], free_a) + inverse_mass_along([x, y], free_b);
+            across = inverse_mass_along([y, x], free_a) + inverse_mass_along([y, x], free_b);
         }
         let turns = [a[Slot::INV_INERTIA], b[Slot::INV_INERTIA]];
         let mass = |arms, linear| effective_mass(token, arms, [linear, turns[0], turns[1]]);

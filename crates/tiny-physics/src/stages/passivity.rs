@@ -50,7 +50,8 @@ struct Island {
 /// A motion as one rigid body.
 #[derive(Clone, Copy, Debug, Default)]
 struct Whole {
-    mass: f64,
+    /// Along x and y.
+    mass: [f64; 2],
     inertia: f64,
     /// From the origin.
     center: [f64; 2],
@@ -269,21 +270,24 @@ fn find_whole(bodies: &Bodies, islands: &mut [Island], free: &[(u32, u32)]) {
     for &(body, island) in free {
         let Island { whole, origin, .. } = &mut islands[island as usize];
         let State { masses, v, place, .. } = State::new(bodies, body, *origin);
-        whole.mass += masses[0];
         for k in 0..2 {
-            whole.center[k] += masses[0] * place[k];
-            whole.velocity[k] += masses[0] * v[k];
+            whole.mass[k] += masses[k];
+            whole.center[k] += masses[k] * place[k];
+            whole.velocity[k] += masses[k] * v[k];
         }
     }
-    for Island { whole, .. } in islands.iter_mut().filter(|island| island.whole.mass > 0.0) {
-        whole.center = whole.center.map(|sum| sum / whole.mass);
-        whole.velocity = whole.velocity.map(|sum| sum / whole.mass);
+    for Island { whole, .. } in islands.iter_mut() {
+        for k in (0..2).filter(|&k| whole.mass[k] > 0.0) {
+            whole.center[k] /= whole.mass[k];
+            whole.velocity[k] /= whole.mass[k];
+        }
     }
     for &(body, island) in free {
         let Island { whole, origin, .. } = &mut islands[island as usize];
-        let State { masses: [mass, _, inertia], v, place, .. } = State::new(bodies, body, *origin);
+        let State { masses: [x, y, inertia], v, place, .. } = State::new(bodies, body, *origin);
         let arm = [place[0] - whole.center[0], place[1] - whole.center[1]];
         let own = [v[0] - whole.velocity[0], v[1] - whole.velocity[1]];
+        let mass = if x > y { x } else { y };
         whole.inertia += mass * (arm[0] * arm[0] + arm[1] * arm[1]) + inertia;
         // Angular momentum, until it is divided.
         whole.spin += mass * (arm[0] * own[1] - arm[1] * own[0]) + inertia * v[2];

@@ -101,8 +101,10 @@ impl World {
             let row = &bodies.rows[index];
             let [mass, turn] = [Slot::INV_MASS, Slot::INV_INERTIA].map(|slot| row[slot]);
             let right = info.kind == BodyKind::Dynamic || mass == 0.0 && turn == 0.0;
-            let locked = info.locks.x != info.locks.y;
-            ensure(right && (locked || mass >= 0.0 && turn >= 0.0), "a body moves that cannot")?;
+            let locks = info.locks;
+            let fits = (mass < 0.0) == (mass != 0.0 && locks.x != locks.y)
+                && (turn < 0.0) == (mass < 0.0 && locks.y);
+            ensure(right && fits, "a body moves that cannot")?;
             let next = info.island_next;
             let sleeps = |i: u32| {
                 bodies.infos.get(i as usize).is_some_and(|info| {

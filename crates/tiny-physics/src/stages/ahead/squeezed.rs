@@ -304,7 +304,10 @@ fn weigh(
         return None;
     }
     row[Slot::INV_MASS] *= part;
-    row[Slot::INV_INERTIA] *= part;
+    // What marks a lock stays one.
+    if row[Slot::INV_INERTIA] != -f32::MIN_POSITIVE {
+        row[Slot::INV_INERTIA] *= part;
+    }
     let BodyInfo { first_contact, gravity_scale, .. } = bodies.infos[body as usize];
     for (index, _) in contacts.of_body(first_contact) {
         effective_mass::follow(graph, &contacts.records[index as usize], bodies);

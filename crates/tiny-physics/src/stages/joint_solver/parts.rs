@@ -408,7 +408,7 @@ impl<L: Lanes> Pair<L> {
     fn inv_mass(&self, direction: [L; 2]) -> L {
         match self.locked {
             None => self.a[Slot::INV_MASS] + self.b[Slot::INV_MASS],
-            Some([a, b]) => inverse_mass_along(direction, add(a, b)),
+            Some([a, b]) => inverse_mass_along(direction, a) + inverse_mass_along(direction, b),
         }
     }
 
@@ -611,15 +611,10 @@ impl<L: Lanes> Sides<L> {
     #[inline(always)]
     pub(super) fn inv_mass(&self, pair: &Pair<L>) -> L {
         let (a, b) = (&pair.a, &pair.b);
+        let [on_a, on_b] = &self.directions;
         let [linear_a, linear_b] = match pair.locked {
-            None => [
-                a[Slot::INV_MASS] * dot(self.directions[0], self.directions[0]),
-                b[Slot::INV_MASS] * dot(self.directions[1], self.directions[1]),
-            ],
-            Some([a, b]) => [
-                inverse_mass_along(self.directions[0], a),
-                inverse_mass_along(self.directions[1], b),
-            ],
+            None => [a[Slot::INV_MASS] * dot(*on_a, *on_a), b[Slot::INV_MASS] * dot(*on_b, *on_b)],
+            Some([a, b]) => [give(*on_a, a), give(*on_b, b)],
         };
         linear_a
             + linear_b
@@ -637,6 +632,14 @@ impl<L: Lanes> Sides<L> {
             body[Slot::W] = body[Slot::W] + body[Slot::INV_INERTIA] * (self.arms[side] * impulse);
         }
     }
+}
+
+/// Velocity along a direction of any length per impulse along it, of inverse masses along x and y: where these are the same, to the bit as in
+/// strides without anything locked.
+#[inline(always)]
+fn give<L: Lanes>(direction: [L; 2], [x, y]: [L; 2]) -> L {
+    let along = x * direction[0] * direction[0] + y * direction[1] * direction[1];
+    L::select(x.eq(y), x * dot(direction, direction), along)
 }
 
 /// A symmetric 2 x 2 matrix.
