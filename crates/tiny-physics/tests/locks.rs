@@ -3,7 +3,7 @@
 mod common;
 
 use common::{DT, Random, steps};
-use tiny_physics::{BodyId, JointDef, Locks, RigidBody, Shape, SimdLevel, Vec2, World};
+use tiny_physics::{BodyId, JointDef, Locks, RigidBody, Shape, ShapeDef, SimdLevel, Vec2, World};
 
 /// Along x or y.
 fn axis(is_y: bool) -> Vec2 {
@@ -105,6 +105,85 @@ fn what_is_locked_along_an_axis_is_pushed_along_the_other() {
         world.body_mut(carriage).expect("a carriage").apply_impulse_to_center(Vec2::new(3.0, 3.0));
         let velocity = world.body(carriage).expect("a carriage").velocity();
         assert!((velocity - along * 2.0).length() < 0.01, "{is_y}: {velocity:?}");
+    }
+}
+
+/// A bob on a rod under a cart swings as often as the formula says: the cart gives way along its rail, and only there.
+#[test]
+fn a_pendulum_under_a_cart_has_its_period() {
+    let mut random = Random::new(6);
+    for member in 0..40 {
+        let is_y = member % 2 == 0;
+        let mut world = world(is_y);
+        let (up, along) = (axis(is_y), axis(!is_y));
+        let (cart_mass, bob_mass) = (random.range(0.5, 5.0), random.range(0.5, 20.0));
+        let length = random.range(0.5, 3.0);
+        let rail = Locks { x: !is_y, y: is_y, rotation: random.range(0.0, 1.0) < 0.5 };
+        let small = || Shape::circle(0.01).expect("a disk");
+        let cart = add(&mut world, small(), cart_mass, Vec2::ZERO, rail);
+        let place = along * (0.03 * length) - up * length;
+        let bob = add(&mut world, small(), bob_mass, place, Locks::default());
+        let joint = if member % 4 < 2 {
+            JointDef::distance(place.length())
+        } else {
+            JointDef::revolute().anchors(Vec2::ZERO, -place)
+        };
+        world.add_joint(cart, bob, joint).expect("a joint");
+        let side = |world: &World| {
+            let [cart, bob] = [cart, bob].map(|id| world.body(id).expect("a body").position());
+            (bob - cart).dot(along)
+        };
+        let (mut crossings, mut before) = (Vec::new(), side(&world));
+        for step in 1..3000 {
+            world.step(DT);
+            let now = side(&world);
+            if now < 0.0 && before >= 0.0 {
+                crossings.push(step as f32 - now / (now - before));
+            }
+            before = now;
+        }
+        let (first, last) = (crossings[0], crossings[crossings.len() - 1]);
+        let period = (last - first) * DT / (crossings.len() - 1) as f32;
+        let rate = (10.0 / length * (1.0 + bob_mass / cart_mass)).sqrt();
+        let expected = core::f32::consts::TAU / rate;
+        assert!((period / expected - 1.0).abs() < 0.01, "{member}: {period} s, not {expected}");
+    }
+}
+
+/// A smooth ball that hits one on a rail aslant leaves as the formula says: along the normal the struck one is as heavy as its free axis
+/// makes it.
+#[test]
+fn what_is_hit_aslant_gives_way_along_its_free_axis() {
+    let mut random = Random::new(9);
+    for member in 0..60 {
+        let is_y = member % 2 == 0;
+        let mut world = World::new(Vec2::ZERO);
+        let ball = || Shape::circle(0.5).expect("a ball");
+        let elastic = || ShapeDef::new(ball()).friction(0.0).restitution(1.0);
+        let rail = Locks { x: !is_y, y: is_y, rotation: false };
+        let (mass_a, mass_b) = (random.range(0.2, 20.0), random.range(0.2, 20.0));
+        let a = RigidBody::dynamic().shape(elastic()).mass(mass_a).locks(rail);
+        let a = world.add_body(a).expect("a ball");
+        let angle = random.range(-3.0, 3.0);
+        let normal = Vec2::new(angle.cos(), angle.sin());
+        let speed = random.range(1.0, 8.0);
+        let b = RigidBody::dynamic().shape(elastic()).mass(mass_b).position(normal * 1.05);
+        let b = world.add_body(b.velocity(normal * -speed)).expect("a ball");
+        steps(&mut world, 30);
+        let free = normal.dot(axis(!is_y));
+        let impulse = 2.0 * speed / (free * free / mass_a + 1.0 / mass_b);
+        let expected = axis(!is_y) * (-impulse * free / mass_a);
+        let velocity = world.body(a).expect("a ball").velocity();
+        assert!(
+            (velocity - expected).length() < 0.01 * speed,
+            "{member}: {velocity:?} {expected:?}"
+        );
+        let expected = normal * (impulse / mass_b - speed);
+        let velocity = world.body(b).expect("a ball").velocity();
+        assert!(
+            (velocity - expected).length() < 0.01 * speed,
+            "{member}: {velocity:?} {expected:?}"
+        );
     }
 }
 

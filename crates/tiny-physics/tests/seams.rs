@@ -601,3 +601,30 @@ fn what_slides_from_lines_onto_blocks_and_back_goes_on() {
         }
     }
 }
+
+/// Under a bridge of segments or a chain that ends flush at a block's top, the block's side is a wall as before.
+#[test]
+fn what_comes_from_below_a_line_meets_the_side_of_the_block() {
+    let mut random = Random::new(12);
+    for member in 0..120 {
+        let mut world = World::new(Vec2::ZERO);
+        let ground = world.add_body(RigidBody::fixed()).expect("ground");
+        lay(&mut world, ground, 1 + member % 2, -12.0);
+        lay(&mut world, ground, 0, 0.0);
+        let (size, speed) = (random.range(0.02, 0.2), random.range(0.5, 30.0));
+        let shape = match member / 2 % 3 {
+            0 => Shape::circle(size),
+            1 => Shape::rect(size, size),
+            _ => Shape::regular(5, size),
+        };
+        let place = Vec2::new(-2.0, -1.01 * size - random.range(0.0, 0.3));
+        let body = RigidBody::dynamic().shape(shape.expect("a shape")).position(place);
+        let body = body.velocity(Vec2::new(speed, 0.0)).lock_rotation();
+        let body = world.add_body(body).expect("a body");
+        for _ in 0..(4.0 / speed / DT) as u32 {
+            world.step(DT);
+            let x = world.body(body).expect("a body").position().x;
+            assert!(x < 0.01 - 0.8 * size, "{member}: at {x}, {size} wide, {speed} m/s");
+        }
+    }
+}

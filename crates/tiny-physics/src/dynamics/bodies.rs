@@ -286,10 +286,9 @@ impl Bodies {
         if b < a { b } else { a }
     }
 
-    /// Is any awake body of another pace than the plain one?
+    /// Is any awake dynamic body of another pace than the plain one?
     pub(crate) fn any_refined(&self) -> bool {
-        let is_refined = |&i: &u32| usize::from(self.infos[i as usize].pace) != PLAIN;
-        self.refined > 0 && self.awake.iter().any(is_refined)
+        self.paces() & !(1 << PLAIN) != 0
     }
 
     /// The paces of awake dynamic bodies, as bits; nothing where all are of the plain one.

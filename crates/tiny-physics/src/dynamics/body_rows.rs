@@ -17,15 +17,16 @@ impl Slot {
 }
 
 /// Inverse masses along x and y and inverse inertia, by the rows of bodies. What is locked along one axis has a negative inverse mass
-/// there: along y if its inverse inertia is negative, too, else along x.
+/// there: along y if its inverse inertia is negative, too, else along x. Where nothing is locked they are those of the row to the bit.
 #[inline(always)]
 pub(crate) fn inverses<L: Lanes>(token: L::Token, row: &[L; 8]) -> [L; 3] {
     let zero = L::splat(token, 0.0);
     let (mass, turn) = (row[Slot::INV_MASS], row[Slot::INV_INERTIA]);
     let (locked, along_y) = (mass.lt(zero), turn.lt(zero));
-    let turn = (turn.abs() - L::splat(token, f32::MIN_POSITIVE)).max(zero);
+    let turned = (turn.abs() - L::splat(token, f32::MIN_POSITIVE)).max(zero);
     let x = L::select(L::and(locked, L::not(along_y)), zero, mass.abs());
-    [x, L::select(L::and(locked, along_y), zero, mass.abs()), turn]
+    let y = L::select(L::and(locked, along_y), zero, mass.abs());
+    [x, y, L::select(along_y, turned, turn)]
 }
 
 /// Inverse masses of two bodies along x and y, where a lane has one that is locked along an axis; their rows then have the inverse
@@ -47,4 +48,12 @@ pub(crate) fn locked<L: Lanes>(token: L::Token, [a, b]: [&mut [L; 8]; 2]) -> Opt
 pub(crate) fn inverse_mass_along<L: Lanes>(direction: [L; 2], [x, y]: [L; 2]) -> L {
     let along = direction[0] * direction[0] * x + direction[1] * direction[1] * y;
     L::select(x.eq(y), x, along)
+}
+
+/// Velocity along a direction of any length per impulse along it, of inverse masses along x and y; likewise.
+#[inline(always)]
+pub(crate) fn give_along<L: Lanes>(direction: [L; 2], [x, y]: [L; 2]) -> L {
+    let squares = [direction[0] * direction[0], direction[1] * direction[1]];
+    let along = x * squares[0] + y * squares[1];
+    L::select(x.eq(y), x * (squares[0] + squares[1]), along)
 }

@@ -23,7 +23,7 @@ use super::islands::Stores;
 use super::joint_solver::trees;
 use super::passivity::may_drive;
 use crate::describe::JointDef;
-use crate::dynamics::{Bodies, Bucket, JointTree, Joints, NULL, Slot, flags, inverses};
+use crate::dynamics::{Bodies, Bucket, JointTree, Joints, NULL, Slot, flags, give_along, inverses};
 use crate::simd::{BLOCK, FourKernel, Lanes, Row, Simd, SimdLevel, dispatch_fours};
 
 /// Numbers that the answers of a tree may have: touched bodies times bodies. Others stay with the lanes.
@@ -487,12 +487,7 @@ fn give(sides: &[Side; 2], on: [Planar; 2], answers: &[Answers], rows: &[Row]) -
             let row = &rows[sides[k].body as usize];
             let [x, y, turn] = on[k];
             let [mass_x, mass_y, inv_inertia] = inverses::<f32>((), row);
-            let linear = if mass_x == mass_y {
-                mass_x * (x * x + y * y)
-            } else {
-                mass_x * x * x + mass_y * y * y
-            };
-            linear + inv_inertia * turn * turn
+            give_along([x, y], [mass_x, mass_y]) + inv_inertia * turn * turn
         }
         Some(at) => dot(on[k], answers[at.answers as usize].change(at.touched, at.node, on[k])),
     });

@@ -1,6 +1,6 @@
 //! How bodies move in a step in which they are hit.
 
-use crate::dynamics::{Bodies, Slot};
+use crate::dynamics::{Bodies, Slot, inverse_mass_along};
 use crate::footprint::footprint;
 use crate::math::Vec2;
 use crate::stages::boxes::Way;
@@ -149,8 +149,7 @@ impl Impact {
         let [a, b] = [0, 1].map(|k| self.courses[k].speed_at(arms[k], axis));
         let [give_a, give_b] = [0, 1].map(|k| {
             let [x, y, turn] = self.inverses[k];
-            let linear = if x == y { x } else { x * axis.x * axis.x + y * axis.y * axis.y };
-            linear + turn * arms[k] * arms[k]
+            inverse_mass_along([axis.x, axis.y], [x, y]) + turn * arms[k] * arms[k]
         });
         let give = give_a + give_b;
         (b - a, if give > 0.0 { 1.0 / give } else { 0.0 })

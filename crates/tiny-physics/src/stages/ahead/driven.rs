@@ -6,7 +6,7 @@
 
 use super::courses::{Course, Courses};
 use crate::describe::{JointDef, JointKind, Limits, Motor, Spring};
-use crate::dynamics::{Bodies, JointRecord, Joints, NULL, REFINEMENT};
+use crate::dynamics::{Bodies, JointRecord, Joints, NULL, REFINEMENT, inverse_mass_along};
 use crate::math::{Rot, Vec2};
 
 /// A motor pushes as hard as it can from this part of its greatest force on.
@@ -37,15 +37,19 @@ struct End<'a> {
     course: Course,
     /// From its centre of mass to its anchor, world.
     arm: Vec2,
+    /// Along x and y.
+    inv_masses: [f32; 2],
+    /// Where locks do not matter.
     inv_mass: f32,
     inv_inertia: f32,
 }
 
 impl<'a> End<'a> {
     fn new(bodies: &'a Bodies, course: Course, anchor: Vec2) -> Self {
-        let (inv_mass, inv_inertia) = bodies.inverse_masses(course.body);
+        let [x, y, inv_inertia] = bodies.inverses(course.body);
+        let (inv_masses, inv_mass) = ([x, y], bodies.inverse_masses(course.body).0);
         let arm = bodies.arm(course.body, anchor);
-        Self { bodies, course, arm, inv_mass, inv_inertia }
+        Self { bodies, course, arm, inv_masses, inv_mass, inv_inertia }
     }
 
     fn frame(&self, by: f32) -> Rot {
@@ -57,9 +61,15 @@ impl<'a> End<'a> {
         self.course.velocity + self.arm.perp() * self.course.spin
     }
 
+    /// What an impulse changes of its velocity.
+    fn moved(&self, impulse: Vec2) -> Vec2 {
+        let [x, y] = self.inv_masses;
+        Vec2::new(impulse.x * x, impulse.y * y)
+    }
+
     /// What an impulse at its anchor changes of its velocities.
     fn pushed(&self, impulse: Vec2) -> (Vec2, f32) {
-        (impulse * self.inv_mass, self.inv_inertia * self.arm.cross(impulse))
+        (self.moved(impulse), self.inv_inertia * self.arm.cross(impulse))
     }
 
     /// What an angular impulse changes while the end of an arm stays.
@@ -142,8 +152,9 @@ impl Coordinate {
         let between = gap + a.arm - b.arm;
         let at = line.dot(gap);
         let speed = line.dot(velocity) + a.course.spin * line.perp().dot(between);
-        let changes = [(line * -a.inv_mass, 0.0), (line * b.inv_mass, 0.0)];
-        let give = a.inv_mass + b.inv_mass;
+        let changes = [(a.moved(-line), 0.0), (b.moved(line), 0.0)];
+        let of = |end: &End<'_>| inverse_mass_along([line.x, line.y], end.inv_masses);
+        let give = of(a) + of(b);
         Self { at, away: at - rest, speed, changes, give, turns: false }
     }
 
@@ -387,9 +398,9 @@ impl Change {
     /// By the forces that the program asked for.
     pub(super) fn by_force(bodies: &Bodies, body: u32, dt: f32) -> Self {
         let info = &bodies.infos[body as usize];
-        let (inv_mass, inv_inertia) = bodies.inverse_masses(body);
-        let (force, torque) = (info.force, info.torque);
-        Self { body, velocity: force * (inv_mass * dt), spin: torque * inv_inertia * dt }
+        let [x, y, turn] = bodies.inverses(body);
+        let velocity = Vec2::new(info.force.x * (x * dt), info.force.y * (y * dt));
+        Self { body, velocity, spin: info.torque * turn * dt }
     }
 
     fn way(&self, bodies: &Bodies, dt: f32) -> f32 {

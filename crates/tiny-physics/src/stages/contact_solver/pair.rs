@@ -160,21 +160,19 @@ impl<L: Lanes> Pair<L> {
     #[inline(always)]
     pub(super) fn apply(&mut self, linear: [L; 2], impulse: L, arm_a: L, arm_b: L) {
         let (a, b) = (&mut self.a, &mut self.b);
-        if let Some([free_a, free_b]) = &self.locked {
-            for k in [Slot::VX, Slot::VY] {
-                a[k] = a[k] - free_a[k] * linear[k];
-                b[k] = b[k] + free_b[k] * linear[k];
-            }
-            a[Slot::W] = a[Slot::W] - a[Slot::INV_INERTIA] * (arm_a * impulse);
-            b[Slot::W] = b[Slot::W] + b[Slot::INV_INERTIA] * (arm_b * impulse);
-            return;
-        }
-        a[Slot::VX] = a[Slot::VX] - a[Slot::INV_MASS] * linear[0];
-        a[Slot::VY] = a[Slot::VY] - a[Slot::INV_MASS] * linear[1];
         a[Slot::W] = a[Slot::W] - a[Slot::INV_INERTIA] * (arm_a * impulse);
-        b[Slot::VX] = b[Slot::VX] + b[Slot::INV_MASS] * linear[0];
-        b[Slot::VY] = b[Slot::VY] + b[Slot::INV_MASS] * linear[1];
         b[Slot::W] = b[Slot::W] + b[Slot::INV_INERTIA] * (arm_b * impulse);
+        let Some([free_a, free_b]) = &self.locked else {
+            for k in [Slot::VX, Slot::VY] {
+                a[k] = a[k] - a[Slot::INV_MASS] * linear[k];
+                b[k] = b[k] + b[Slot::INV_MASS] * linear[k];
+            }
+            return;
+        };
+        for k in [Slot::VX, Slot::VY] {
+            a[k] = a[k] - free_a[k] * linear[k];
+            b[k] = b[k] + free_b[k] * linear[k];
+        }
     }
 
     /// Softness of each lane: that against static bodies where one of the two has no mass.

@@ -2,7 +2,7 @@
 
 use crate::describe::JointDef;
 use crate::dynamics::{
-    AngleLanes, DirectionLanes, FrameLanes, Slot, SoftLanes, inverse_mass_along, locked,
+    AngleLanes, DirectionLanes, FrameLanes, Slot, SoftLanes, give_along, inverse_mass_along, locked,
 };
 use crate::math::{Pose, Rot};
 use crate::simd::{BLOCK, Lanes};
@@ -614,7 +614,7 @@ impl<L: Lanes> Sides<L> {
         let [on_a, on_b] = &self.directions;
         let [linear_a, linear_b] = match pair.locked {
             None => [a[Slot::INV_MASS] * dot(*on_a, *on_a), b[Slot::INV_MASS] * dot(*on_b, *on_b)],
-            Some([a, b]) => [give(*on_a, a), give(*on_b, b)],
+            Some([a, b]) => [give_along(*on_a, a), give_along(*on_b, b)],
         };
         linear_a
             + linear_b
@@ -632,14 +632,6 @@ impl<L: Lanes> Sides<L> {
             body[Slot::W] = body[Slot::W] + body[Slot::INV_INERTIA] * (self.arms[side] * impulse);
         }
     }
-}
-
-/// Velocity along a direction of any length per impulse along it, of inverse masses along x and y: where these are the same, to the bit as in
-/// strides without anything locked.
-#[inline(always)]
-fn give<L: Lanes>(direction: [L; 2], [x, y]: [L; 2]) -> L {
-    let along = x * direction[0] * direction[0] + y * direction[1] * direction[1];
-    L::select(x.eq(y), x * dot(direction, direction), along)
 }
 
 /// A symmetric 2 x 2 matrix.
