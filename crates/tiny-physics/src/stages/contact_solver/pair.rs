@@ -93,7 +93,10 @@ impl<L: Lanes> Pair<L> {
             |body: &[L; 8]| L::bits(zero.lt(body[Slot::INV_MASS].abs() + body[Slot::INV_INERTIA]));
         let (write_a, write_b) = (mask(&self.a) & only.0, mask(&self.b) & only.1);
         let half = |body: [L; 8]| [body[0], body[1], body[2], body[3]];
-        L::scatter(half(self.a), stride.rows, &block.body_a[stride.at..], write_a);
+        // The ground, as a rule.
+        if write_a != 0 {
+            L::scatter(half(self.a), stride.rows, &block.body_a[stride.at..], write_a);
+        }
         L::scatter(half(self.b), stride.rows, &block.body_b[stride.at..], write_b);
     }
 
