@@ -255,8 +255,7 @@ fn warm_start<L: Lanes, const POINTS: usize, const FIRST: bool>(
         pair.rub(stride.load(&point.tangent_impulse), tangent_arms[0], tangent_arms[1]);
     }
     if flags & flags::ROLLING != 0 {
-        let impulse = stride.load(&surface.rolling_impulse);
-        roll(&mut pair, impulse);
+        roll(&mut pair, stride.load(&surface.rolling_impulse));
     }
     if FIRST && flags & flags::RESTS != 0 {
         let [bias_rate, _, impulse_scale] = pair.softness(stride.constants);

@@ -80,7 +80,7 @@ impl<L: Lanes> Pair<L> {
         self.store_only(stride, block, ALL_BODIES);
     }
 
-    /// The same for the lanes in `only`.
+    /// The same for the lanes in `only`. A is the ground, as a rule.
     #[inline(always)]
     pub(super) fn store_only(
         self,
@@ -93,7 +93,6 @@ impl<L: Lanes> Pair<L> {
             |body: &[L; 8]| L::bits(zero.lt(body[Slot::INV_MASS].abs() + body[Slot::INV_INERTIA]));
         let (write_a, write_b) = (mask(&self.a) & only.0, mask(&self.b) & only.1);
         let half = |body: [L; 8]| [body[0], body[1], body[2], body[3]];
-        // The ground, as a rule.
         if write_a != 0 {
             L::scatter(half(self.a), stride.rows, &block.body_a[stride.at..], write_a);
         }
