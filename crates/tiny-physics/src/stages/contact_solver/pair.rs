@@ -139,11 +139,10 @@ impl<L: Lanes> Pair<L> {
     /// Inverse masses of A and B along the normal.
     #[inline(always)]
     pub(super) fn inverse_masses(&self) -> [L; 2] {
-        match &self.locked {
+        let normal = self.normal;
+        match self.locked {
             None => [self.a[Slot::INV_MASS], self.b[Slot::INV_MASS]],
-            Some([a, b]) => {
-                [inverse_mass_along(self.normal, *a), inverse_mass_along(self.normal, *b)]
-            }
+            Some([a, b]) => [inverse_mass_along(normal, a), inverse_mass_along(normal, b)],
         }
     }
 
