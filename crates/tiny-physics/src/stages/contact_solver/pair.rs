@@ -80,7 +80,7 @@ impl<L: Lanes> Pair<L> {
         self.store_only(stride, block, ALL_BODIES);
     }
 
-    /// The same for the lanes in `only`. A is the ground, as a rule.
+    /// The same for the lanes in `only`; for A, the ground as a rule, not at all where none of it moves.
     #[inline(always)]
     pub(super) fn store_only(
         self,
