@@ -349,9 +349,9 @@ fn deep_showers(ground: f32) -> usize {
     let mut deep = 0;
     for _ in 0..200 {
         let mut world = world();
-        let ground = ShapeDef::new(rect(100.0, 1.0)).restitution(ground);
-        let ground = RigidBody::fixed().position(Vec2::new(0.0, -1.0)).shape(ground);
-        world.add_body(ground).expect("a floor");
+        let floor = ShapeDef::new(rect(100.0, 1.0)).restitution(ground);
+        let floor = RigidBody::fixed().position(Vec2::new(0.0, -1.0)).shape(floor);
+        world.add_body(floor).expect("a floor");
         for k in 0..12 {
             let (half, high) = (random.range(0.35, 0.6), random.range(0.35, 0.6));
             let round = random.range(0.0, 1.0) < 0.4;
@@ -366,14 +366,14 @@ fn deep_showers(ground: f32) -> usize {
 }
 
 /// At up to 20 m/s what is hit hits others within the step. It was 47 while hits were handed on as they were listed, and no
-/// further than one alone throws; now it is 17, still too many.
+/// further than one alone throws; now it is 13, still too many.
 #[test]
 fn what_is_hit_and_hits_within_a_step_stays_out() {
     let deep = deep_showers(0.5);
-    assert!(deep <= 25, "{deep} of 200");
+    assert!(deep <= 16, "{deep} of 200");
 }
 
-/// What lies on a corner and is hit comes down on the other within the step: 81 before that was foreseen, now 20.
+/// What lies on a corner and is hit comes down on the other within the step: 81 before that was foreseen, now 19.
 #[test]
 fn what_is_hit_on_one_corner_does_not_sink_with_the_other() {
     let deep = deep_showers(0.0);

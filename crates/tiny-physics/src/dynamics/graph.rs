@@ -259,6 +259,9 @@ pub(super) fn key(place: usize, class: PairClass) -> usize {
     place * PairClass::COUNT + class as usize
 }
 
+/// The approach of a contact that bounces only after others of its bodies.
+pub(crate) const HELD: f32 = f32::MAX;
+
 /// The place of a key.
 pub(super) fn place_at(key: usize) -> usize {
     key / PairClass::COUNT
@@ -517,7 +520,7 @@ impl Graph {
     pub(crate) fn hold_back(&mut self, contact: &Contact) {
         if let Some((bucket, slot)) = self.solved_at(contact) {
             let surface = &mut self.buckets.list_mut()[bucket].surfaces[slot / BLOCK];
-            (surface.approach_1[slot % BLOCK], surface.approach_2[slot % BLOCK]) = (0.0, 0.0);
+            (surface.approach_1[slot % BLOCK], surface.approach_2[slot % BLOCK]) = (HELD, HELD);
         }
     }
 

@@ -39,7 +39,7 @@ pub(crate) use coloured::{COLOURS, IDLE, Place, colour_at, is_overflow, pace_at}
 pub(crate) use contacts::{Contact, Contacts, SavedPoint};
 pub(crate) use disjoint_sets::DisjointSets;
 pub(crate) use edges::next_edge;
-pub(crate) use graph::{Blocks, Bucket, Graph};
+pub(crate) use graph::{Blocks, Bucket, Graph, HELD};
 pub(crate) use joint_blocks::*;
 pub(crate) use joint_forest::{JointTree, TreeAxis, TreeLink, TreeNode, TreeRow, is_rigid};
 pub(crate) use joint_graph::{

@@ -5,7 +5,7 @@
 
 use super::ahead::Predictions;
 use super::arcs::{Arcs, Scope};
-use super::contact_solver::{self, BounceMemory, Parameters, Pass, Softness};
+use super::contact_solver::{self, Bounces, Parameters, Pass, Softness};
 use super::islands::Stores;
 use super::joint_solver::Substep;
 use super::rests::Compliance;
@@ -125,7 +125,7 @@ impl Rules {
     }
 
     fn contact_parameters(&self) -> Parameters {
-        let Self { settings, lengths: Lengths { dt, h, .. }, .. } = *self;
+        let Self { settings, lengths: Lengths { h, .. }, .. } = *self;
         let hertz = self.contact_hertz();
         let damping = settings.contact_damping_ratio;
         Parameters {
@@ -135,7 +135,6 @@ impl Rules {
             push_speed: settings.push_speed * settings.length_unit,
             push_rate: PUSH_RATE,
             fast_approach: FAST_APPROACH * settings.length_unit,
-            dt,
             restitution_threshold: settings.restitution_threshold * settings.length_unit,
         }
     }
@@ -151,7 +150,7 @@ pub(crate) struct Solver {
     jointed: Chosen,
     arcs: Arcs,
     tree_contacts: tree_contacts::TreeContacts,
-    bounces: BounceMemory,
+    bounces: Bounces,
     pub(crate) passivity: passivity::Memory,
     listed: Vec<u32>,
     pub(crate) broken: joint_solver::Broken,
@@ -248,8 +247,7 @@ impl Solver {
         if pace >= JOINTED {
             passivity.find(pace, listed, stores);
         }
-        let Stores { bodies, graph, .. } = stores;
-        contact_solver::run_bounces(team, level, &parameters, bodies, graph, schedule, bounces);
+        bounces.begin(stores.graph, pace, &parameters);
         let max_speed = settings.max_speed * settings.length_unit;
         broken.list(stores.joint_graph, stores.joints, pace);
 
@@ -273,6 +271,7 @@ impl Solver {
         for substep in 0..lengths.substeps {
             let first = substep == 0;
             self.arcs.renew((stores.bodies, stores.graph), scope, (pace, h), first);
+            bounces.run((team, level), &parameters, stores, pace);
             integrate::velocities(team, level, listed, stores.bodies, first);
             joints(stores, joint_solver::Pass::WarmStart);
             if first {

@@ -330,7 +330,8 @@ impl World {
         let State { bodies, shapes, contacts, broad_phase, graph, .. } = &mut self.state;
         let narrow_phase =
             narrow_context::Context::new(bodies, shapes, broad_phase, settings, false, step);
-        let scene = ahead::Scene { bodies, shapes, contacts, graph, narrow_phase, dt: lengths.dt };
+        let (dt, substeps) = (lengths.dt, lengths.substeps as f32);
+        let scene = ahead::Scene { bodies, shapes, contacts, graph, narrow_phase, dt, substeps };
         self.scratch.predictions.round(team, scene)
     }
 

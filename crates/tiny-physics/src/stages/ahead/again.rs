@@ -5,18 +5,20 @@ use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Contact, Contacts, Graph};
 use crate::footprint::footprint;
 use crate::math::{Aabb, Vec2};
+use crate::stages::ahead::{HARMLESS, SLIGHT};
 use crate::stages::boxes::Moved;
 use crate::stages::pairs::Partners;
 use crate::threads::Team;
 
 /// Bodies that one member of the team looks at at a time.
 const CHUNK: usize = 32;
+/// What touches already is looked at again if its body goes into it, so much of its way along the normal: however little that is,
+/// another corner may come down.
+const HEAD_ON: f32 = 0.7;
 /// Pairs without a contact that one member of the team looks through at a time.
 const PAIRS_CHUNK: usize = 1024;
 /// The trees are asked for the partners of a body in the time in which so many pairs are looked through.
 const PAIRS_OF_ONE: usize = 128;
-/// What touches already is looked at again only if its body goes into it: so much of its way is along the normal.
-const HEAD_ON: f32 = 0.7;
 
 /// A body that was taken off its way.
 #[derive(Clone, Copy, Debug)]
@@ -168,12 +170,22 @@ impl Look<'_> {
         else {
             return partners.come_near(contact.shape_a, contact.shape_b);
         };
-        // What touched a step ago may be apart by now: do ways lead into each other, as the normal of the step's start says?
+        // What touched a step ago may be apart by now: do ways lead into each other, as the points of the step's start say?
+        let Partners { bodies, reach, .. } = partners;
+        let both = [contact.body_a, contact.body_b];
+        let [a, b] = both.map(|body| self.courses.of(bodies, dt, body));
+        let half = bodies.thinner_half(both);
+        let least = (HARMLESS * half).max((SLIGHT * reach).min(half));
         bucket.constraints.get(block).is_none_or(|constraint| {
             let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
-            let motion_of = |body: u32| self.courses.motion(partners.bodies, dt, body);
-            let motion = motion_of(contact.body_a) - motion_of(contact.body_b);
-            normal.dot(motion) > HEAD_ON * motion.length()
+            let motion = a.motion - b.motion;
+            let along = normal.dot(motion);
+            let goes_in = constraint.points.iter().any(|point| {
+                let turning = a.turn * point.normal_arm_a[lane] - b.turn * point.normal_arm_b[lane];
+                let gap = point.separation[lane].max(0.0);
+                point.normal_mass[lane] > 0.0 && along + turning - gap > least
+            });
+            goes_in || along > HEAD_ON * motion.length()
         })
     }
 

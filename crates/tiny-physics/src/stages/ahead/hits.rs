@@ -32,6 +32,8 @@ pub(super) struct Hit {
     pub(super) contact: u32,
     pub(super) prediction: Option<Prediction>,
     pub(super) fraction: f32,
+    /// Between the points at the start of the step, metres; 0 where they touch.
+    pub(super) apart: f32,
     pub(super) normal: Vec2,
     /// Of each point; the same twice where there is one.
     pub(super) arms: [Arms; 2],
@@ -56,7 +58,26 @@ impl Hit {
                 tangent: [point.tangent_arm_a[lane], point.tangent_arm_b[lane]],
             }
         };
-        Self { contact, prediction: None, fraction: 0.0, normal, arms: [arm(0), arm(1)] }
+        Self {
+            contact,
+            prediction: None,
+            fraction: 0.0,
+            apart: 0.0,
+            normal,
+            arms: [arm(0), arm(1)],
+        }
+    }
+
+    /// When it comes, as these bodies move since they were hit last: a part of the step.
+    pub(super) fn when(&self, courses: &[Course; 2], dt: f32) -> f32 {
+        let (closing, [a, b]) = (-self.parting(courses)[0], courses);
+        if self.apart == 0.0 || closing <= 0.0 {
+            return self.fraction;
+        }
+        let arms = self.arms[0].normal;
+        let turning = b.turn * arms[1] - a.turn * arms[0];
+        let at_end = self.apart + self.normal.dot(b.motion - a.motion) + turning;
+        (1.0 + at_end / (closing * dt)).clamp(0.0, self.fraction)
     }
 
     /// How fast its points part, as these bodies move.
@@ -71,6 +92,7 @@ impl Prediction {
     /// `near` is how far points may be apart that are hit together, metres.
     pub(super) fn hit(&self, contact: u32, near: f32) -> Hit {
         let Self { fraction, normal, between, .. } = *self;
+        let apart = self.separation[0].min(self.separation[1]).max(0.0);
         // One that still has to come when the other is there is not hit.
         let is_hit = |k: usize| self.separation[k] <= self.separation[1 - k] + near;
         let arm = |k: usize| {
@@ -78,6 +100,6 @@ impl Prediction {
             let on = |axis: Vec2| [point.cross(axis), (point - between).cross(axis)];
             Arms { normal: on(normal), tangent: on(-normal.perp()) }
         };
-        Hit { contact, prediction: None, fraction, normal, arms: [arm(0), arm(1)] }
+        Hit { contact, prediction: None, fraction, apart, normal, arms: [arm(0), arm(1)] }
     }
 }

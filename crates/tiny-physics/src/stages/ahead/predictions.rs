@@ -92,8 +92,9 @@ pub(crate) struct Scene<'a> {
     pub(crate) graph: &'a Graph,
     /// For contacts at seams.
     pub(crate) narrow_phase: Context<'a>,
-    /// Length of the step, seconds.
+    /// Length of the step, seconds, and how many substeps it has.
     pub(crate) dt: f32,
+    pub(crate) substeps: f32,
 }
 
 impl Predictions {
@@ -242,12 +243,15 @@ impl Predictions {
     /// Keeps what a hit predicts and hands on its impulse.
     fn take(&mut self, scene: Scene<'_>, hit: &Hit) {
         let contact = &scene.contacts.records[hit.contact as usize];
-        let bodies @ [a, b] = [contact.body_a, contact.body_b];
-        // What bounces is reflected at the start of the step.
-        let fraction = if contact.restitution > 0.0 { 0.0 } else { hit.fraction };
+        let bodies = [contact.body_a, contact.body_b];
+        let courses = bodies.map(|body| self.courses.of(scene.bodies, scene.dt, body));
+        let mut fraction = hit.when(&courses, scene.dt);
+        if contact.restitution > 0.0 {
+            // What bounces is reflected at the start of the substep.
+            fraction = (fraction * scene.substeps).floor() / scene.substeps;
+        }
         let rest = (1.0 - fraction) * scene.dt;
-        let of = |body| self.courses.of(scene.bodies, scene.dt, body);
-        let mut impact = Impact::new(scene.bodies, [of(a), of(b)], rest);
+        let mut impact = Impact::new(scene.bodies, courses, rest);
         if let Some(prediction) = hit.prediction {
             let parting = hit.parting(&impact.courses);
             self.contacts.push(hit.contact);
@@ -397,7 +401,7 @@ impl Look<'_> {
     fn hit(&self, index: u32) -> Option<Hit> {
         let contact = &self.scene.contacts.records[index as usize];
         if let Some(known) = self.known.of(index) {
-            return Some(self.known_hit(contact, index, known));
+            return Some(known.hit(index, self.near()));
         }
         let (bucket, block, lane) = self.scene.graph.lane_of(contact)?;
         let touches = bucket.touches(block, lane);
@@ -436,21 +440,6 @@ impl Look<'_> {
         let manifold = self.correct(contact, &meeting, &frames)?;
         let prediction = meeting.predict(&manifold, &frames[0], toi.fraction);
         Some(Hit { prediction: Some(prediction), ..prediction.hit(index, self.near()) })
-    }
-
-    /// One that is known already, perhaps sooner than it was thought: other hits may have stopped what ran away from it.
-    fn known_hit(&self, contact: &Contact, index: u32, known: &Prediction) -> Hit {
-        let [a, b] = [contact.body_a, contact.body_b]
-            .map(|body| self.known.courses.of(self.scene.bodies, self.scene.dt, body));
-        let hit = known.hit(index, self.near());
-        let closing = hit.arms.iter().map(|arms| {
-            let [on_a, on_b] = arms.normal;
-            -(hit.normal.dot(b.motion - a.motion) + b.turn * on_b - a.turn * on_a)
-        });
-        let closing = closing.fold(0.0, f32::max);
-        let apart = known.separation[0].min(known.separation[1]);
-        let fraction = if closing > 0.0 { (apart / closing).max(0.0) } else { 1.0 };
-        Hit { fraction: known.fraction.min(fraction), ..hit }
     }
 
     /// A contact that touches at one point, with the other: hits may turn a body so that this comes down in the step.

@@ -22,7 +22,7 @@
 //! of the start, so that a point is twenty floats and a pass is a straight line.
 //!
 //! The files: `normals` has normal impulses, `friction` friction and rolling, `bounce` what bodies with
-//! restitution do before the substeps, `pair` the two bodies of a lane that all of them work on.
+//! restitution do before a substep, `pair` the two bodies of a lane that all of them work on.
 //!
 //! Within a colour, order does not matter; colours go in order. The same functions serve the overflow, with one
 //! contact in a block at a time.
@@ -32,7 +32,7 @@ mod friction;
 mod normals;
 mod pair;
 
-pub(crate) use bounce::{Memory as BounceMemory, run as run_bounces};
+pub(crate) use bounce::Bounces;
 
 use crate::dynamics::{
     BlockHead, Blocks, ConstraintBlock, Graph, LaneBlock, PointLanes, Run, Schedule, Source,
@@ -89,8 +89,6 @@ pub(crate) struct Parameters {
     pub(crate) fast_approach: f32,
     /// What approaches more slowly does not bounce, metres a second.
     pub(crate) restitution_threshold: f32,
-    /// Length of the step, seconds.
-    pub(crate) dt: f32,
 }
 
 /// One of the passes of a substep.

@@ -191,3 +191,39 @@ fn what_is_in_front_is_hit_first() {
     });
     assert_eq!(passed.count(), 0);
 }
+
+/// What bounces turns back where it arrives: at most a substep's way before, or where what is slight is left to the next step behind.
+/// When all of a step's bounces took place at its start, what flew to and fro between two walls turned by half a step's way too soon,
+/// 7 % too often at 20 m/s.
+#[test]
+fn what_bounces_turns_back_where_it_arrives() {
+    let mut random = Random(7);
+    for _ in 0..40 {
+        let (speed, apart) = (random.between(2.0, 40.0), random.between(4.0, 8.0));
+        let mut world = World::new(Vec2::ZERO);
+        for side in [-1.0, 1.0] {
+            let wall = rect(0.5, 2.0).restitution(1.0);
+            let place = Vec2::new(side * (0.5 * apart + 0.5 + RADIUS), 0.0);
+            world.add_body(RigidBody::fixed().shape(wall).position(place)).unwrap();
+        }
+        let ball = drop(&mut world, 0.0, -RADIUS, Vec2::new(speed, 0.0), 0.0, 1.0);
+        let (mut bounces, mut furthest) = (0_u16, 0.0_f32);
+        let mut before = speed;
+        for _ in 0..3600 {
+            world.step(DT);
+            let ball = world.body(ball).unwrap();
+            furthest = furthest.max(ball.position().x.abs());
+            let now = ball.velocity().x;
+            bounces += u16::from(now * before < 0.0);
+            before = now;
+        }
+        let times = |way: f32| speed * 60.0 / way;
+        let (least, most) = (times(apart + 0.03), times(apart - 2.0 * speed * DT / 4.0));
+        let range = least - 1.0..=most + 1.0;
+        assert!(
+            range.contains(&f32::from(bounces)),
+            "{bounces}, not {range:?}: {speed} m/s, {apart} m"
+        );
+        assert!(furthest < 0.5 * apart + 0.015, "it went in: {furthest} of {apart}");
+    }
+}

@@ -1,9 +1,9 @@
-//! Bouncing, before the substeps: what hits something bouncy leaves at the speed that its restitution says.
+//! Bouncing, before the substep in which something bouncy is hit: what hits it leaves at the speed that its restitution says.
 //!
-//! A step has rounds. In the first, what approaches faster than the threshold bounces, and what nothing presses together
-//! from lower speeds on. What it pushes may hit
-//! the next body in turn, so each later round looks at the contacts of the bodies that bounced in the round
-//! before, and at those alone. Points that bounce in the same round are solved together, in a few iterations.
+//! A substep has rounds. In the first, what came faster than the threshold when the step began bounces, and what nothing
+//! presses together from lower speeds on. What it pushes may hit the next body in turn, so each later round looks at the
+//! contacts of the bodies that bounced in the round before, and at those alone; those of them that will hit in later
+//! substeps are looked at in these. Points that bounce in the same round are solved together, in a few iterations.
 //!
 //! Few contacts bounce at a time, so they are copied out of the graph into blocks of their own, colour by
 //! colour, and those are full.
@@ -15,15 +15,16 @@ use super::normals::Normal;
 use super::pair::{Constants, Pair, Stride};
 use super::{CHUNK, Parameters};
 use crate::dynamics::{
-    Bodies, ConstraintBlock, Graph, LaneBlock, PointLanes, Schedule, flags, is_overflow,
+    Bodies, ConstraintBlock, Contacts, Graph, LaneBlock, PointLanes, flags, is_overflow,
 };
 use crate::footprint::footprint;
-use crate::geometry::manifold::PairClass;
+use crate::math::Vec2;
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_narrow};
+use crate::stages::islands::Stores;
 use crate::threads::{SharedRows, SharedSlice, Team};
-use search::{Hit, Search};
+use search::{At, Hit, Search, leaves};
 
-/// Rounds in a step: an impulse runs through this many bodies at once.
+/// Rounds in a substep: an impulse runs through this many bodies at once.
 const ROUNDS: usize = 8;
 /// Iterations in each of them, for points that hit at the same time. Stopping where nothing changes by more than
 /// 1 mm/s was tried: among thousands of bodies that hit each other it never came before the last.
@@ -47,109 +48,136 @@ struct Aims {
 
 impl Aims {
     const NULL: Self = Self { targets: [[0.0; BLOCK]; 2], tangent_speed: [0.0; BLOCK] };
-
-    /// A lane as the first of others that are empty.
-    fn lane(&self, lane: usize) -> Self {
-        let mut one = Self::NULL;
-        one.targets[0][0] = self.targets[0][lane];
-        one.targets[1][0] = self.targets[1][lane];
-        one.tangent_speed[0] = self.tangent_speed[lane];
-        one
-    }
 }
 
-/// The contacts of one place of the graph that bounce.
+/// Contacts that bounce and have no bodies in common: those of a colour, or one of an overflow.
 #[derive(Debug, Default)]
 struct Batch {
-    place: usize,
     /// Their constraints; the impulses are those of the bounce.
     blocks: Vec<ConstraintBlock>,
     aims: Vec<Aims>,
-    /// Where each lane is in the graph: class and slot.
-    sources: Vec<(PairClass, u32)>,
-    /// Speeds at which its points are to leave.
-    targets: Vec<[f32; 2]>,
+    /// What each lane is of.
+    hits: Vec<Hit>,
 }
 
-/// Lists that [`run`] fills anew; kept for their memory.
+/// Lists that [`Bounces::run`] fills anew; kept for their memory.
 #[derive(Debug, Default)]
-pub(crate) struct Memory {
+pub(crate) struct Bounces {
+    /// Contacts that come to bounce in the step, and those that are looked at in a round.
+    approaching: Vec<At>,
+    list: Vec<At>,
+    /// The greatest restitution.
+    bounciest: f32,
+    found: Vec<Vec<Hit>>,
+    hits: Vec<Hit>,
     batches: Vec<Batch>,
-    hits: Vec<Vec<Hit>>,
-    /// Has a body bounced in the round before?
-    marks: Vec<bool>,
-    marked: Vec<u32>,
+    /// Bodies that bounce in this round, and their velocities before; then how these change.
+    changes: Vec<(u32, [f32; 3])>,
     /// Bodies that wait for what they hit first: they are looked at in the second round.
     pub(crate) waiting: Vec<u32>,
 }
 
-footprint!(Batch { blocks, aims, sources, targets } none { place });
-footprint!(Memory { marks, marked, waiting } each { batches, hits });
+footprint!(Batch { blocks, aims, hits });
+footprint!(Bounces { approaching, list, hits, changes, waiting } each { found, batches } none { bounciest });
 
-/// Reflects what hits something bouncy, round by round.
-pub(crate) fn run(
-    team: &Team,
-    level: SimdLevel,
-    parameters: &Parameters,
-    bodies: &mut Bodies,
-    graph: &mut Graph,
-    schedule: &Schedule,
-    memory: &mut Memory,
-) {
-    let Memory { batches, hits, marks, marked, waiting } = memory;
-    marks.resize(bodies.infos.len(), false);
-    for round in 0..ROUNDS {
-        let rows = SharedRows::new(&mut bodies.rows);
-        let near = (round > 0).then_some(&marks[..]);
-        let (motions, leave) = (&bodies.motions, HANDED_ON * parameters.restitution_threshold);
-        let search = Search { graph, rows, parameters, motions, near, leave };
-        let hits = search.run(team, level, schedule, hits);
+impl Bounces {
+    /// Begins with the contacts of a pace.
+    pub(crate) fn begin(&mut self, graph: &Graph, pace: usize, parameters: &Parameters) {
+        self.bounciest = search::list_approaching(graph, pace, parameters, &mut self.approaching);
+    }
+
+    /// Reflects what hits something bouncy in the next substep, round by round.
+    pub(crate) fn run(
+        &mut self,
+        (team, level): (&Team, SimdLevel),
+        parameters: &Parameters,
+        Stores { bodies, contacts, graph, .. }: &mut Stores<'_>,
+        pace: usize,
+    ) {
+        self.changes.clear();
+        self.list.clone_from(&self.approaching);
+        for round in 0..ROUNDS {
+            let rows = SharedRows::new(&mut bodies.rows);
+            let (motions, first) = (&bodies.motions, round == 0);
+            let search = Search { graph, rows, parameters, motions, first };
+            let found = (&mut self.hits, &mut self.approaching);
+            search.run(team, &self.list, &mut self.found, found);
+            if self.hits.is_empty() && (!first || self.waiting.is_empty()) {
+                return;
+            }
+            self.leave((team, level), parameters, (bodies, graph));
+            if first {
+                let waiting = self.waiting.iter().filter(|&&body| bodies.is_dynamic(body));
+                self.changes.extend(waiting.map(|&body| (body, [f32::INFINITY; 3])));
+            }
+            self.list_near((bodies, contacts), pace, parameters.restitution_threshold);
+        }
+    }
+
+    /// Lists the contacts of changed bodies that are bouncy enough for the change to be handed on.
+    fn list_near(&mut self, (bodies, contacts): (&Bodies, &Contacts), pace: usize, threshold: f32) {
+        self.list.clear();
+        for (body, [x, y, turn]) in self.changes.drain(..) {
+            let info = &bodies.infos[body as usize];
+            // What comes faster than the threshold without it is known.
+            let most = Vec2::new(x, y).length() + turn.abs() * info.max_extent + threshold;
+            if leaves(self.bounciest, -most, threshold) {
+                let all = contacts.of_body(info.first_contact);
+                let all = all.map(|(index, _)| &contacts.records[index as usize]);
+                let bouncy = all.filter(|contact| leaves(contact.restitution, -most, threshold));
+                self.list.extend(bouncy.filter_map(|contact| At::of(contact, pace)));
+            }
+        }
+    }
+
+    /// Lets what hits leave, and notes how that changes its bodies.
+    fn leave(
+        &mut self,
+        (team, level): (&Team, SimdLevel),
+        parameters: &Parameters,
+        (bodies, graph): (&mut Bodies, &mut Graph),
+    ) {
+        let Self { hits, batches, changes, .. } = self;
         let count = copy_out(team, graph, hits, batches);
-        marked.drain(..).for_each(|body| marks[body as usize] = false);
-        if count == 0 && (round > 0 || waiting.is_empty()) {
-            return;
-        }
         let batches = &mut batches[..count];
+        let both = batches.iter().flat_map(Batch::bodies).filter(|&body| bodies.is_dynamic(body));
+        changes.extend(both.map(|body| (body, velocities(bodies, body))));
+        changes.sort_unstable_by_key(|&(body, _)| body);
+        changes.dedup_by_key(|&mut (body, _)| body);
+        let rows = SharedRows::new(&mut bodies.rows);
         for _ in 0..ITERATIONS {
-            for batch in &mut *batches {
-                batch.run(team, level, parameters, rows);
+            batches.iter_mut().for_each(|batch| batch.run(team, level, parameters, rows));
+        }
+        batches.iter().for_each(|batch| batch.add_totals(graph));
+        for (body, change) in changes {
+            let (now, start) = (velocities(bodies, *body), &mut bodies.starts[*body as usize]);
+            for k in 0..3 {
+                change[k] = now[k] - change[k];
+                // It is no impulse of the substep before, which would be carried on.
+                start[k] += change[k];
             }
         }
-        for batch in &*batches {
-            batch.add_totals(graph);
-            batch.mark(bodies, marks, marked);
-        }
-        if round == 0 {
-            waiting.iter().for_each(|&body| mark(body, bodies, marks, marked));
-        }
-    }
-    marked.drain(..).for_each(|body| marks[body as usize] = false);
-}
-
-/// Marks a body that can move.
-fn mark(body: u32, bodies: &Bodies, marks: &mut [bool], marked: &mut Vec<u32>) {
-    if bodies.is_dynamic(body) && !marks[body as usize] {
-        marks[body as usize] = true;
-        marked.push(body);
     }
 }
 
-/// Copies out what bounces, place by place. Gives the number of batches.
-fn copy_out(team: &Team, graph: &Graph, hits: &[Vec<Hit>], batches: &mut Vec<Batch>) -> usize {
+/// Along x and y, and turning.
+fn velocities(bodies: &Bodies, body: u32) -> [f32; 3] {
+    let [x, y, turn, ..] = bodies.rows[body as usize];
+    [x, y, turn]
+}
+
+/// Copies out what bounces, colour by colour. Gives the number of batches.
+fn copy_out(team: &Team, graph: &Graph, hits: &[Hit], batches: &mut Vec<Batch>) -> usize {
     let mut count = 0;
-    for hit in hits.iter().flatten() {
-        if count == 0 || batches[count - 1].place != hit.place {
-            if batches.len() == count {
-                batches.push(Batch::default());
-            }
-            batches[count].start(hit.place);
-            count += 1;
+    let together = |a: &Hit, b: &Hit| a.at.place == b.at.place && !is_overflow(a.at.place);
+    for hits in hits.chunk_by(together) {
+        if batches.len() == count {
+            batches.push(Batch::default());
         }
-        batches[count - 1].sources.push((hit.class, hit.slot));
-        batches[count - 1].targets.push(hit.targets);
+        batches[count].start(hits);
+        count += 1;
     }
-    let hit_count = hits.iter().map(Vec::len).sum::<usize>();
-    let chunk = if hit_count < MANY { usize::MAX } else { 1 };
+    let chunk = if hits.len() < MANY { usize::MAX } else { 1 };
     team.for_each_chunk_mut(&mut batches[..count], chunk, |_, batches| {
         batches.iter_mut().for_each(|batch| batch.fill(graph));
     });
@@ -157,26 +185,25 @@ fn copy_out(team: &Team, graph: &Graph, hits: &[Vec<Hit>], batches: &mut Vec<Bat
 }
 
 impl Batch {
-    fn start(&mut self, place: usize) {
-        self.place = place;
+    fn start(&mut self, hits: &[Hit]) {
         self.blocks.clear();
         self.aims.clear();
-        self.sources.clear();
-        self.targets.clear();
+        self.hits.clear();
+        self.hits.extend_from_slice(hits);
     }
 
     /// Copies the contacts out of the graph, with the speeds at which their points are to leave.
     fn fill(&mut self, graph: &Graph) {
-        let Self { place, blocks, aims, sources, targets } = self;
-        for (index, (&(class, slot), targets)) in sources.iter().zip(targets).enumerate() {
-            let (from, at) = (slot as usize / BLOCK, slot as usize % BLOCK);
+        let Self { blocks, aims, hits, .. } = self;
+        for (index, Hit { at: source, targets }) in hits.iter().enumerate() {
+            let (from, at) = (source.slot / BLOCK, source.slot % BLOCK);
             let lane = index % BLOCK;
             if lane == 0 {
                 blocks.push(ConstraintBlock::NULL);
                 aims.push(Aims::NULL);
             }
             let (Some(block), Some(aims)) = (blocks.last_mut(), aims.last_mut()) else { return };
-            let bucket = graph.bucket(*place, class);
+            let bucket = graph.bucket(source.place, source.class);
             block.copy_lane(lane, &bucket.constraints[from], at);
             for point in &mut block.points {
                 point.normal_impulse[lane] = 0.0;
@@ -191,9 +218,9 @@ impl Batch {
 
     /// Adds the impulses to those that events of hits tell.
     fn add_totals(&self, graph: &mut Graph) {
-        for (index, &(class, slot)) in self.sources.iter().enumerate() {
-            let bucket = graph.bucket_mut(self.place, class);
-            let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
+        for (index, Hit { at, .. }) in self.hits.iter().enumerate() {
+            let bucket = graph.bucket_mut(at.place, at.class);
+            let (block, lane) = (at.slot / BLOCK, at.slot % BLOCK);
             if bucket.heads[block].flags & flags::HIT == 0 {
                 continue;
             }
@@ -205,16 +232,14 @@ impl Batch {
         }
     }
 
-    /// Marks the bodies that have bounced and can move.
-    fn mark(&self, bodies: &Bodies, marks: &mut [bool], marked: &mut Vec<u32>) {
-        for index in 0..self.sources.len() {
-            let block = &self.blocks[index / BLOCK];
-            mark(block.body_a[index % BLOCK], bodies, marks, marked);
-            mark(block.body_b[index % BLOCK], bodies, marks, marked);
-        }
+    fn bodies(&self) -> impl Iterator<Item = u32> {
+        (0..self.hits.len()).flat_map(|index| {
+            let (block, lane) = (&self.blocks[index / BLOCK], index % BLOCK);
+            [block.body_a[lane], block.body_b[lane]]
+        })
     }
 
-    /// Lets all points leave, in lanes, or one by one in the overflow.
+    /// Lets all points leave.
     fn run(
         &mut self,
         team: &Team,
@@ -222,15 +247,13 @@ impl Batch {
         parameters: &Parameters,
         rows: SharedRows<'_>,
     ) {
-        let alone = is_overflow(self.place);
-        let chunk = if alone { usize::MAX } else { CHUNK };
-        let Self { blocks, aims, sources, .. } = self;
+        let Self { blocks, aims, hits, .. } = self;
         let blocks = SharedSlice::new(blocks);
-        team.for_each_chunk(aims.len(), chunk, |range| {
-            let count = sources.len().min(range.end * BLOCK) - range.start * BLOCK;
+        team.for_each_chunk(aims.len(), CHUNK, |range| {
+            let count = hits.len().min(range.end * BLOCK) - range.start * BLOCK;
             let (blocks, aims) = (blocks.range(range.clone()), &aims[range]);
             let leave = Leave { parameters, rows, blocks, aims, count };
-            if alone { leave.one_by_one(level) } else { leave.at_once(level) }
+            dispatch_narrow(level.for_count(count), leave);
         });
     }
 }
@@ -243,25 +266,6 @@ struct Leave<'a> {
     aims: &'a [Aims],
     /// Lanes in use.
     count: usize,
-}
-
-impl Leave<'_> {
-    fn at_once(self, level: SimdLevel) {
-        dispatch_narrow(level.for_count(self.count), self);
-    }
-
-    /// Each by itself, in the first lane of an empty block.
-    fn one_by_one(self, level: SimdLevel) {
-        let Self { parameters, rows, blocks, aims, count } = self;
-        let mut one = ConstraintBlock::NULL;
-        for (block, lane) in (0..count).map(|index| (index / BLOCK, index % BLOCK)) {
-            one.copy_lane(0, &blocks[block], lane);
-            let alone = core::slice::from_mut(&mut one);
-            let aims = &[aims[block].lane(lane)];
-            Leave { parameters, rows, blocks: alone, aims, count: 1 }.at_once(level);
-            blocks[block].copy_lane(lane, &one, 0);
-        }
-    }
 }
 
 impl LaneKernel for Leave<'_> {

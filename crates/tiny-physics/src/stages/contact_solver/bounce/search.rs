@@ -1,23 +1,97 @@
-//! Which contacts bounce in a round, and how fast their points are to leave.
+//! Which contacts bounce in a substep, and how fast their points are to leave.
 
-use crate::dynamics::{Bucket, ConstraintBlock, Graph, Motion, Run, Schedule, Slot, flags};
+use super::HANDED_ON;
+use crate::dynamics::{Bucket, Contact, Graph, HELD, IDLE, Motion, Place, Slot, flags, pace_at};
 use crate::geometry::manifold::PairClass;
-use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_narrow};
+use crate::simd::BLOCK;
 use crate::stages::contact_solver::Parameters;
 use crate::stages::contact_solver::pair::{Constants, Pair, Stride};
 use crate::threads::{SharedRows, Team};
 
-/// Blocks that one member of the team searches at a time.
-const CHUNK: usize = 32;
+/// Contacts that one member of the team looks at at a time.
+const CHUNK: usize = 256;
+
+/// Where a contact is in the graph.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct At {
+    pub(super) place: usize,
+    pub(super) class: PairClass,
+    pub(super) slot: usize,
+}
+
+impl At {
+    /// Where one is that is solved at a pace.
+    pub(super) fn of(contact: &Contact, pace: usize) -> Option<Self> {
+        let Place::Graph { colour, slot } = contact.place else { return None };
+        let is_here = usize::from(colour) != IDLE && pace_at(colour.into()) == pace;
+        let at = Self { place: colour.into(), class: contact.class, slot: slot as usize };
+        is_here.then_some(at)
+    }
+
+    fn key(self) -> u64 {
+        (self.place as u64) << 40 | (self.class as u64) << 32 | self.slot as u64
+    }
+}
 
 /// A contact that bounces.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hit {
-    pub(super) place: usize,
-    pub(super) class: PairClass,
-    pub(super) slot: u32,
-    /// Speeds at which its points are to leave; 0 for one that does not hit.
+    pub(super) at: At,
+    /// Speeds at which its points are to leave; 0 for one that does not hit, as yet.
     pub(super) targets: [f32; 2],
+}
+
+/// What falls back within this time is as good as at rest, seconds: what forces press together bounces from the speed
+/// on that they would give it in this time, or from the threshold on if that is less. So balls on a table without
+/// gravity, and those that touch a wall aslant, keep what speed they have, and what lies on the ground lies.
+const SHORT: f32 = 0.13;
+
+/// What would be stopped within a substep bounces before it, and so does what rounding may have stopped.
+const SOON: f32 = 1.0 + 1e-5;
+
+/// So much of the speed at which something leaves is lost, so that rounding heats nothing: without it a gas of elastic
+/// balls gains 2e-5 of its energy in ten minutes.
+const LOST: f32 = 2.4e-7;
+
+/// Lists the contacts of a pace whose points approached faster than the threshold when the step began, or, where nothing
+/// was pressed, at all. Gives the greatest restitution.
+pub(super) fn list_approaching(
+    graph: &Graph,
+    pace: usize,
+    parameters: &Parameters,
+    list: &mut Vec<At>,
+) -> f32 {
+    let mut bounciest = 0.0;
+    list.clear();
+    let touching = graph.all().take_while(|&(place, ..)| place != IDLE);
+    for (place, class, bucket) in touching.filter(|&(place, ..)| pace_at(place) == pace) {
+        for (block, head) in bucket.heads.iter().enumerate() {
+            if head.flags & flags::RESTITUTION != 0 {
+                let slots = block * BLOCK..bucket.contacts.len().min((block + 1) * BLOCK);
+                let approaching = slots.filter(|&slot| approaches(bucket, slot, parameters));
+                list.extend(approaching.map(|slot| At { place, class, slot }));
+                bounciest =
+                    bucket.surfaces[block].restitution.into_iter().fold(bounciest, f32::max);
+            }
+        }
+    }
+    bounciest
+}
+
+fn approaches(bucket: &Bucket, slot: usize, parameters: &Parameters) -> bool {
+    let (block, lane) = (slot / BLOCK, slot % BLOCK);
+    let (surface, points) = (&bucket.surfaces[block], &bucket.constraints[block].points);
+    let (threshold, restitution) = (parameters.restitution_threshold, surface.restitution[lane]);
+    let approaches = [surface.approach_1[lane], surface.approach_2[lane]];
+    points.iter().zip(approaches).any(|(point, approach)| {
+        let fresh = point.normal_impulse[lane] == 0.0;
+        approach < -threshold || fresh && leaves(restitution, approach, threshold)
+    })
+}
+
+/// Does what comes so fast leave so fast that it is worth while?
+pub(super) fn leaves(restitution: f32, velocity: f32, threshold: f32) -> bool {
+    restitution * restitution * velocity < -HANDED_ON * threshold
 }
 
 /// What bounces in a round.
@@ -27,189 +101,95 @@ pub(super) struct Search<'a> {
     pub(super) rows: SharedRows<'a>,
     pub(super) parameters: &'a Parameters,
     pub(super) motions: &'a [Motion],
-    /// The bodies whose contacts are looked at; those of all where not said.
-    pub(super) near: Option<&'a [bool]>,
-    /// What would leave no faster than this over its restitution does not bounce, metres a second, unless it comes
-    /// faster than the threshold.
-    pub(super) leave: f32,
+    /// Is it the first of the substep?
+    pub(super) first: bool,
 }
-
-/// What falls back within this time is as good as at rest, seconds: what forces press together bounces from the speed
-/// on that they would give it in this time, or from the threshold on if that is less. So balls on a table without
-/// gravity, and those that touch a wall aslant, keep what speed they have, and what lies on the ground lies.
-const SHORT: f32 = 0.13;
-
-/// So much of the speed at which something leaves is lost, so that rounding heats nothing: without it a gas of elastic
-/// balls gains 2e-5 of its energy in ten minutes.
-const LOST: f32 = 2.4e-7;
 
 impl Search<'_> {
-    /// Lists what bounces, in the order of the runs.
-    pub(super) fn run<'h>(
+    /// Lists those of a list that hit; what comes later in the step is added to `approaching`.
+    pub(super) fn run(
         self,
         team: &Team,
-        level: SimdLevel,
-        schedule: &Schedule,
-        hits: &'h mut Vec<Vec<Hit>>,
-    ) -> &'h [Vec<Hit>] {
-        let (runs, chunk) = schedule.runs(CHUNK);
-        team.map_chunks(runs.len(), chunk, hits, |range, hits| {
-            hits.clear();
-            dispatch_narrow(level, Look { search: self, runs: &runs[range], hits });
-        })
+        list: &[At],
+        found: &mut Vec<Vec<Hit>>,
+        (hits, approaching): (&mut Vec<Hit>, &mut Vec<At>),
+    ) {
+        let constants = Constants::<f32>::new((), self.parameters);
+        let chunks = team.map_chunks(list.len(), CHUNK, found, |range, found| {
+            found.clear();
+            found.extend(list[range].iter().filter_map(|&at| self.aim(at, &constants)));
+        });
+        let all = chunks.iter().flatten();
+        hits.clear();
+        hits.extend(all.clone().filter(|hit| hit.targets != [0.0; 2]));
+        hits.sort_unstable_by_key(|hit| hit.at.key());
+        hits.dedup_by_key(|hit| hit.at.key());
+        if !self.first {
+            let later = all.filter(|hit| hit.targets == [0.0; 2] && !self.is_held_back(hit.at));
+            approaching.extend(later.map(|hit| hit.at));
+        }
     }
 
-    /// What forces add to the velocities of the bodies of a stride in a substep: nothing to those that cannot move.
-    #[inline(always)]
-    fn gain<L: Lanes>(
-        &self,
-        stride: &Stride<'_, L>,
-        bodies: &[u32; BLOCK],
-        rows: &[L; 8],
-    ) -> [L; 3] {
-        let mut gains = [[0.0; BLOCK]; 3];
-        for lane in 0..L::WIDTH {
-            let motion = &self.motions[bodies[stride.at + lane] as usize];
-            for (k, gains) in gains.iter_mut().enumerate() {
-                gains[lane] = motion.gain[k];
+    fn is_held_back(&self, at: At) -> bool {
+        let surfaces = &self.graph.bucket(at.place, at.class).surfaces;
+        surfaces[at.slot / BLOCK].approach_1[at.slot % BLOCK] == HELD
+    }
+
+    /// What forces add to the velocities of a body in a substep: nothing if it cannot move.
+    fn gain(&self, body: u32, row: &[f32; 8]) -> [f32; 3] {
+        let moves = row[Slot::INV_MASS].abs() + row[Slot::INV_INERTIA] > 0.0;
+        let [x, y, turn, _] = self.motions[body as usize].gain;
+        if moves { [x, y, turn] } else { [0.0; 3] }
+    }
+
+    /// How fast the points of a contact are to leave that hit in this substep; nothing where none comes at all.
+    ///
+    /// With approach v, separation s, closing acceleration c (by all forces on the two bodies; negative where they part)
+    /// and restitution e, the surfaces meet at speed `sqrt(v^2 + 2 c s)`. The bounce takes place here, at separation s,
+    /// so the speed that has to be set is `sqrt(e^2 (v^2 + 2 c s) - 2 c s)`. Velocities of the semi-implicit scheme are
+    /// half a substep late: `c h / 2` is missing from the approach and needed on top of the speed.
+    fn aim(&self, at: At, constants: &Constants<f32>) -> Option<Hit> {
+        let Parameters { inv_h, restitution_threshold: threshold, .. } = *self.parameters;
+        let (block, lane) = (at.slot / BLOCK, at.slot % BLOCK);
+        let bucket = self.graph.bucket(at.place, at.class);
+        let constraint = &bucket.constraints[block];
+        let restitution = bucket.surfaces[block].restitution[lane];
+        let stride = Stride { token: (), rows: self.rows, at: lane, constants };
+        let pair = Pair::load(&stride, constraint);
+        let (mut targets, mut any) = ([0.0; 2], false);
+        for (point, target) in
+            constraint.points.iter().zip(&mut targets).take(at.class.max_points())
+        {
+            let arms = [point.normal_arm_a[lane], point.normal_arm_b[lane]];
+            let velocity = pair.normal_velocity(arms[0], arms[1]);
+            let comes =
+                leaves(restitution, velocity, threshold) || self.first && velocity < -threshold;
+            if !comes || point.normal_mass[lane] <= 0.0 {
+                continue;
             }
-        }
-        let zero = stride.constants.zero;
-        let moves = zero.lt(rows[Slot::INV_MASS].abs() + rows[Slot::INV_INERTIA]);
-        let mut moving = [zero; 3];
-        for (moving, gains) in moving.iter_mut().zip(&gains) {
-            *moving = L::select(moves, L::load(stride.token, gains), zero);
-        }
-        moving
-    }
-
-    /// Lanes whose points approach faster than the threshold, or, where nothing was pressed before, at all.
-    fn approaching_lanes(&self, bucket: &Bucket, block: usize) -> u16 {
-        let (surface, constraint) = (&bucket.surfaces[block], &bucket.constraints[block]);
-        let approaches = [&surface.approach_1, &surface.approach_2];
-        (0..BLOCK).fold(0, |lanes, lane| {
-            let comes = |k: usize| {
-                let fresh = constraint.points[k].normal_impulse[lane] == 0.0;
-                let least = if fresh { self.leave } else { self.parameters.restitution_threshold };
-                approaches[k][lane] < -least
+            any = true;
+            let gain_a = self.gain(constraint.body_a[lane], &pair.a);
+            let gain_b = self.gain(constraint.body_b[lane], &pair.b);
+            // What the forces add to the approach in a substep.
+            let closing = pair.normal[0] * (gain_a[0] - gain_b[0])
+                + pair.normal[1] * (gain_a[1] - gain_b[1])
+                + (arms[0] * gain_a[2] - arms[1] * gain_b[2]);
+            let least = match (self.first, point.normal_impulse[lane] == 0.0) {
+                (true, true) => (closing.max(0.0) * (SHORT * inv_h)).min(threshold),
+                (true, false) => threshold,
+                (false, _) => 0.0,
             };
-            lanes | u16::from(comes(0) | comes(1)) << lane
-        })
-    }
-
-    /// The lanes of a block that may bounce, as bits.
-    fn candidates(&self, bucket: &Bucket, block: usize) -> u16 {
-        if bucket.heads[block].flags & flags::RESTITUTION == 0 {
-            return 0;
-        }
-        match self.near {
-            Some(marks) => near_lanes(&bucket.constraints[block], marks),
-            None => self.approaching_lanes(bucket, block),
-        }
-    }
-}
-
-/// Lanes with a marked body.
-fn near_lanes(block: &ConstraintBlock, marks: &[bool]) -> u16 {
-    (0..BLOCK).fold(0, |lanes, lane| {
-        let [a, b] = [block.body_a[lane], block.body_b[lane]].map(|body| marks[body as usize]);
-        lanes | u16::from(a | b) << lane
-    })
-}
-
-struct Look<'a> {
-    search: Search<'a>,
-    runs: &'a [Run],
-    hits: &'a mut Vec<Hit>,
-}
-
-impl LaneKernel for Look<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, token: L::Token) {
-        let Self { search, runs, hits } = self;
-        let Search { graph, rows, parameters, .. } = search;
-        let constants = Constants::<L>::new(token, parameters);
-        for run in runs {
-            let bucket = &graph.buckets.list()[run.bucket];
-            for block in run.blocks.clone() {
-                let mut lanes = search.candidates(bucket, block);
-                if lanes == 0 {
-                    continue;
-                }
-                let mut targets = [[0.0; BLOCK]; 2];
-                for at in (0..BLOCK).step_by(L::WIDTH) {
-                    if u32::from(lanes) >> at & ((1 << L::WIDTH) - 1) == 0 {
-                        continue;
-                    }
-                    let stride = Stride { token, rows, at, constants: &constants };
-                    let targets = &mut targets[..run.class.max_points()];
-                    aim(&search, &stride, bucket, block, targets);
-                }
-                while lanes != 0 {
-                    let lane = lanes.trailing_zeros() as usize;
-                    lanes &= lanes - 1;
-                    let targets = [targets[0][lane], targets[1][lane]];
-                    if targets != [0.0; 2] {
-                        let slot = (block * BLOCK + lane) as u32;
-                        hits.push(Hit { place: run.place, class: run.class, slot, targets });
-                    }
-                }
+            let s = pair.separation(point.separation[lane], arms[0], arms[1]);
+            // At the latest where the solver would stop it.
+            let arrives = s * inv_h + velocity * SOON < closing.max(0.0);
+            let (late, fall) = (0.5 * closing, 2.0 * inv_h * closing * s);
+            let approach = late - velocity;
+            let meet = approach * approach + fall;
+            if velocity < -least && arrives && meet > 0.0 {
+                let speed = (restitution * restitution * meet - fall).max(0.0).sqrt() + late;
+                *target = speed * (1.0 - LOST);
             }
         }
-    }
-}
-
-/// How fast the points are to leave that hit in this step; 0 for those that do not.
-///
-/// With approach v, separation s, closing acceleration c (by all forces on the two bodies; negative where they part)
-/// and restitution e, the surfaces meet at speed `sqrt(v^2 + 2 c s)`. The bounce takes place here, at separation s,
-/// so the speed that has to be set is `sqrt(e^2 (v^2 + 2 c s) - 2 c s)`. Velocities of the semi-implicit scheme are
-/// half a substep late: `c h / 2` is missing from the approach and needed on top of the speed.
-#[inline(always)]
-fn aim<L: Lanes>(
-    search: &Search<'_>,
-    stride: &Stride<'_, L>,
-    bucket: &Bucket,
-    block: usize,
-    targets: &mut [[f32; BLOCK]],
-) {
-    let constraint = &bucket.constraints[block];
-    let Parameters { inv_h, dt, .. } = *search.parameters;
-    let splat = |value| L::splat(stride.token, value);
-    let zero = stride.constants.zero;
-    let pair = Pair::load(stride, constraint);
-    let restitution = stride.load(&bucket.surfaces[block].restitution);
-    let gain_a = search.gain(stride, &constraint.body_a, &pair.a);
-    let gain_b = search.gain(stride, &constraint.body_b, &pair.b);
-    let threshold = splat(search.parameters.restitution_threshold);
-    let first = search.near.is_none();
-    let along = pair.normal[0] * (gain_a[0] - gain_b[0]) + pair.normal[1] * (gain_a[1] - gain_b[1]);
-    for (point, targets) in constraint.points.iter().zip(targets) {
-        let arms = [stride.load(&point.normal_arm_a), stride.load(&point.normal_arm_b)];
-        let velocity = pair.normal_velocity(arms[0], arms[1]);
-        let s = stride.load(&point.separation);
-        // What the forces add to the approach in a substep.
-        let closing = along + (arms[0] * gain_a[2] - arms[1] * gain_b[2]);
-        let fresh = stride.load(&point.normal_impulse).eq(zero);
-        let pressed = (closing.max(zero) * splat(SHORT * inv_h)).min(threshold);
-        let least = if first { L::select(fresh, pressed, threshold) } else { zero };
-        let leaves = (restitution * restitution * velocity).lt(splat(-search.leave));
-        let mut fast = L::and(velocity.lt(zero - least), leaves);
-        if first {
-            fast = L::or(fast, velocity.lt(zero - threshold));
-        }
-        // As the substeps add it up: n (n + 1) / 2 times.
-        let fallen = closing.max(zero) * splat(0.5 * dt * (dt * inv_h + 1.0));
-        let arrives = (s + velocity * splat(dt)).lt(fallen);
-        let hits = L::and(L::and(fast, arrives), zero.lt(stride.load(&point.normal_mass)));
-        let late = splat(0.5) * closing;
-        let fall = splat(2.0 * inv_h) * closing * s;
-        let approach = late - velocity;
-        let meet = approach * approach + fall;
-        let speed = (restitution * restitution * meet - fall).max(zero).sqrt() + late;
-        let speed = speed * splat(1.0 - LOST);
-        stride.store(L::select(L::and(hits, zero.lt(meet)), speed, zero), targets);
+        any.then_some(Hit { at, targets })
     }
 }
