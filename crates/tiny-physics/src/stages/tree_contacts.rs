@@ -284,9 +284,8 @@ impl Touch {
         let flags = bucket.heads[block].flags;
         let (constraint, surface) = (&mut bucket.constraints[block], &bucket.surfaces[block]);
         (constraint.body_a[lane], constraint.body_b[lane]) = (0, 0);
-        let totals = [surface.total_1[lane], surface.total_2[lane]];
         let mut points = [Point::default(); 2];
-        for ((point, lanes), total) in points.iter_mut().zip(&constraint.points).zip(totals) {
+        for (point, lanes) in points.iter_mut().zip(&constraint.points) {
             *point = Point {
                 there: lanes.normal_mass[lane] > 0.0,
                 separation: lanes.separation[lane],
@@ -298,7 +297,7 @@ impl Touch {
                 impulse: lanes.normal_impulse[lane],
                 rub: lanes.tangent_impulse[lane],
                 load: lanes.load[lane],
-                total,
+                total: 0.0,
             };
         }
         let asked = |flag: u8, value: f32| if flags & flag != 0 { value } else { 0.0 };
@@ -327,8 +326,9 @@ impl Touch {
             lanes.load[lane] = point.load;
         }
         surface.rolling_impulse[lane] = self.rolling_impulse;
-        (surface.total_1[lane], surface.total_2[lane]) =
-            (self.points[0].total, self.points[1].total);
+        // Bounces have told theirs already.
+        surface.total_1[lane] += self.points[0].total;
+        surface.total_2[lane] += self.points[1].total;
     }
 
     /// Directions of impulses along the normal, the tangent or about: on A and on B.

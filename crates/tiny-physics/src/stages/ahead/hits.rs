@@ -77,7 +77,7 @@ impl Hit {
         let arms = self.arms[0].normal;
         let turning = b.turn * arms[1] - a.turn * arms[0];
         let at_end = self.apart + self.normal.dot(b.motion - a.motion) + turning;
-        (1.0 + at_end / (closing * dt)).clamp(0.0, self.fraction)
+        (1.0 + at_end / (closing * dt)).max(0.0).min(self.fraction)
     }
 
     /// How fast its points part, as these bodies move.

@@ -61,7 +61,7 @@ pub(super) struct Pair<L: Lanes> {
     pub(super) b: [L; 8],
     pub(super) normal: [L; 2],
     /// Inverse masses of A and B along x and y, where some are locked along one of them.
-    locked: Option<[[L; 2]; 2]>,
+    pub(super) locked: Option<[[L; 2]; 2]>,
 }
 
 impl<L: Lanes> Pair<L> {

@@ -2,6 +2,7 @@
 
 use super::anything::Random;
 use super::*;
+use crate::describe::JointDef;
 
 const RADIUS: f32 = 0.5;
 
@@ -225,5 +226,23 @@ fn what_bounces_turns_back_where_it_arrives() {
             "{bounces}, not {range:?}: {speed} m/s, {apart} m"
         );
         assert!(furthest < 0.5 * apart + 0.015, "it went in: {furthest} of {apart}");
+    }
+}
+
+/// What has joints bounces as what has none, in trees of joints too.
+#[test]
+fn what_has_joints_bounces() {
+    for restitution in [0.5, 1.0] {
+        let mut world = floored(0.0, restitution);
+        let balls = [-1.0, 0.0, 1.0]
+            .map(|x| drop(&mut world, x, 1.0, Vec2::new(0.0, -9.0), 0.0, restitution));
+        for pair in balls.windows(2) {
+            let hinge = world.body(pair[0]).unwrap().position() + Vec2::new(0.5, 0.0);
+            world.add_joint(pair[0], pair[1], JointDef::revolute().anchor_at(hinge)).unwrap();
+        }
+        run(&mut world, 20);
+        let up = balls.map(|ball| world.body(ball).unwrap().velocity().y);
+        let off = |&up: &f32| (up - 9.0 * restitution).abs() < 0.02;
+        assert!(up.iter().all(off), "{restitution}: {up:?}");
     }
 }

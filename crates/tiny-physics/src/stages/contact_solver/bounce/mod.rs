@@ -205,6 +205,7 @@ impl Batch {
             let (Some(block), Some(aims)) = (blocks.last_mut(), aims.last_mut()) else { return };
             let bucket = graph.bucket(source.place, source.class);
             block.copy_lane(lane, &bucket.constraints[from], at);
+            (block.body_a[lane], block.body_b[lane]) = bucket.bodies(source.slot);
             for point in &mut block.points {
                 point.normal_impulse[lane] = 0.0;
                 point.tangent_impulse[lane] = 0.0;

@@ -1,11 +1,13 @@
 //! Which contacts bounce in a substep, and how fast their points are to leave.
 
 use super::HANDED_ON;
-use crate::dynamics::{Bucket, Contact, Graph, HELD, IDLE, Motion, Place, Slot, flags, pace_at};
+use crate::dynamics::{
+    Bucket, Contact, Graph, HELD, IDLE, Motion, Place, Slot, flags, locked, pace_at,
+};
 use crate::geometry::manifold::PairClass;
-use crate::simd::BLOCK;
+use crate::simd::{BLOCK, Lanes};
 use crate::stages::contact_solver::Parameters;
-use crate::stages::contact_solver::pair::{Constants, Pair, Stride};
+use crate::stages::contact_solver::pair::Pair;
 use crate::threads::{SharedRows, Team};
 
 /// Contacts that one member of the team looks at at a time.
@@ -114,10 +116,9 @@ impl Search<'_> {
         found: &mut Vec<Vec<Hit>>,
         (hits, approaching): (&mut Vec<Hit>, &mut Vec<At>),
     ) {
-        let constants = Constants::<f32>::new((), self.parameters);
         let chunks = team.map_chunks(list.len(), CHUNK, found, |range, found| {
             found.clear();
-            found.extend(list[range].iter().filter_map(|&at| self.aim(at, &constants)));
+            found.extend(list[range].iter().filter_map(|&at| self.aim(at)));
         });
         let all = chunks.iter().flatten();
         hits.clear();
@@ -148,14 +149,19 @@ impl Search<'_> {
     /// and restitution e, the surfaces meet at speed `sqrt(v^2 + 2 c s)`. The bounce takes place here, at separation s,
     /// so the speed that has to be set is `sqrt(e^2 (v^2 + 2 c s) - 2 c s)`. Velocities of the semi-implicit scheme are
     /// half a substep late: `c h / 2` is missing from the approach and needed on top of the speed.
-    fn aim(&self, at: At, constants: &Constants<f32>) -> Option<Hit> {
+    fn aim(&self, at: At) -> Option<Hit> {
         let Parameters { inv_h, restitution_threshold: threshold, .. } = *self.parameters;
         let (block, lane) = (at.slot / BLOCK, at.slot % BLOCK);
         let bucket = self.graph.bucket(at.place, at.class);
         let constraint = &bucket.constraints[block];
         let restitution = bucket.surfaces[block].restitution[lane];
-        let stride = Stride { token: (), rows: self.rows, at: lane, constants };
-        let pair = Pair::load(&stride, constraint);
+        // Not the bodies of the lane: trees take contacts out of those.
+        let (body_a, body_b) = bucket.bodies(at.slot);
+        let mut a = f32::gather((), self.rows, &[body_a]);
+        let mut b = f32::gather((), self.rows, &[body_b]);
+        let locked = locked((), [&mut a, &mut b]);
+        let normal = [constraint.normal_x[lane], constraint.normal_y[lane]];
+        let pair = Pair { a, b, normal, locked };
         let (mut targets, mut any) = ([0.0; 2], false);
         for (point, target) in
             constraint.points.iter().zip(&mut targets).take(at.class.max_points())
@@ -168,8 +174,8 @@ impl Search<'_> {
                 continue;
             }
             any = true;
-            let gain_a = self.gain(constraint.body_a[lane], &pair.a);
-            let gain_b = self.gain(constraint.body_b[lane], &pair.b);
+            let gain_a = self.gain(body_a, &pair.a);
+            let gain_b = self.gain(body_b, &pair.b);
             // What the forces add to the approach in a substep.
             let closing = pair.normal[0] * (gain_a[0] - gain_b[0])
                 + pair.normal[1] * (gain_a[1] - gain_b[1])
