@@ -229,7 +229,7 @@ fn what_bounces_turns_back_where_it_arrives() {
     }
 }
 
-/// What has joints bounces as what has none, in trees of joints too.
+/// What has joints bounces as what has none.
 #[test]
 fn what_has_joints_bounces() {
     for restitution in [0.5, 1.0] {
@@ -245,4 +245,37 @@ fn what_has_joints_bounces() {
         let off = |&up: &f32| (up - 9.0 * restitution).abs() < 0.02;
         assert!(up.iter().all(off), "{restitution}: {up:?}");
     }
+}
+
+/// Trees of joints take their contacts out of the lanes: a ball that falls on a bridge bounces from it all the same.
+#[test]
+fn what_falls_on_a_bridge_bounces() {
+    let mut world = World::new(Vec2::new(0.0, -10.0));
+    let plank = |k: u8| {
+        let shape = rect(0.5, 0.1).density(20.0).restitution(0.8);
+        RigidBody::dynamic().shape(shape).position(Vec2::new(f32::from(k), 0.0))
+    };
+    let planks: Vec<BodyId> = (0..8).map(|k| world.add_body(plank(k)).unwrap()).collect();
+    let posts = [-1.0, 8.0].map(|x| {
+        let post = RigidBody::fixed().shape(rect(0.5, 0.1)).position(Vec2::new(x, 0.0));
+        world.add_body(post).unwrap()
+    });
+    let mut row = vec![posts[0]];
+    row.extend(&planks);
+    row.push(posts[1]);
+    for pair in row.windows(2) {
+        let hinge = world.body(pair[0]).unwrap().position() + Vec2::new(0.5, 0.0);
+        world.add_joint(pair[0], pair[1], JointDef::revolute().anchor_at(hinge)).unwrap();
+    }
+    // A load that lies on it.
+    let load = RigidBody::dynamic().shape(rect(0.3, 0.3).density(20.0));
+    world.add_body(load.position(Vec2::new(1.0, 0.5))).unwrap();
+    run(&mut world, 120);
+    let ball = drop(&mut world, 5.0, 0.5, Vec2::new(0.0, -6.0), 0.0, 0.8);
+    let mut up = 0.0_f32;
+    for _ in 0..30 {
+        world.step(DT);
+        up = up.max(world.body(ball).unwrap().velocity().y);
+    }
+    assert!(up > 2.0, "{up} m/s");
 }
