@@ -71,7 +71,8 @@ pub(crate) struct Bounces {
     found: Vec<Vec<Hit>>,
     hits: Vec<Hit>,
     batches: Vec<Batch>,
-    /// Bodies that bounce in this round, and their velocities before; then how these change.
+    /// Bodies that bounce in this round, some more than once, and how far their velocities were from `starts`; then how
+    /// these change, at one place.
     changes: Vec<(u32, [f32; 3])>,
     /// Bodies that wait for what they hit first: they are looked at in the second round.
     pub(crate) waiting: Vec<u32>,
@@ -117,7 +118,8 @@ impl Bounces {
     /// Lists the contacts of changed bodies that are bouncy enough for the change to be handed on.
     fn list_near(&mut self, (bodies, contacts): (&Bodies, &Contacts), pace: usize, threshold: f32) {
         self.list.clear();
-        for (body, [x, y, turn]) in self.changes.drain(..) {
+        let changed = self.changes.drain(..).filter(|&(_, change)| change != [0.0; 3]);
+        for (body, [x, y, turn]) in changed {
             let info = &bodies.infos[body as usize];
             // What comes faster than the threshold without it is known.
             let most = Vec2::new(x, y).length() + turn.abs() * info.max_extent + threshold;
@@ -141,29 +143,25 @@ impl Bounces {
         let count = copy_out(team, graph, hits, batches);
         let batches = &mut batches[..count];
         let both = batches.iter().flat_map(Batch::bodies).filter(|&body| bodies.is_dynamic(body));
-        changes.extend(both.map(|body| (body, velocities(bodies, body))));
-        changes.sort_unstable_by_key(|&(body, _)| body);
-        changes.dedup_by_key(|&mut (body, _)| body);
+        changes.extend(both.map(|body| {
+            let (row, start) = (&bodies.rows[body as usize], &bodies.starts[body as usize]);
+            (body, [0, 1, 2].map(|k| row[k] - start[k]))
+        }));
         let rows = SharedRows::new(&mut bodies.rows);
         for _ in 0..ITERATIONS {
             batches.iter_mut().for_each(|batch| batch.run(team, level, parameters, rows));
         }
         batches.iter().for_each(|batch| batch.add_totals(graph));
         for (body, change) in changes {
-            let (now, start) = (velocities(bodies, *body), &mut bodies.starts[*body as usize]);
+            let at = *body as usize;
+            let (row, start) = (&bodies.rows[at], &mut bodies.starts[at]);
             for k in 0..3 {
-                change[k] = now[k] - change[k];
                 // It is no impulse of the substep before, which would be carried on.
-                start[k] += change[k];
+                let moved = row[k] - change[k];
+                (change[k], start[k]) = (moved - start[k], moved);
             }
         }
     }
-}
-
-/// Along x and y, and turning.
-fn velocities(bodies: &Bodies, body: u32) -> [f32; 3] {
-    let [x, y, turn, ..] = bodies.rows[body as usize];
-    [x, y, turn]
 }
 
 /// Copies out what bounces, colour by colour. Gives the number of batches.

@@ -85,10 +85,12 @@ fn approaches(bucket: &Bucket, slot: usize, parameters: &Parameters) -> bool {
     let (surface, points) = (&bucket.surfaces[block], &bucket.constraints[block].points);
     let (threshold, restitution) = (parameters.restitution_threshold, surface.restitution[lane]);
     let approaches = [surface.approach_1[lane], surface.approach_2[lane]];
-    points.iter().zip(approaches).any(|(point, approach)| {
-        let fresh = point.normal_impulse[lane] == 0.0;
-        approach < -threshold || fresh && leaves(restitution, approach, threshold)
-    })
+    // What is dull may share a block with what bounces.
+    restitution > 0.0
+        && points.iter().zip(approaches).any(|(point, approach)| {
+            let fresh = point.normal_impulse[lane] == 0.0;
+            approach < -threshold || fresh && leaves(restitution, approach, threshold)
+        })
 }
 
 /// Does what comes so fast leave so fast that it is worth while?
