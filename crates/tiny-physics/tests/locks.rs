@@ -225,3 +225,66 @@ fn what_is_locked_moves_alike_at_every_level() {
         assert_eq!(hash_of_a_heap(level, 2), scalar, "{level}");
     }
 }
+
+/// Carts on rails that are joined to each other go on together, and one that is dragged comes. Before, nothing that answers along one
+/// axis alone was held by a joint of two rows.
+#[test]
+fn joints_hold_what_answers_along_one_axis_alone() {
+    let mut random = Random::new(11);
+    for member in 0..60 {
+        let is_y = random.range(0.0, 1.0) < 0.5;
+        let (along, locks) = (axis(!is_y), Locks { x: !is_y, y: is_y, rotation: true });
+        let mut world = World::new(Vec2::ZERO);
+        let mass = 10.0_f32.powf(random.range(-0.5, 0.5));
+        let cart = || Shape::rect(0.4, 0.4).expect("a cart");
+        let first = add(&mut world, cart(), 1.0, Vec2::ZERO, locks);
+        let second = add(&mut world, cart(), mass, along, locks);
+        let joint = match member % 3 {
+            0 => JointDef::weld(),
+            1 => JointDef::revolute(),
+            _ => JointDef::friction(1e4, 1e4),
+        };
+        world.add_joint(first, second, joint.anchor_at(along * 0.5)).expect("a joint");
+        world.body_mut(first).expect("a cart").set_velocity(along * 2.0);
+        steps(&mut world, 60);
+        let [first, second] = [first, second].map(|cart| world.body(cart).expect("a cart"));
+        let apart = (second.position() - first.position()).dot(along);
+        assert!((apart - 1.0).abs() < 0.01, "{member}: {apart} m apart, {mass} kg");
+        let momentum = (first.velocity() + second.velocity() * mass).dot(along);
+        assert!((momentum - 2.0).abs() < 0.01, "{member}: {momentum}, {mass} kg");
+
+        let mut world = World::new(Vec2::ZERO);
+        let ground = world.add_body(RigidBody::fixed()).expect("ground");
+        let cart = add(&mut world, cart(), mass, Vec2::ZERO, locks);
+        let hand = Vec2::new(random.range(1.0, 3.0), random.range(1.0, 3.0));
+        world.add_joint(ground, cart, JointDef::mouse(hand, 1e4)).expect("a hand");
+        steps(&mut world, 240);
+        let place = world.body(cart).expect("a cart").position();
+        assert!((place - along * hand.dot(along)).length() < 0.01, "{member}: {place:?}, {hand:?}");
+    }
+}
+
+/// A slider whose body is locked across its rail still keeps it from turning, and a wheel on an axle is dragged round by its rim.
+#[test]
+fn joints_turn_what_is_locked() {
+    let mut world = World::new(Vec2::ZERO);
+    let ground = world.add_body(RigidBody::fixed()).expect("ground");
+    let block = Shape::rect(0.5, 0.5).expect("a block");
+    let locks = Locks { x: true, y: false, rotation: false };
+    let slider = add(&mut world, block, 1.0, Vec2::ZERO, locks);
+    let rail = JointDef::prismatic(Vec2::new(0.0, 1.0));
+    world.add_joint(ground, slider, rail).expect("a rail");
+    world.body_mut(slider).expect("a block").apply_angular_impulse(1.0);
+    steps(&mut world, 60);
+    let angle = world.body(slider).expect("a block").angle();
+    assert!(angle.abs() < 0.01, "{angle} radians");
+
+    let locks = Locks { x: true, y: true, rotation: false };
+    let wheel = Shape::circle(1.0).expect("a wheel");
+    let wheel = add(&mut world, wheel, 1.0, Vec2::new(5.0, 0.0), locks);
+    let grip = JointDef::mouse(Vec2::new(5.6, 0.8), 100.0).anchors((0.0, 0.0), (1.0, 0.0));
+    world.add_joint(ground, wheel, grip).expect("a hand");
+    steps(&mut world, 240);
+    let angle = world.body(wheel).expect("a wheel").angle();
+    assert!((angle - 0.8_f32.atan2(0.6)).abs() < 0.02, "{angle} radians");
+}

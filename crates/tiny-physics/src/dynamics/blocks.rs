@@ -198,6 +198,8 @@ pub(crate) mod flags {
     pub(crate) const HIT: u8 = 8;
     /// Some point has a rest.
     pub(crate) const RESTS: u8 = 16;
+    /// All lanes are solved elsewhere, for the length of the substeps.
+    pub(crate) const TAKEN: u8 = 32;
 }
 
 record! {

@@ -21,7 +21,7 @@
 
 use super::islands::Stores;
 use crate::describe::{JointDef, JointKind, Motor};
-use crate::dynamics::{Bodies, DisjointSets, NULL, Slot, inverses};
+use crate::dynamics::{Bodies, DisjointSets, JOINTED, NULL, Slot, inverses};
 use crate::math::DVec2;
 use crate::simd::BLOCK;
 
@@ -114,10 +114,16 @@ pub(crate) struct Memory {
 crate::footprint::footprint!(Memory { sets, numbers, islands, members, free } none { withheld });
 
 impl Memory {
-    /// Finds the islands of a pace whose bodies are listed.
+    /// Finds the islands of a pace whose bodies are listed; none where nothing is joined.
     pub(crate) fn find(&mut self, pace: usize, listed: &[u32], stores: &Stores<'_>) {
         let Stores { bodies, graph, joints, joint_graph, .. } = stores;
         let Self { sets, numbers, islands, members, free, .. } = self;
+        islands.clear();
+        members.clear();
+        free.clear();
+        if pace < JOINTED {
+            return;
+        }
         let touching = || {
             graph.of_pace(pace).iter().flat_map(|bucket| {
                 (0..bucket.contacts.len()).map(move |slot| {
@@ -143,8 +149,6 @@ impl Memory {
         });
         numbers.resize(bodies.infos.len(), NULL);
         listed.iter().for_each(|&body| numbers[body as usize] = NULL);
-        islands.clear();
-        members.clear();
         for &body in listed.iter().filter(|&&body| bodies.is_dynamic(body)) {
             let number = &mut numbers[sets.root(body) as usize];
             if *number == NULL {
@@ -184,7 +188,6 @@ impl Memory {
         }
         members.retain(|&(_, island)| !islands[island as usize].driven);
         let is_free = |&&(_, island): &&(u32, u32)| islands[island as usize].ground.is_none();
-        free.clear();
         free.extend(members.iter().filter(is_free));
     }
 
@@ -206,19 +209,9 @@ impl Memory {
                 island.noise += half * g[k] * g[k];
             }
         }
-        let mut all = true;
-        for island in &mut *islands {
-            *withheld += island.give_way();
-            all &= island.share == 1.0;
-        }
-        if all {
-            return;
-        }
-        for &(body, island) in &*members {
-            let island = &islands[island as usize];
-            if island.share == 1.0 {
-                continue;
-            }
+        *withheld += islands.iter_mut().map(Island::give_way).sum::<f64>();
+        let all = members.iter().map(|&(body, island)| (body, &islands[island as usize]));
+        for (body, island) in all.filter(|(_, island)| island.share < 1.0) {
             let State { masses, v, place, .. } = State::new(bodies, body, island.origin);
             let whole = island.whole.at(place);
             for k in (0..3).filter(|&k| masses[k] > 0.0) {
@@ -263,9 +256,6 @@ fn find_whole(bodies: &Bodies, islands: &mut [Island], free: &[(u32, u32)]) {
     for island in &mut *islands {
         let velocity = island.ground.unwrap_or_default().map(f64::from);
         island.whole = Whole { velocity, ..Whole::default() };
-    }
-    if free.is_empty() {
-        return;
     }
     for &(body, island) in free {
         let Island { whole, origin, .. } = &mut islands[island as usize];

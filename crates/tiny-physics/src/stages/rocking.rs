@@ -42,7 +42,8 @@ pub(crate) fn resist(bodies: &mut Bodies, graph: &Graph, (dt, length_unit): (f32
 /// How often a body has turned back by now. The last bit is the direction.
 fn swings(bodies: &Bodies, body: u32, length_unit: f32) -> u8 {
     let info = &bodies.infos[body as usize];
-    if is_calm(bodies, body) || info.first_joint != NULL {
+    let is_pushed = info.force != Vec2::ZERO || info.torque != 0.0;
+    if is_pushed || is_calm(bodies, body) || info.first_joint != NULL {
         return 0;
     }
     let (swings, spin) = (bodies.swings[body as usize], bodies.angular_velocity(body));

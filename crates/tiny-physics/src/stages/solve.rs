@@ -12,7 +12,7 @@ use super::rests::Compliance;
 use super::{integrate, joint_solver, paces, passivity, tree_contacts};
 use crate::describe::Settings;
 use crate::dynamics::{
-    Chosen, JOINTED, JointBlocks, JointPlaces, PACES, PLAIN, REFINEMENT, ROUNDS, Schedule,
+    Chosen, JointBlocks, JointPlaces, PACES, PLAIN, REFINEMENT, ROUNDS, Schedule,
 };
 use crate::footprint::footprint;
 use crate::math::Vec2;
@@ -244,9 +244,7 @@ impl Solver {
         integrate::prepare(team, listed, stores.bodies, gravity, h);
         let places = stores.joint_graph.places_of(pace);
         prepare_joints(team, stores, level, pace, &places, joint_substep);
-        if pace >= JOINTED {
-            passivity.find(pace, listed, stores);
-        }
+        passivity.find(pace, listed, stores);
         bounces.begin(stores.graph, pace, &parameters);
         let max_speed = settings.max_speed * settings.length_unit;
         broken.list(stores.joint_graph, stores.joints, pace);
@@ -292,13 +290,12 @@ impl Solver {
                 again(stores, Pass::Relax, squeezed, squeezed_rounds);
                 contacts(stores, if last { Pass::RelaxLast } else { Pass::Relax });
             }
-            if pace >= JOINTED {
-                passivity.run(stores.bodies);
-            }
+            passivity.run(stores.bodies);
             broken.note(stores.joint_graph, 1.0 / h);
         }
         joints(stores, joint_solver::Pass::Finish);
         tree_contacts.give_back(stores);
+        bounces.end(stores.graph);
         integrate::bound(team, listed, stores.bodies, max_speed);
     }
 }

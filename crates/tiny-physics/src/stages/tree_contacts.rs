@@ -278,12 +278,16 @@ impl FourKernel for RunPass<'_, '_> {
 }
 
 impl Touch {
-    /// Takes a contact out of its lane: the kernels find bodies there that nothing moves.
+    /// Takes a contact out of its lane: the kernels find bodies there that nothing moves, and blocks with nothing else are left out.
     fn take(bucket: &mut Bucket, at: (usize, usize), sides: [Side; 2]) -> Self {
         let (block, lane) = (at.1 / BLOCK, at.1 % BLOCK);
         let flags = bucket.heads[block].flags;
         let (constraint, surface) = (&mut bucket.constraints[block], &bucket.surfaces[block]);
         (constraint.body_a[lane], constraint.body_b[lane]) = (0, 0);
+        let used = BLOCK.min(bucket.contacts.len() - block * BLOCK);
+        if constraint.body_a[..used] == constraint.body_b[..used] {
+            bucket.heads[block].flags |= flags::TAKEN;
+        }
         let mut points = [Point::default(); 2];
         for (point, lanes) in points.iter_mut().zip(&constraint.points) {
             *point = Point {
@@ -326,9 +330,9 @@ impl Touch {
             lanes.load[lane] = point.load;
         }
         surface.rolling_impulse[lane] = self.rolling_impulse;
-        // Bounces have told theirs already.
-        surface.total_1[lane] += self.points[0].total;
-        surface.total_2[lane] += self.points[1].total;
+        (surface.total_1[lane], surface.total_2[lane]) =
+            (self.points[0].total, self.points[1].total);
+        bucket.heads[block].flags &= !flags::TAKEN;
     }
 
     /// Directions of impulses along the normal, the tangent or about: on A and on B.

@@ -64,7 +64,7 @@ impl BodyMut<'_> {
         Body { world: self.world, index: self.index }
     }
 
-    pub(super) fn info(&mut self) -> &mut BodyInfo {
+    pub(crate) fn info(&mut self) -> &mut BodyInfo {
         &mut self.world.state.bodies.infos[self.index as usize]
     }
 
@@ -117,13 +117,18 @@ impl BodyMut<'_> {
         }
     }
 
-    /// Puts its frame somewhere else at once.
+    /// Puts its frame somewhere else at once. Where it is already, nothing wakes.
     pub fn set_pose(&mut self, pose: Pose) {
         let (x, y) = (pose.p.x.abs(), pose.p.y.abs());
         if !pose.is_finite() || x > MAX_COORDINATE || y > MAX_COORDINATE {
             return self.world.refuse();
         }
         let (world, index) = (&mut *self.world, self.index);
+        let bodies = &mut world.state.bodies;
+        if pose == bodies.origin_pose(index) {
+            bodies.previous[index as usize] = bodies.poses[index as usize];
+            return;
+        }
         world.wake_index(index);
         world.wake_carried(index);
         world.note_ground_of(index);
@@ -138,8 +143,8 @@ impl BodyMut<'_> {
     /// Sets the velocity of the centre of mass, metres a second. Nothing happens to a static body.
     pub fn set_velocity(&mut self, velocity: impl Into<Vec2>) {
         let velocity = velocity.into();
-        let stays = velocity == Vec2::ZERO && self.is_parked();
-        if self.info().kind != BodyKind::Static && !stays && self.accept(&[velocity.x, velocity.y])
+        let changes = velocity != self.as_ref().velocity();
+        if self.info().kind != BodyKind::Static && changes && self.accept(&[velocity.x, velocity.y])
         {
             self.wake_riders(velocity != Vec2::ZERO);
             self.give_velocity(velocity, self.as_ref().angular_velocity());
@@ -148,8 +153,8 @@ impl BodyMut<'_> {
 
     /// Sets the angular velocity, radians a second. Nothing happens to a static body.
     pub fn set_angular_velocity(&mut self, radians_per_second: f32) {
-        let stays = radians_per_second == 0.0 && self.is_parked();
-        if self.info().kind != BodyKind::Static && !stays && self.accept(&[radians_per_second]) {
+        let changes = radians_per_second != self.as_ref().angular_velocity();
+        if self.info().kind != BodyKind::Static && changes && self.accept(&[radians_per_second]) {
             self.wake_riders(radians_per_second != 0.0);
             self.give_velocity(self.as_ref().velocity(), radians_per_second);
         }
@@ -188,11 +193,12 @@ impl BodyMut<'_> {
     }
 
     fn apply_forces(&mut self, force: Vec2, torque: f32) {
-        let info = &self.world.state.bodies.infos[self.index as usize];
+        let acts = (force, torque) != (Vec2::ZERO, 0.0) && self.is_dynamic();
+        let info = self.info();
         let (force, torque) = (info.force + force, info.torque + torque);
-        if self.is_dynamic() && self.accept(&[force.x, force.y, torque]) {
+        if acts && self.accept(&[force.x, force.y, torque]) {
             let info = self.info();
-            (info.force, info.torque) = (force, torque);
+            (info.force, info.torque, info.sleep_time) = (force, torque, 0.0);
         }
     }
 

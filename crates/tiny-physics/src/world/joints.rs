@@ -172,6 +172,7 @@ impl<'a> JointRef<'a> {
 impl World {
     /// Joins two bodies. Contacts between them end unless [`JointDef::collide_connected`] is set. Where one of them is awake,
     /// both are then; two that sleep sleep on, so that a level can be built asleep: [`BodyMut::wake`](super::BodyMut::wake) what is to move.
+    /// What a motor, a spring or a mouse joint moves against something that is not dynamic wakes.
     ///
     /// # Errors
     /// A handle is stale, the bodies are the same one, or a number in the description is out of range.
@@ -182,7 +183,9 @@ impl World {
         }
         let def = self.place_joint(a, b, def)?;
         let awake = |world: &Self, i: u32| world.state.bodies.infos[i as usize].awake;
-        if awake(self, a) || awake(self, b) {
+        let one_stands = [a, b].iter().any(|&i| !self.state.bodies.is_dynamic(i));
+        let drives = def.enabled && def.kind.drives() && one_stands;
+        if awake(self, a) || awake(self, b) || drives {
             self.wake_index(a);
             self.wake_index(b);
         }

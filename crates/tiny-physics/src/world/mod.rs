@@ -521,7 +521,7 @@ impl World {
             &self.state.bodies,
             &self.state.graph,
             &self.state.joints,
-            self.settings.time_to_sleep,
+            self.settings.time_to_sleep.max(f32::MIN_POSITIVE),
             (1.0 / self.state.inv_h, self.settings.length_unit),
             &mut self.scratch.sets,
             &mut islands,

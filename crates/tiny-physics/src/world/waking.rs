@@ -14,6 +14,9 @@ impl World {
         let felt = self.state.gravity.replace(self.gravity);
         if felt.is_some_and(|felt| felt != self.gravity) {
             self.wake_all();
+            for i in 0..self.state.bodies.awake.len() {
+                self.state.bodies.disturb(self.state.bodies.awake[i]);
+            }
         }
         for body in self.buried_sleepers() {
             self.wake_index(body);

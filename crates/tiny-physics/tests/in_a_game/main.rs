@@ -5,6 +5,7 @@ mod contacts;
 mod heroes;
 mod joints;
 mod queries;
+mod sleepers;
 
 use tiny_physics::prelude::*;
 

@@ -133,7 +133,7 @@ fn unrest() -> Vec<Patient> {
         patient("turret that overshoots its aim", Code::Jitter, 400, turret()),
         patient("gravity by hand keeps a yard awake", Code::NeverSleeps, 400, gravity_by_hand()),
         patient("sleep switched off and forgotten", Code::NeverSleeps, 400, no_sleep()),
-        patient("parked cars told to stand still", Code::NeverSleeps, 400, told_to_stand()),
+        patient("parked cars whose brakes push on", Code::NeverSleeps, 400, brakes()),
         patient("statue on contacts of 0.8 Hz", Code::Sinking, 400, soft_ground()),
         patient("tower with one substep and no push", Code::Sinking, 500, cheap_tower()),
     ]
@@ -219,7 +219,7 @@ fn no_sleep() -> Case {
 }
 
 /// `set_velocity(0, 0)` for everything whose driver is absent.
-fn told_to_stand() -> Case {
+fn brakes() -> Case {
     let mut world = from_above();
     court(&mut world, 20.0, 10.0);
     let mut cars = Vec::new();
@@ -230,8 +230,7 @@ fn told_to_stand() -> Case {
     with(world, move |world, _| {
         for &car in &cars {
             let mut car = world.body_mut(car).unwrap();
-            car.set_velocity(Vec2::ZERO);
-            car.set_angular_velocity(0.0);
+            car.apply_force_to_center(Vec2::new(-0.001, 0.0) - car.as_ref().velocity());
         }
     })
 }

@@ -41,9 +41,7 @@ impl CharacterMover {
         let (Frame { up, .. }, capsule) = (Frame::of(world), self.capsule(Vec2::Y, 0.0));
         let Some(mut body) = self.body.and_then(|body| world.body_mut(body)) else { return };
         let pose = Pose::new(self.position, Rot { c: up.y, s: 0.0 - up.x });
-        if body.pose() != pose {
-            body.set_pose(pose);
-        }
+        body.set_pose(pose);
         let body = body.as_ref();
         let size = |form: &ShapeRef<'_>| form.shape().aabb(Transform::IDENTITY).perimeter();
         let wrong =

@@ -173,7 +173,8 @@ impl Work<'_> {
         lanes: Range<usize>,
         constants: &Constants<L>,
     ) {
-        let mut at = lanes.start;
+        let taken = head.flags & flags::TAKEN != 0;
+        let mut at = if taken { lanes.end } else { lanes.start };
         while at < lanes.end {
             if const { L::Half::WIDTH < L::WIDTH } && lanes.end - at <= L::Half::WIDTH {
                 let (token, lanes) = (L::half(token), at..lanes.end);

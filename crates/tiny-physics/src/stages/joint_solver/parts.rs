@@ -634,6 +634,9 @@ impl<L: Lanes> Sides<L> {
     }
 }
 
+/// A determinant below this part of the diagonal's product is rounding.
+const SINGULAR: f32 = 4.0e-7;
+
 /// A symmetric 2 x 2 matrix.
 pub(super) struct Symmetric<L> {
     xx: L,
@@ -642,11 +645,17 @@ pub(super) struct Symmetric<L> {
 }
 
 impl<L: Lanes> Symmetric<L> {
-    /// The inverse of a matrix; zero where it has none.
+    /// The inverse of a matrix. Of one that answers along one direction alone, as where a body is locked along an axis, the
+    /// inverse along that; zero where it answers nothing.
     #[inline(always)]
     pub(super) fn invert(stride: &Stride<L>, xx: L, xy: L, yy: L) -> Self {
-        let inv = stride.invert(xx * yy - xy * xy);
-        Self { xx: yy * inv, xy: -(xy * inv), yy: xx * inv }
+        let (product, square) = (xx * yy, (xx + yy) * (xx + yy));
+        let det = product - xy * xy;
+        let whole = det.gt(L::splat(stride.token, SINGULAR) * product);
+        let inv = stride.invert(L::select(whole, det, square));
+        let [x, cross, y] =
+            [L::select(whole, yy, xx), L::select(whole, -xy, xy), L::select(whole, xx, yy)];
+        Self { xx: x * inv, xy: cross * inv, yy: y * inv }
     }
 
     #[inline(always)]

@@ -247,12 +247,11 @@ fn what_has_joints_bounces() {
     }
 }
 
-/// Trees of joints take their contacts out of the lanes: a ball that falls on a bridge bounces from it all the same.
-#[test]
-fn what_falls_on_a_bridge_bounces() {
+/// A bridge of eight planks, with a box of 7.2 kg on it that has come to rest.
+fn loaded_bridge() -> (World, BodyId) {
     let mut world = World::new(Vec2::new(0.0, -10.0));
     let plank = |k: u8| {
-        let shape = rect(0.5, 0.1).density(20.0).restitution(0.8);
+        let shape = rect(0.5, 0.1).density(20.0).restitution(0.8).events();
         RigidBody::dynamic().shape(shape).position(Vec2::new(f32::from(k), 0.0))
     };
     let planks: Vec<BodyId> = (0..8).map(|k| world.add_body(plank(k)).unwrap()).collect();
@@ -267,10 +266,36 @@ fn what_falls_on_a_bridge_bounces() {
         let hinge = world.body(pair[0]).unwrap().position() + Vec2::new(0.5, 0.0);
         world.add_joint(pair[0], pair[1], JointDef::revolute().anchor_at(hinge)).unwrap();
     }
-    // A load that lies on it.
     let load = RigidBody::dynamic().shape(rect(0.3, 0.3).density(20.0));
-    world.add_body(load.position(Vec2::new(1.0, 0.5))).unwrap();
+    let load = world.add_body(load.position(Vec2::new(1.0, 0.5))).unwrap();
     run(&mut world, 120);
+    (world, load)
+}
+
+/// Trees of joints take their contacts out of the lanes: what lies on a bridge presses on it once all the same, where impulses
+/// are summed up for hit events.
+#[test]
+fn what_lies_on_a_bridge_presses_once() {
+    let (mut world, load) = loaded_bridge();
+    let ball = RigidBody::dynamic().shape(Shape::circle(0.3).unwrap());
+    let ball = world.add_body(ball.position(Vec2::new(4.5, 0.4)).damping(0.5, 5.0)).unwrap();
+    for load in [load, ball] {
+        world.body_mut(load).unwrap().set_can_sleep(false);
+    }
+    run(&mut world, 600);
+    for load in [load, ball] {
+        let load = world.body(load).unwrap();
+        let forces = load.contacts().map(|contact| contact.force());
+        let force = forces.fold(Vec2::ZERO, |a, b| a + b).length();
+        let weight = 10.0 * load.mass();
+        assert!((force - weight).abs() < 0.02 * weight, "{force} in place of {weight} N");
+    }
+}
+
+/// And a ball that falls on it bounces.
+#[test]
+fn what_falls_on_a_bridge_bounces() {
+    let (mut world, _) = loaded_bridge();
     let ball = drop(&mut world, 5.0, 0.5, Vec2::new(0.0, -6.0), 0.0, 0.8);
     let mut up = 0.0_f32;
     for _ in 0..30 {

@@ -76,10 +76,12 @@ pub(crate) struct Bounces {
     changes: Vec<(u32, [f32; 3])>,
     /// Bodies that wait for what they hit first: they are looked at in the second round.
     pub(crate) waiting: Vec<u32>,
+    /// Impulses of bounces that events of hits tell.
+    told: Vec<(At, [f32; 2])>,
 }
 
 footprint!(Batch { blocks, aims, hits });
-footprint!(Bounces { approaching, list, hits, changes, waiting } each { found, batches } none { bounciest });
+footprint!(Bounces { approaching, list, hits, changes, waiting, told } each { found, batches } none { bounciest });
 
 impl Bounces {
     /// Begins with the contacts of a pace.
@@ -115,6 +117,15 @@ impl Bounces {
         }
     }
 
+    /// Adds the impulses of the bounces to those that events of hits tell.
+    pub(crate) fn end(&mut self, graph: &mut Graph) {
+        for (At { place, class, slot }, [first, second]) in self.told.drain(..) {
+            let surface = &mut graph.bucket_mut(place, class).surfaces[slot / BLOCK];
+            surface.total_1[slot % BLOCK] += first;
+            surface.total_2[slot % BLOCK] += second;
+        }
+    }
+
     /// Lists the contacts of changed bodies that are bouncy enough for the change to be handed on.
     fn list_near(&mut self, (bodies, contacts): (&Bodies, &Contacts), pace: usize, threshold: f32) {
         self.list.clear();
@@ -137,9 +148,9 @@ impl Bounces {
         &mut self,
         (team, level): (&Team, SimdLevel),
         parameters: &Parameters,
-        (bodies, graph): (&mut Bodies, &mut Graph),
+        (bodies, graph): (&mut Bodies, &Graph),
     ) {
-        let Self { hits, batches, changes, .. } = self;
+        let Self { hits, batches, changes, told, .. } = self;
         let count = copy_out(team, graph, hits, batches);
         let batches = &mut batches[..count];
         let both = batches.iter().flat_map(Batch::bodies).filter(|&body| bodies.is_dynamic(body));
@@ -151,7 +162,7 @@ impl Bounces {
         for _ in 0..ITERATIONS {
             batches.iter_mut().for_each(|batch| batch.run(team, level, parameters, rows));
         }
-        batches.iter().for_each(|batch| batch.add_totals(graph));
+        batches.iter().for_each(|batch| batch.tell(graph, told));
         for (body, change) in changes {
             let at = *body as usize;
             let (row, start) = (&bodies.rows[at], &mut bodies.starts[at]);
@@ -215,18 +226,13 @@ impl Batch {
         }
     }
 
-    /// Adds the impulses to those that events of hits tell.
-    fn add_totals(&self, graph: &mut Graph) {
-        for (index, Hit { at, .. }) in self.hits.iter().enumerate() {
-            let bucket = graph.bucket_mut(at.place, at.class);
-            let (block, lane) = (at.slot / BLOCK, at.slot % BLOCK);
-            if bucket.heads[block].flags & flags::HIT == 0 {
-                continue;
-            }
-            let surface = &mut bucket.surfaces[block];
-            let totals = [&mut surface.total_1, &mut surface.total_2];
-            for (total, point) in totals.into_iter().zip(&self.blocks[index / BLOCK].points) {
-                total[lane] += point.normal_impulse[index % BLOCK];
+    /// Lists the impulses that events of hits tell.
+    fn tell(&self, graph: &Graph, told: &mut Vec<(At, [f32; 2])>) {
+        for (index, &Hit { at, .. }) in self.hits.iter().enumerate() {
+            let (points, lane) = (&self.blocks[index / BLOCK].points, index % BLOCK);
+            let head = graph.bucket(at.place, at.class).heads[at.slot / BLOCK];
+            if head.flags & flags::HIT != 0 {
+                told.push((at, [0, 1].map(|k| points[k].normal_impulse[lane])));
             }
         }
     }

@@ -1,0 +1,149 @@
+//! What is called in every frame neither wakes what it does not change nor lets sleep what it acts on.
+
+use super::{DT, circle, ground, square, steps};
+use tiny_physics::prelude::*;
+
+/// A crate that lies on the ground, and how often it fell asleep in ten seconds of a call in each step.
+fn naps(call: impl Fn(&mut BodyMut<'_>)) -> usize {
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let body = RigidBody::dynamic().position((0.0, 0.5)).shape(square(0.5));
+    let body = world.add_body(body).unwrap();
+    let mut naps = 0;
+    for _ in 0..600 {
+        call(&mut world.body_mut(body).unwrap());
+        world.step(DT);
+        naps += world.events().fell_asleep().len();
+    }
+    naps
+}
+
+#[test]
+fn what_a_call_leaves_as_it_is_sleeps_on() {
+    assert_eq!(naps(|body| body.apply_force_to_center((0.0, 0.0))), 1);
+    assert_eq!(naps(|body| body.apply_torque(0.0)), 1);
+    assert_eq!(naps(|body| body.set_velocity(body.as_ref().velocity())), 1);
+    assert_eq!(naps(|body| body.set_angular_velocity(body.as_ref().angular_velocity())), 1);
+    assert_eq!(naps(|body| body.set_pose(body.as_ref().pose())), 1);
+}
+
+#[test]
+fn what_is_pushed_in_each_step_stays_awake() {
+    assert_eq!(naps(|body| body.apply_force_to_center((0.5, 0.0))), 0);
+    assert_eq!(naps(|body| body.apply_torque(0.1)), 0);
+}
+
+/// An editor or a component system writes the places of all things in each frame.
+#[test]
+fn a_platform_that_is_put_where_it_is_wakes_nobody() {
+    for kind in [BodyKind::Static, BodyKind::Kinematic] {
+        let mut world = World::new((0.0, -10.0));
+        let place = DVec2::new(3.3, 1.7);
+        let platform = RigidBody { kind, ..RigidBody::fixed() };
+        let platform = world.add_body(platform.position(place).shape(square(1.0))).unwrap();
+        let load = RigidBody::dynamic().position((3.3, 3.2)).shape(square(0.5));
+        let load = world.add_body(load).unwrap();
+        for step in 0..300 {
+            world.body_mut(platform).unwrap().set_position(place);
+            world.step(DT);
+            assert!(step < 100 || !world.body(load).unwrap().is_awake(), "{kind:?}, step {step}");
+        }
+        world.body_mut(platform).unwrap().set_position(place + Vec2::new(0.0, 0.1));
+        assert!(world.body(load).unwrap().is_awake());
+    }
+}
+
+/// No time at rest is asked for, but some rest is.
+#[test]
+fn what_flies_does_not_sleep_however_soon_it_may() {
+    let mut world = World::new((0.0, -10.0));
+    world.settings.time_to_sleep = 0.0;
+    ground(&mut world);
+    let ball = RigidBody::dynamic().position((0.0, 5.0)).shape(circle(0.5));
+    let ball = world.add_body(ball).unwrap();
+    steps(&mut world, 30);
+    assert!(world.body(ball).unwrap().position().y < 4.0);
+    steps(&mut world, 300);
+    let ball = world.body(ball).unwrap();
+    assert!((ball.position().y - 0.5).abs() < 0.01 && !ball.is_awake());
+}
+
+/// A crate that sleeps on the ground.
+fn sleeper(world: &mut World) -> (BodyId, BodyId) {
+    let ground = ground(world);
+    let body = RigidBody::dynamic().position((0.0, 0.5)).shape(square(0.5));
+    let body = world.add_body(body).unwrap();
+    steps(world, 120);
+    assert!(!world.body(body).unwrap().is_awake(), "no sleeper to start with");
+    (ground, body)
+}
+
+#[test]
+fn a_joint_that_pulls_wakes_what_it_pulls() {
+    let hoist = JointDef::distance(4.0).anchors_at((0.0, 4.5), (0.0, 0.5));
+    let joints = [JointDef::mouse((0.0, 3.0), 1e4), hoist.limits(0.5, 5.0).motor(-1.0, 1e5)];
+    for joint in joints {
+        let mut world = World::new((0.0, -10.0));
+        let (ground, body) = sleeper(&mut world);
+        world.add_joint(ground, body, joint).unwrap();
+        steps(&mut world, 120);
+        let height = world.body(body).unwrap().position().y;
+        assert!(height > 2.0, "{:?}: {height}", joint.kind);
+    }
+    let mut world = World::new((0.0, -10.0));
+    let (ground, body) = sleeper(&mut world);
+    world
+        .add_joint(ground, body, JointDef::revolute().anchor_at((0.0, 0.5)).collide_connected())
+        .unwrap();
+    assert!(!world.body(body).unwrap().is_awake(), "a hinge changes nothing");
+}
+
+/// What hangs on a hook that is switched off and on is pulled up, whatever the hook is.
+#[test]
+fn a_hook_that_is_switched_on_again_pulls() {
+    for kind in [BodyKind::Static, BodyKind::Kinematic] {
+        let mut world = World::new((0.0, -10.0));
+        ground(&mut world);
+        let hook = RigidBody { kind, ..RigidBody::fixed() };
+        let hook = world.add_body(hook.position((0.0, 4.0))).unwrap();
+        let ball = RigidBody::dynamic().position((0.0, 4.0)).shape(circle(0.5));
+        let ball = world.add_body(ball).unwrap();
+        world.add_joint(hook, ball, JointDef::weld().anchor_at((0.0, 4.0))).unwrap();
+        world.body_mut(hook).unwrap().set_enabled(false);
+        steps(&mut world, 240);
+        assert!(!world.body(ball).unwrap().is_awake(), "it fell asleep on the ground");
+        world.body_mut(hook).unwrap().set_enabled(true);
+        steps(&mut world, 300);
+        let height = world.body(ball).unwrap().position().y;
+        assert!((height - 4.0).abs() < 0.05, "{kind:?}: {height}");
+    }
+}
+
+/// A ball that the player rolls to and fro does not rock, be it pushed or the world tilted.
+#[test]
+fn what_is_steered_to_and_fro_is_not_slowed() {
+    for tilts in [false, true] {
+        let mut world = World::new((0.0, -10.0));
+        ground(&mut world);
+        let ball = RigidBody::dynamic().position((0.0, 0.3)).shape(circle(0.3)).mass(1.0);
+        let ball = world.add_body(ball).unwrap();
+        let steer = |world: &mut World, push: f32| {
+            if tilts {
+                world.gravity = Vec2::new(push, -10.0);
+            } else {
+                world.body_mut(ball).unwrap().apply_force_to_center((push, 0.0));
+            }
+            world.step(DT);
+            world.body(ball).unwrap().velocity().x
+        };
+        for swing in 0..10 {
+            let push = if swing % 2 == 0 { 0.8 } else { -0.8 };
+            (0..if swing == 0 { 20 } else { 40 }).for_each(|_| _ = steer(&mut world, push));
+        }
+        let before = world.body(ball).unwrap().velocity().x;
+        let after = (0..30).fold(before, |_, _| steer(&mut world, 0.3));
+        // A disk of m and m r^2 / 2 that rolls takes two thirds of the push.
+        let gained = (after - before) / (0.3 * 0.5 * 2.0 / 3.0);
+        assert!((gained - 1.0).abs() < 0.05, "tilts {tilts}: {gained}");
+    }
+}
