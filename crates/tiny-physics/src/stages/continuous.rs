@@ -441,7 +441,7 @@ impl Search<'_> {
         let held = || self.is_held([record, other], outwards, there(1.0));
         if hit
             && solid_along(toi.normal)
-            && !self.is_ghost(record, index, there(toi.fraction))
+            && !self.is_ghost(shape, index, there(toi.fraction))
             && (course.from != 0.0 || !held())
         {
             return Some(Meeting { fraction: toi.fraction, body: other.body, lost: Vec2::ZERO });
@@ -452,6 +452,9 @@ impl Search<'_> {
         }
         let inner = Inner::new(record, body);
         let (fraction, normal) = inner.first_fraction(&other.shape, &motion, first, length_unit)?;
+        if !solid_along(normal) {
+            return None;
+        }
         let lost = self.driving_velocity(inner.relative_way(&motion), normal);
         Some(Meeting { fraction, body: other.body, lost })
     }
@@ -489,18 +492,19 @@ impl Search<'_> {
     }
 
     /// Does a shape at this place (in the other's frame) only hit a seam between static shapes?
-    fn is_ghost(&self, record: &ShapeRecord, other: u32, place: Transform) -> bool {
+    fn is_ghost(&self, shape: u32, other: u32, place: Transform) -> bool {
         if self.scene.shapes.guards[other as usize] == 0 {
             return false;
         }
         let Scene { bodies, shapes, broad_phase, rules, .. } = self.scene;
-        let ground = Ground::new(bodies, shapes, broad_phase, rules.length_unit);
-        let hit = &shapes.records[other as usize];
+        let Rules { joints, custom, length_unit, .. } = rules;
+        let ground = Ground { bodies, shapes, broad_phase, joints, custom, length_unit };
+        let [record, hit] = [shape, other].map(|shape| &shapes.records[shape as usize]);
         let gap = distance(&hit.shape, &record.shape, place);
         let point = hit.box_frame.unapply(gap.point_a);
         let normal = hit.box_frame.q.unrotate(gap.normal);
-        let middle = hit.box_frame.unapply(place.apply(surfaces::middle(&record.shape.core())));
-        Seams::new(ground, other, record).is_ghost([Some(point), None], normal, middle)
+        let place = place.compose(record.box_frame).relative_to(hit.box_frame);
+        Seams::new(ground, other, shape, place).is_ghost([Some(point), None], normal)
     }
 
     fn may_collide(&self, (shape, record): (u32, &ShapeRecord), index: u32) -> bool {

@@ -1,8 +1,8 @@
 //! What the narrow phase reads.
 
+use super::pairs::PairRule;
 use crate::broad_phase::BroadPhase;
-use crate::dynamics::{Bodies, BodyInfo, ShapeRecord, Shapes};
-use crate::math::Pose;
+use crate::dynamics::{Bodies, BodyInfo, Joints, Shapes};
 use crate::simd::{Row, SimdLevel};
 
 /// What the narrow phase reads.
@@ -26,22 +26,18 @@ pub(crate) struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
-    /// `settings` are the SIMD level, the speculative distance and the length unit.
     pub(crate) fn new(
-        bodies: &'a Bodies,
-        shapes: &'a Shapes,
-        broad_phase: &'a BroadPhase,
-        (level, speculative_distance, length_unit): (SimdLevel, f32, f32),
-        jointed: bool,
+        ground: Ground<'a>,
+        (level, speculative_distance): (SimdLevel, f32),
         (dt, fast, naming): (f32, bool, bool),
     ) -> Self {
         Self {
             level,
-            body_rows: &bodies.rows,
-            shape_rows: &shapes.rows,
-            infos: jointed.then_some(&bodies.infos),
+            body_rows: &ground.bodies.rows,
+            shape_rows: &ground.shapes.rows,
+            infos: (ground.joints.count > 0).then_some(&ground.bodies.infos),
             speculative_distance,
-            ground: Ground::new(bodies, shapes, broad_phase, length_unit),
+            ground,
             dt,
             fast,
             naming,
@@ -49,24 +45,25 @@ impl<'a> Context<'a> {
     }
 }
 
-/// Where static shapes are found.
+/// Where static shapes are found, and who meets whom.
 #[derive(Clone, Copy)]
 pub(crate) struct Ground<'a> {
-    pub(crate) shapes: &'a [ShapeRecord],
-    pub(crate) guards: &'a [u32],
-    pub(crate) poses: &'a [Pose],
+    pub(crate) bodies: &'a Bodies,
+    pub(crate) shapes: &'a Shapes,
     pub(crate) broad_phase: &'a BroadPhase,
+    pub(crate) joints: &'a Joints,
+    /// The user's word on a pair of shapes, if there is any.
+    pub(crate) custom: Option<&'a dyn PairRule>,
     pub(crate) length_unit: f32,
 }
 
-impl<'a> Ground<'a> {
-    pub(crate) fn new(
-        bodies: &'a Bodies,
-        shapes: &'a Shapes,
-        broad_phase: &'a BroadPhase,
-        length_unit: f32,
-    ) -> Self {
-        let Shapes { records, guards, .. } = shapes;
-        Self { shapes: records, guards, poses: &bodies.poses, broad_phase, length_unit }
+impl Ground<'_> {
+    /// May two shapes collide, whatever they are?
+    pub(crate) fn allows(&self, a: u32, b: u32) -> bool {
+        let Self { bodies, shapes, joints, custom, .. } = *self;
+        let [one, other] = [a, b].map(|shape| &shapes.records[shape as usize]);
+        one.filter.collides(&other.filter)
+            && joints.may_collide(bodies, one.body, other.body)
+            && custom.is_none_or(|rule| rule.allows(bodies, shapes, a, b))
     }
 }

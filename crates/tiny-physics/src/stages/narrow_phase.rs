@@ -116,7 +116,7 @@ impl PairKernel for General {
 fn outlines<'a>(context: &Context<'a>, shapes: &[u32]) -> [Outline<'a>; BLOCK] {
     let mut outlines = [Outline::UNIT_BOX; BLOCK];
     for (outline, &shape) in outlines.iter_mut().zip(shapes) {
-        let record = &context.ground.shapes[shape as usize];
+        let record = &context.ground.shapes.records[shape as usize];
         let row = &context.shape_rows[shape as usize];
         let half = Vec2::new(row[4], row[5]);
         *outline = Outline::of(&record.shape, record.class, record.box_frame.p, half);
@@ -224,7 +224,8 @@ impl<L: Lanes> Geometry<L> {
         at: usize,
         load: L,
     ) -> Self {
-        let (between, turn_a, turn_b) = gather_poses::<L>(token, context.ground.poses, block, at);
+        let (between, turn_a, turn_b) =
+            gather_poses::<L>(token, &context.ground.bodies.poses, block, at);
         let shape_a = L::gather(token, context.shape_rows, &block.shape_a[at..]);
         let shape_b = L::gather(token, context.shape_rows, &block.shape_b[at..]);
         let body_a = L::gather(token, context.body_rows, &block.body_a[at..]);

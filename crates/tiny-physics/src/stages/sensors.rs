@@ -17,6 +17,9 @@ use crate::threads::Team;
 use crate::work;
 use core::ops::ControlFlow;
 
+/// Shapes that come so near to each other on their ways overlap, in slops of contacts; round ones so deep.
+const GRAZE: f32 = 0.1;
+
 /// Sensors that one member of the team looks after at a time.
 const CHUNK: usize = 8;
 /// So many sensors are looked at one by one, where a fast body might have gone through one.
@@ -248,7 +251,7 @@ impl Scene<'_> {
         let (shape, other) = (record(shape), record(other));
         let step = FastBody::of_step(self.bodies, other.body);
         let motion = step.seen_from(fast.start).child(other.central);
-        let slop = LINEAR_SLOP * self.length_unit;
+        let slop = GRAZE * LINEAR_SLOP * self.length_unit;
         let toi = impact_within(&shape.shape, moving, &other.shape, &motion, (0.0, 1.0), slop)?;
         let closes = || toi.normal.dot(moving.translation() - motion.translation()) > 0.0;
         let gap = || motion.at(0.0).relative_to(moving.at(0.0));

@@ -110,7 +110,7 @@ pub(crate) struct Pair {
 
 /// Corrects the manifold of a pair of which one shape at least is guarded.
 pub(crate) fn correct(context: &Context<'_>, pair: Pair, lane: &mut LanePoints) {
-    let guards = context.ground.guards;
+    let guards = &context.ground.shapes.guards;
     let frames = [Transform::IDENTITY, pair.b_in_a];
     let shapes = [pair.shape_a, pair.shape_b];
     for side in [0, 1] {
@@ -145,31 +145,33 @@ pub(crate) struct Seams<'a> {
     ground: Ground<'a>,
     own: u32,
     record: &'a ShapeRecord,
-    other: &'a ShapeRecord,
+    other: u32,
+    other_core: Core,
     guard: u32,
     core: Core,
 }
 
 impl<'a> Seams<'a> {
-    pub(crate) fn new(ground: Ground<'a>, own: u32, other: &'a ShapeRecord) -> Self {
-        let record = &ground.shapes[own as usize];
-        let guard = ground.guards[own as usize];
-        Self { ground, own, record, other, guard, core: boxed_core(record) }
+    /// `place` is that of the other shape's rounded box in the frame of its own.
+    pub(crate) fn new(ground: Ground<'a>, own: u32, other: u32, place: Transform) -> Self {
+        let record = &ground.shapes.records[own as usize];
+        let guard = ground.shapes.guards[own as usize];
+        let other_core = boxed_core(&ground.shapes.records[other as usize]).transformed(place);
+        Self { ground, own, record, other, other_core, guard, core: boxed_core(record) }
     }
 
     /// Does the surface made by all static shapes lack this normal at these points of contact?
-    /// `middle` is that of the other shape.
-    pub(crate) fn is_ghost(&self, points: [Option<Vec2>; 2], normal: Vec2, middle: Vec2) -> bool {
+    pub(crate) fn is_ghost(&self, points: [Option<Vec2>; 2], normal: Vec2) -> bool {
         if let Some(link) = self.record.link {
-            return !self.link_has(link, normal, middle);
+            return !self.link_has(link, normal);
         }
         if let Some(face) = face_of(&self.core, normal) {
-            return self.guard & guard::face(face) != 0 && self.is_covered(face, points, middle);
+            return self.guard & guard::face(face) != 0 && self.is_covered(face, points);
         }
         let is_ghost = |point: Vec2| {
             let vertex = nearest_vertex(&self.core, point);
             self.guard & guard::corner(vertex) != 0
-                && self.goes_on(self.core.points[vertex], normal, middle)
+                && self.goes_on(self.core.points[vertex], normal)
         };
         // The end of a board that comes down tilted has a true corner beside the one within the board.
         let count = if self.kind() == Some(ProxyKind::Dynamic) { 2 } else { 1 };
@@ -178,25 +180,24 @@ impl<'a> Seams<'a> {
     }
 
     /// Has a segment of a chain this normal: that of its face, or one of a corner that sticks out?
-    fn link_has(&self, link: ChainLink, normal: Vec2, middle: Vec2) -> bool {
+    fn link_has(&self, link: ChainLink, normal: Vec2) -> bool {
         if face_of(&self.core, normal) == Some(0) {
             return true;
         }
         let (a, b) = (self.core.points[0], self.core.points[1]);
         let (corner, end) =
             if normal.dot(b - a) < 0.0 { (a, link.previous) } else { (b, link.next) };
-        let free = match end {
-            None => !self.goes_on(corner, normal, middle),
-            Some(end) => {
-                let way = self.record.box_frame.unapply(end) - corner;
-                normal.dot(way) <= LINK_TOLERANCE * way.length()
-            }
-        };
+        let leans_on = end.is_none_or(|end| {
+            let way = self.record.box_frame.unapply(end) - corner;
+            normal.dot(way) > LINK_TOLERANCE * way.length()
+        });
+        // The next segment may be gone.
+        let free = !leans_on || !self.goes_on(corner, normal);
         free && normal.dot(self.core.normal(0)) > 0.0
     }
 
     /// Do other static shapes cover a face around all points of contact with it?
-    fn is_covered(&self, face: usize, points: [Option<Vec2>; 2], middle: Vec2) -> bool {
+    fn is_covered(&self, face: usize, points: [Option<Vec2>; 2]) -> bool {
         let unit = self.ground.length_unit;
         let (start, end) = self.core.edge(face);
         let along = self.core.normal(face).perp();
@@ -217,8 +218,8 @@ impl<'a> Seams<'a> {
                 count += 1;
             }
         }
-        let mut covered = [false; 4];
-        self.each_neighbour(&probes[..count], middle, |neighbour| {
+        let (mut covered, middle) = ([false; 4], middle(&self.other_core));
+        self.each_neighbour(&probes[..count], |neighbour| {
             // What the other shape is in itself makes no surface for it.
             if point_gap(neighbour, middle) <= 0.0 {
                 return;
@@ -231,10 +232,10 @@ impl<'a> Seams<'a> {
     }
 
     /// Does another static shape go on from a corner in the direction of the normal?
-    fn goes_on(&self, corner: Vec2, normal: Vec2, middle: Vec2) -> bool {
+    fn goes_on(&self, corner: Vec2, normal: Vec2) -> bool {
         let unit = self.ground.length_unit;
         let mut ghost = false;
-        self.each_neighbour(&[corner], middle, |neighbour| {
+        self.each_neighbour(&[corner], |neighbour| {
             ghost |= point_gap(neighbour, corner) <= TOLERANCE * unit
                 && support_height(neighbour, normal) - normal.dot(corner) > CONE_TOLERANCE * unit;
         });
@@ -242,10 +243,10 @@ impl<'a> Seams<'a> {
     }
 
     /// Does what makes one surface with this shape at a point lie over a face, by a real width?
-    fn lies_over(&self, (start, end): (Vec2, Vec2), point: Vec2, middle: Vec2) -> bool {
+    fn lies_over(&self, (start, end): (Vec2, Vec2), point: Vec2) -> bool {
         let along = (end - start).normalized();
         let mut over = false;
-        self.each_neighbour(&[point], middle, |neighbour| {
+        self.each_neighbour(&[point], |neighbour| {
             let behind = along.dot(end).min(support_height(neighbour, along));
             let before = along.dot(start).max(-support_height(neighbour, -along));
             over |= behind - before > REACH * self.ground.length_unit;
@@ -253,32 +254,45 @@ impl<'a> Seams<'a> {
         over
     }
 
+    /// Does the other shape pass a one-way neighbour, as it is not on the solid side of that? Among one-way shapes all make one surface.
+    fn is_passed_from_below(&self, neighbour: &ShapeRecord, core: &Core, place: Transform) -> bool {
+        let Some(way) = way_of(neighbour).filter(|_| self.record.one_way.is_none()) else {
+            return false;
+        };
+        let way = place.q.rotate(way);
+        let lowest = -support_height(&self.other_core, -way);
+        lowest < support_height(core, way) - REACH * self.ground.length_unit
+    }
+
     fn kind(&self) -> Option<ProxyKind> {
         self.ground.broad_phase.kind(ProxyId(self.record.proxy))
     }
 
     fn own_pose(&self) -> Pose {
-        boxed_pose(self.ground.poses, self.record)
+        boxed_pose(&self.ground.bodies.poses, self.record)
     }
 
     /// Visits the cores of the shapes near some points that make one surface with this one, in this frame
-    /// and no fixed order, as what has its middle there meets them.
-    fn each_neighbour(&self, points: &[Vec2], middle: Vec2, mut visit: impl FnMut(&Core)) {
-        let Ground { shapes, poses, broad_phase, length_unit, .. } = self.ground;
+    /// and no fixed order, as the other shape meets them.
+    fn each_neighbour(&self, points: &[Vec2], mut visit: impl FnMut(&Core)) {
+        let Ground { bodies, shapes, broad_phase, length_unit, .. } = self.ground;
         let pose = self.own_pose();
         let bounds = world_box(pose, points, TOLERANCE * length_unit);
         let Some(kind) = self.kind() else { return };
         broad_phase.each_of(kind, &bounds, u64::MAX, |index| {
-            let neighbour = &shapes[index as usize];
+            let neighbour = &shapes.records[index as usize];
             if index != self.own
                 && is_ground(neighbour, self.record, kind)
-                && neighbour.body != self.other.body
-                && neighbour.filter.collides(&self.other.filter)
+                && neighbour.body != shapes.records[self.other as usize].body
+                && self.ground.allows(index, self.other)
             {
-                let place = boxed_pose(poses, neighbour).relative_to(pose);
+                let place = boxed_pose(&bodies.poses, neighbour).relative_to(pose);
                 let core = boxed_core(neighbour).transformed(place);
-                let is_before =
-                    core.count < 2 || core.normal(0).dot(middle - core.points[0]) >= 0.0;
+                let before = middle(&self.other_core) - core.points[0];
+                let is_before = core.count < 2 || core.normal(0).dot(before) >= 0.0;
+                if self.is_passed_from_below(neighbour, &core, place) {
+                    return;
+                }
                 if let Some(core) = solid(core, neighbour.link, is_before, length_unit) {
                     visit(&core);
                 }
@@ -291,11 +305,10 @@ impl<'a> Seams<'a> {
 struct View<'a> {
     context: &'a Context<'a>,
     seams: Seams<'a>,
-    /// Frame of the guarded shape's rounded box: everything below is in it.
+    /// Frame of the guarded shape's rounded box: everything else is in it.
     frame: Transform,
     /// 1 where the guarded shape is A: the kernels' normal points out of it.
     sign: f32,
-    other_core: Core,
 }
 
 impl<'a> View<'a> {
@@ -306,14 +319,12 @@ impl<'a> View<'a> {
         frames: [Transform; 2],
         side: usize,
     ) -> Self {
-        let other = &context.ground.shapes[other as usize];
         let other_in_own = frames[1 - side].relative_to(frames[side]);
         Self {
             context,
-            seams: Seams::new(context.ground, own, other),
+            seams: Seams::new(context.ground, own, other, other_in_own),
             frame: frames[side],
             sign: if side == 0 { 1.0 } else { -1.0 },
-            other_core: boxed_core(other).transformed(other_in_own),
         }
     }
 
@@ -325,7 +336,10 @@ impl<'a> View<'a> {
         if self.seams.guard & guard::ONE_WAY != 0 {
             let solid = match face_of(&self.seams.core, normal) {
                 Some(face) => self.is_solid(face),
-                None => self.seams.core.radius > 0.0 && self.is_against_way(normal),
+                None => {
+                    self.is_against_way(normal)
+                        && (self.seams.core.radius > 0.0 || self.meets_a_corner(normal))
+                }
             };
             if !solid {
                 return self.best_face();
@@ -339,41 +353,53 @@ impl<'a> View<'a> {
     fn judge_link(&self, normal: Vec2, link: ChainLink) -> Verdict {
         let face = self.seams.core.normal(0);
         let a = self.seams.core.points[0];
-        if face.dot(middle(&self.other_core) - a) < 0.0 {
+        let Self { seams, context, .. } = self;
+        let is_behind = face.dot(middle(&seams.other_core) - a) < 0.0;
+        // What leans on the end has its middle behind, perhaps.
+        let is_open = link.previous.is_none() || link.next.is_none();
+        if is_behind && !(is_open && self.meets_a_corner(normal)) {
             return Verdict::Drop;
         }
-        if self.seams.link_has(link, normal, middle(&self.other_core)) {
+        if seams.link_has(link, normal) {
             return Verdict::Keep;
         }
-        let Self { seams, other_core, context, .. } = self;
-        let manifold =
-            collide_face(&seams.core, 0, [0.0; 2], other_core, context.speculative_distance);
+        if is_behind {
+            return Verdict::Drop;
+        }
+        let limit = context.speculative_distance;
+        let manifold = collide_face(&seams.core, 0, [0.0; 2], &seams.other_core, limit);
         if manifold.count == 0 { Verdict::Drop } else { Verdict::Replace(manifold) }
     }
 
     /// Is it a corner within the surface of a body that moves freely, before a face of the other over which that surface goes on?
     /// Then the face is met as what it is: by a face of this part the normal would be tilted.
     fn is_before_a_face(&self, lane: &LanePoints, normal: Vec2) -> bool {
-        let Self { seams, other_core, .. } = self;
-        let Some(face) = face_of(other_core, -normal) else { return false };
+        let seams = &self.seams;
+        let Some(face) = face_of(&seams.other_core, -normal) else { return false };
         let k = usize::from(!lane.is_valid(0, self.context.speculative_distance));
         let corner = nearest_vertex(&seams.core, self.frame.unapply(lane.point(k)));
         seams.kind() == Some(ProxyKind::Dynamic)
             && face_of(&seams.core, normal).is_none()
-            && seams.lies_over(other_core.edge(face), seams.core.points[corner], middle(other_core))
+            && seams.lies_over(seams.other_core.edge(face), seams.core.points[corner])
+    }
+
+    /// Is a corner met by a face of the other shape?
+    fn meets_a_corner(&self, normal: Vec2) -> bool {
+        let Seams { core, other_core, .. } = &self.seams;
+        face_of(core, normal).is_none() && face_of(other_core, -normal).is_some()
     }
 
     fn is_ghost(&self, lane: &LanePoints, normal: Vec2) -> bool {
         let limit = self.context.speculative_distance;
         let points =
             [0, 1].map(|k| lane.is_valid(k, limit).then(|| self.frame.unapply(lane.point(k))));
-        self.seams.is_ghost(points, normal, middle(&self.other_core))
+        self.seams.is_ghost(points, normal)
     }
 
     /// The contact with the highest solid face that is not covered and has the other shape's middle in
     /// front of it.
     fn best_face(&self) -> Verdict {
-        let middle = middle(&self.other_core);
+        let middle = middle(&self.seams.other_core);
         let mut tried = 0_u32;
         loop {
             let mut best: Option<(usize, f32, Manifold)> = None;
@@ -395,9 +421,7 @@ impl<'a> View<'a> {
             }
             let Some((face, _, manifold)) = best else { return Verdict::Drop };
             let points = [0, 1].map(|k| manifold.points().get(k).map(|p| p.point));
-            if self.seams.guard & guard::face(face) == 0
-                || !self.seams.is_covered(face, points, middle)
-            {
+            if self.seams.guard & guard::face(face) == 0 || !self.seams.is_covered(face, points) {
                 return Verdict::Replace(manifold);
             }
             tried |= 1 << face;
@@ -407,19 +431,13 @@ impl<'a> View<'a> {
     /// The contact with a face. Where others touch its ends it goes on a little: a ball whose middle is over the gap between two
     /// tiles would find neither.
     fn collide(&self, face: usize) -> Manifold {
-        let Self { seams, other_core, context, .. } = self;
+        let Self { seams, context, .. } = self;
         let beyond = [face, (face + 1) % seams.core.points().len()].map(|corner| {
             let goes_on = seams.guard & guard::corner(corner) != 0;
             if goes_on { TOLERANCE * seams.ground.length_unit } else { 0.0 }
         });
-        collide_face(&seams.core, face, beyond, other_core, context.speculative_distance)
-    }
-
-    /// The direction of a one-way platform.
-    fn way(&self) -> Option<Vec2> {
-        let way = self.seams.record.one_way?;
-        let frame = self.seams.record.central.compose(self.seams.record.box_frame);
-        Some(frame.q.unrotate(way).normalized())
+        let limit = context.speculative_distance;
+        collide_face(&seams.core, face, beyond, &seams.other_core, limit)
     }
 
     /// May something stand on this face?
@@ -429,16 +447,20 @@ impl<'a> View<'a> {
 
     /// May something stand on what has this normal?
     fn is_against_way(&self, normal: Vec2) -> bool {
-        self.way().is_none_or(|way| normal.dot(way) > one_way::LEAST_COSINE)
+        way_of(self.seams.record).is_none_or(|way| normal.dot(way) > one_way::LEAST_COSINE)
     }
+}
+
+/// The direction of a one-way platform, in the frame of its rounded box.
+fn way_of(record: &ShapeRecord) -> Option<Vec2> {
+    let frame = record.central.compose(record.box_frame);
+    record.one_way.map(|way| frame.q.unrotate(way).normalized())
 }
 
 /// Can a shape cover another, `own`, of the same kind of body? What moves makes a surface only with the
 /// rest of its body.
 fn is_ground(record: &ShapeRecord, own: &ShapeRecord, kind: ProxyKind) -> bool {
-    let solid = !record.sensor;
-    let together = kind == ProxyKind::Static || record.body == own.body;
-    solid && together && (own.one_way.is_some() || record.one_way.is_none())
+    !record.sensor && (kind == ProxyKind::Static || record.body == own.body)
 }
 
 /// What goes on behind a core: a line, from before or behind its first face, is one side of something thick. The segment of a chain is

@@ -52,11 +52,12 @@ use crate::math::Vec2;
 use crate::simd::SimdLevel;
 use crate::stages::boxes::Moved;
 use crate::stages::finalize::{FastBody, Findings};
+use crate::stages::narrow_context::{Context, Ground};
 use crate::stages::solve::{Lengths, Solver};
 use crate::stages::touching::Changes;
 use crate::stages::{
-    ahead, arcs, boxes, continuous, finalize, narrow_context, narrow_phase, paces, pairs, rocking,
-    sleep, solve, surfaces, sway, touching,
+    ahead, arcs, boxes, continuous, finalize, narrow_phase, paces, pairs, rocking, sleep, solve,
+    surfaces, sway, touching,
 };
 use crate::threads::{Habit, Pool, Team};
 use state::State;
@@ -288,11 +289,11 @@ impl World {
     fn run_narrow_phase(&mut self, team: &Team, lengths: Lengths, naming: bool) {
         let anything_fast = !self.scratch.ways.of_shapes.is_empty();
         let step = (lengths.dt, anything_fast, naming);
-        let settings = (self.level, self.contact_reach(), self.settings.length_unit);
+        let (level, reach) = (self.level, self.contact_reach());
+        let (custom, length_unit) = (self.hooks.pair_filter(), self.settings.length_unit);
         let State { bodies, shapes, broad_phase, joints, graph, .. } = &mut self.state;
-        let jointed = joints.count > 0;
-        let context =
-            narrow_context::Context::new(bodies, shapes, broad_phase, settings, jointed, step);
+        let ground = Ground { bodies, shapes, broad_phase, joints, custom, length_unit };
+        let context = Context::new(ground, (level, reach), step);
         let Scratch { schedule, predictions, .. } = &self.scratch;
         narrow_phase::run(team, context, graph, schedule, predictions);
         graph.clear_fresh();
@@ -325,11 +326,12 @@ impl World {
 
     /// Looks for the impacts of candidates. Do they take bodies so far off their ways that there is to be another round?
     fn predict_round(&mut self, team: &Team, lengths: Lengths) -> bool {
-        let settings = (self.level, self.contact_reach(), self.settings.length_unit);
+        let (level, reach) = (self.level, self.contact_reach());
+        let (custom, length_unit) = (self.hooks.pair_filter(), self.settings.length_unit);
         let step = (lengths.dt, false, false);
-        let State { bodies, shapes, contacts, broad_phase, graph, .. } = &mut self.state;
-        let narrow_phase =
-            narrow_context::Context::new(bodies, shapes, broad_phase, settings, false, step);
+        let State { bodies, shapes, contacts, broad_phase, joints, graph, .. } = &mut self.state;
+        let ground = Ground { bodies, shapes, broad_phase, joints, custom, length_unit };
+        let narrow_phase = Context::new(ground, (level, reach), step);
         let (dt, substeps) = (lengths.dt, lengths.substeps as f32);
         let scene = ahead::Scene { bodies, shapes, contacts, graph, narrow_phase, dt, substeps };
         self.scratch.predictions.round(team, scene)

@@ -1,0 +1,199 @@
+//! Where surfaces end or go on as something else: one-way ground beside solid ground, ends of platforms, holes in chains, and
+//! neighbours that somebody passes.
+
+mod common;
+
+use common::{DT, Random, circle, rect, steps, world};
+use tiny_physics::{BodyId, ChainDef, JointDef, Locks, RigidBody, ShapeDef, TileGrid, Vec2, World};
+
+fn dynamic(world: &mut World, shape: ShapeDef, place: Vec2) -> BodyId {
+    world.add_body(RigidBody::dynamic().position(place).shape(shape)).expect("a body")
+}
+
+fn fixed(world: &mut World, shape: ShapeDef, place: Vec2) -> BodyId {
+    world.add_body(RigidBody::fixed().position(place).shape(shape)).expect("ground")
+}
+
+fn y(world: &World, body: BodyId) -> f32 {
+    world.body(body).expect("it is there").position().y
+}
+
+/// Boxes, balls and capsules slide from one-way tiles onto solid ones and back, at all speeds.
+#[test]
+fn one_way_tiles_and_solid_ones_make_one_floor() {
+    let mut random = Random::new(5);
+    for row in ["------######", "######------", "--##--##--##"] {
+        for member in 0..24 {
+            let mut world = world();
+            world
+                .add_tiles(TileGrid::parse(1.0, &[row]).expect("tiles").friction(0.0))
+                .expect("a level");
+            let top = 1.0;
+            let half = random.range(0.15, 0.45);
+            let shape = [rect(half, half), rect(1.5 * half, half), circle(half)][member % 3];
+            let body = RigidBody::dynamic().position(Vec2::new(1.0, top + half));
+            let body = body.shape(ShapeDef::new(shape).friction(0.0));
+            let body = body.locks(Locks { rotation: member % 2 == 0, ..Locks::default() });
+            let body = world.add_body(body).expect("a body");
+            steps(&mut world, 30);
+            let speed = random.range(0.5, 12.0);
+            world.body_mut(body).expect("a body").set_velocity(Vec2::new(speed, 0.0));
+            while world.body(body).expect("a body").position().x < 10.5 {
+                world.step(DT);
+                let body = world.body(body).expect("a body");
+                let (place, velocity) = (body.position(), body.velocity());
+                let off = (place.y - top - half).abs();
+                assert!(
+                    velocity.x > 0.99 * speed && off < 0.01,
+                    "{row} {member}: {velocity:?} of {speed}, {off}"
+                );
+            }
+        }
+    }
+}
+
+/// And a wall that one-way ground runs into is a wall for what is inside that ground or comes under it.
+#[test]
+fn a_wall_beside_one_way_ground_stays_a_wall() {
+    let mut world = world();
+    world.gravity = Vec2::ZERO;
+    fixed(&mut world, ShapeDef::new(rect(2.0, 0.5)).one_way(Vec2::Y), Vec2::new(-2.0, 0.0));
+    fixed(&mut world, rect(2.0, 0.5).into(), Vec2::new(2.0, 0.0));
+    for height in [0.3, 0.0, -0.3] {
+        let body = dynamic(&mut world, rect(0.3, 0.3).into(), Vec2::new(-3.0, height));
+        world.body_mut(body).expect("a body").set_velocity(Vec2::new(3.0, 0.0));
+        steps(&mut world, 120);
+        let x = world.body(body).expect("a body").position().x;
+        assert!(x < -0.28, "{height}: {x}");
+        world.remove_body(body).expect("it was there");
+    }
+}
+
+/// What comes aslant into the end of a one-way platform passes, however fast.
+#[test]
+fn the_end_of_a_one_way_platform_stops_nobody() {
+    let mut random = Random::new(6);
+    for member in 0..60 {
+        let mut world = world();
+        world.gravity = Vec2::ZERO;
+        let platform = ShapeDef::new(rect(2.0, 1.0)).one_way(Vec2::Y);
+        fixed(&mut world, platform, Vec2::ZERO);
+        let size = random.range(0.05, 0.4);
+        let shape = if member % 2 == 0 { circle(size) } else { rect(size, size) };
+        let (speed, slope) = (random.range(5.0, 60.0), random.range(0.2, 1.7));
+        let velocity = Vec2::new(1.0, -slope).normalized() * speed;
+        // At the end, so deep that what meets it was beside the platform a step ago: the underside, or the middle of a ball.
+        let round = if member % 2 == 0 { size } else { 0.0 };
+        let depth = random.range(0.02, 0.6) + round - velocity.y * DT;
+        let meets = Vec2::new(-2.0 - size, 1.0 + size - depth);
+        let place = meets - velocity * (DT * random.range(0.2, 3.0));
+        let body = dynamic(&mut world, shape.into(), place);
+        world.body_mut(body).expect("a body").set_velocity(velocity);
+        steps(&mut world, 20);
+        let now = world.body(body).expect("a body").velocity();
+        assert!((now - velocity).length() < 0.01 * speed, "{member}: {now:?} of {velocity:?}");
+    }
+}
+
+/// Planks lean on the edge of a platform, and tip over it, as they do on a solid one.
+#[test]
+fn planks_lean_on_the_edges_of_one_way_platforms() {
+    for tilt in [0.3_f32, 0.5, 0.7] {
+        let heights = [false, true].map(|one_way| {
+            let mut world = world();
+            fixed(&mut world, rect(20.0, 0.5).into(), Vec2::new(0.0, -1.6));
+            let platform = ShapeDef::new(rect(2.0, 0.1)).friction(0.8);
+            let platform = if one_way { platform.one_way(Vec2::Y) } else { platform };
+            fixed(&mut world, platform, Vec2::ZERO);
+            let along = Vec2::new(tilt.cos(), -tilt.sin());
+            let length = (1.2 / tilt.sin() + 0.5) * 0.5;
+            let middle = Vec2::new(2.0, 0.1) + along * (length - 0.5) + along.perp() * 0.055;
+            let plank = RigidBody::dynamic().position(middle).angle(-tilt);
+            let plank = plank.shape(ShapeDef::new(rect(length, 0.05)).friction(0.9));
+            let plank = world.add_body(plank).expect("a plank");
+            steps(&mut world, 240);
+            let plank = world.body(plank).expect("a plank");
+            (plank.position().y, plank.angle())
+        });
+        let [solid, one_way] = heights;
+        assert!((solid.0 - one_way.0).abs() < 0.05, "{tilt}: {solid:?}, {one_way:?}");
+    }
+}
+
+/// A hole in a chain has ends: what is larger than the hole stays out, at all sizes.
+#[test]
+fn holes_in_chains_have_corners() {
+    for (radius, gone) in [(0.8_f32, 1), (0.6, 1), (1.5, 2), (1.1, 2)] {
+        let mut world = world();
+        let ground = world.add_body(RigidBody::fixed()).expect("ground");
+        let points: Vec<Vec2> = (0..9).map(|k| Vec2::new(4.0 - k as f32, 0.0)).collect();
+        let chain = world.add_chain(ground, &ChainDef::open(&points)).expect("a chain");
+        for k in 0..gone {
+            world.remove_shape(chain[3 + k]).expect("a segment");
+        }
+        let (left, right) = (points[3 + gone].x, points[3].x);
+        let ball = dynamic(
+            &mut world,
+            circle(radius).into(),
+            Vec2::new(0.5 * (left + right), radius + 0.3),
+        );
+        steps(&mut world, 240);
+        let half = 0.5 * (right - left);
+        let rests = (radius * radius - half * half).sqrt();
+        let height = y(&world, ball);
+        assert!((height - rests).abs() < 0.02, "{radius} over {gone}: {height}, not {rests}");
+    }
+}
+
+/// Ground under a block that somebody passes, as a hook or a joint has it, holds him all the same.
+#[test]
+fn ground_under_what_somebody_passes_holds() {
+    for hooked in [true, false] {
+        for (shape, half) in [(circle(0.5), 0.5), (rect(0.4, 0.4), 0.4), (rect(0.2, 0.6), 0.6)] {
+            let mut world = world();
+            fixed(&mut world, rect(2.0, 0.5).into(), Vec2::new(0.0, -0.5));
+            let block = ShapeDef::new(rect(1.0, 0.15)).user_data(7);
+            let block = fixed(&mut world, block, Vec2::new(0.0, 0.15));
+            let slides = ShapeDef::new(shape).friction(0.0);
+            let body = dynamic(&mut world, slides, Vec2::new(-1.6, half));
+            if hooked {
+                world.set_pair_filter(|pair| pair.user_data_a != 7 && pair.user_data_b != 7);
+            } else {
+                world.add_joint(block, body, JointDef::filter()).expect("a joint");
+            }
+            for _ in 0..120 {
+                let mut moved = world.body_mut(body).expect("a body");
+                moved.set_velocity(Vec2::new(1.2, moved.as_ref().velocity().y));
+                world.step(DT);
+                let height = y(&world, body);
+                assert!(
+                    (height - half).abs() < 0.02,
+                    "{hooked} {shape:?}: {height} at {}",
+                    world.body(body).unwrap().position().x
+                );
+            }
+        }
+    }
+}
+
+/// A fast sensor, or one that something fast passes, sees what it meets and nothing beside it.
+#[test]
+fn sensors_tell_of_what_passes_close_by_and_what_grazes() {
+    for round in [false, true] {
+        for (gap, seen) in [(0.004, false), (0.001, false), (-0.001, true), (-0.003, true)] {
+            let mut world = world();
+            world.gravity = Vec2::ZERO;
+            let zone = ShapeDef::new(rect(1.0, 0.5)).sensor();
+            fixed(&mut world, zone, Vec2::new(0.0, -0.5));
+            let shape = if round { circle(0.1) } else { rect(0.1, 0.1) };
+            let body = dynamic(&mut world, shape.into(), Vec2::new(-3.0, 0.1 + gap));
+            world.body_mut(body).expect("a body").set_velocity(Vec2::new(150.0, 0.0));
+            let mut begins = 0;
+            for _ in 0..10 {
+                world.step(DT);
+                begins += world.events().sensor_begin().len();
+            }
+            assert_eq!(begins > 0, seen, "round {round}, gap {gap}");
+        }
+    }
+}
