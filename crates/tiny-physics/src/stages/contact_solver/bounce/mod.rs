@@ -97,6 +97,9 @@ impl Bounces {
         Stores { bodies, contacts, graph, .. }: &mut Stores<'_>,
         pace: usize,
     ) {
+        if self.approaching.is_empty() && self.waiting.is_empty() {
+            return;
+        }
         self.changes.clear();
         self.list.clone_from(&self.approaching);
         for round in 0..ROUNDS {

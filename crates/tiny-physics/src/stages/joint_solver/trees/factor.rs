@@ -163,7 +163,9 @@ fn factor_link<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
         let across = |of: &[Three; 3], k: usize| [of[0][k], of[1][k], of[2][k], 0.0];
         for k in 0..3 {
             link.follow.rows[k] = times(simd, &felt, &across(&given, k));
-            link.follow.columns[k] = times(simd, &given, &across(&felt, k));
+        }
+        for k in 0..3 {
+            link.follow.columns[k] = across(&link.follow.rows, k);
         }
     }
     (link.given, link.felt) = (given, felt);
@@ -194,7 +196,10 @@ fn gather_and_scatter<S: Simd>(simd: S, tree: &mut JointTree) {
     for link in tree.links[..uncut].iter_mut().rev() {
         gather(simd, &mut tree.nodes, link);
     }
-    scatter_all(simd, tree);
+    move_root(simd, tree);
+    for link in &mut tree.links[..uncut] {
+        scatter(simd, &mut tree.nodes, link);
+    }
 }
 
 /// Changes of velocities of all nodes for an impulse of one on a node: along x, y, or about.
@@ -203,15 +208,18 @@ pub(super) fn answer<S: Simd>(simd: S, tree: &mut JointTree, node: u32, k: usize
     let moving = &mut tree.nodes[..tree.dynamic];
     moving.iter_mut().for_each(|node| (node.g, node.dv) = ([0.0; 4], [0.0; 4]));
     moving[node as usize].g[k] = 1.0;
-    tree.links.iter_mut().for_each(|link| link.rhs = [0.0; 4]);
     // Nothing is felt but on the way to the root. Links are in the order of their children; the root has one if it has an anchor.
     let mut at = node as usize;
     let first = usize::from(!is_rooted(&tree.links));
     while let Some(link) = at.checked_sub(first).and_then(|at| tree.links.get_mut(at)) {
+        link.rhs = [0.0; 4];
         gather(simd, &mut tree.nodes, link);
         at = link.parent as usize;
     }
-    scatter_all(simd, tree);
+    move_root(simd, tree);
+    for link in &tree.links[..tree.uncut()] {
+        follow(simd, &mut tree.nodes, link);
+    }
 }
 
 /// Has the root an anchor?
@@ -219,15 +227,11 @@ fn is_rooted(links: &[TreeLink]) -> bool {
     links.first().is_some_and(|link| link.parent == NULL)
 }
 
+/// The change of the root's velocity, if it has no anchor.
 #[inline(always)]
-fn scatter_all<S: Simd>(simd: S, tree: &mut JointTree) {
-    let uncut = tree.uncut();
-    let JointTree { nodes, links, .. } = tree;
+fn move_root<S: Simd>(simd: S, JointTree { nodes, links, .. }: &mut JointTree) {
     if !is_rooted(links) {
         nodes[0].dv = times(simd, &nodes[0].hat, &nodes[0].g);
-    }
-    for link in &mut links[..uncut] {
-        scatter(simd, nodes, link);
     }
 }
 
@@ -248,15 +252,21 @@ fn gather<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
     }
 }
 
-/// Away from the root: changes of the impulses and of the child's velocity.
+/// Away from the root: changes of the child's velocity.
+#[inline(always)]
+fn follow<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &TreeLink) {
+    if link.parent != NULL && link.child != NULL {
+        let dv = nodes[link.parent as usize].dv;
+        take_product(simd, &mut nodes[link.child as usize].dv, &link.follow.columns, &dv);
+    }
+}
+
+/// And of the impulses.
 #[inline(always)]
 fn scatter<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
+    follow(simd, nodes, link);
     if link.parent != NULL {
         let dv = nodes[link.parent as usize].dv;
-        if link.child != NULL {
-            let node = &mut nodes[link.child as usize];
-            take_product(simd, &mut node.dv, &link.follow.columns, &dv);
-        }
         let columns = &link.jacobians[usize::from(link.parent == link.b)].columns;
         take_product(simd, &mut link.rhs, columns, &dv);
     }
