@@ -102,7 +102,7 @@ described! {
     pub struct CharacterMover {
         /// The middle of the capsule: world, metres. Set it to teleport.
         pub position: DVec2,
-        /// Velocity in the air, metres a second; on the ground that of the last update.
+        /// Velocity in the air, metres a second; on the ground how fast it went in the last update: not at all before a wall.
         pub velocity: Vec2,
         /// Height of the whole capsule, metres.
         pub height: f32,
@@ -319,7 +319,7 @@ impl CharacterMover {
     /// Walks for a time on the ground, then looks for the ground again.
     fn walk(&mut self, world: &mut World, frame: Frame, speed: f32, time: f32) {
         let Frame { up, right, .. } = frame;
-        let mut way = speed * time;
+        let (mut way, mut lost) = (speed * time, 0.0);
         let drop = way.abs() * self.steepest();
         for _ in 0..MAX_CASTS {
             let Some(ground) = self.ground else { break };
@@ -339,11 +339,12 @@ impl CharacterMover {
             } else {
                 if !self.step_up(world, frame, way) {
                     self.note(&hit);
+                    lost = way / time;
                 }
                 break;
             }
         }
-        self.velocity = right * speed;
+        self.velocity = right * (speed - lost);
         self.find_ground(world, frame, drop);
     }
 

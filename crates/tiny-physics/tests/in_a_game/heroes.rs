@@ -312,3 +312,27 @@ fn a_hero_who_is_taken_elsewhere_does_not_jump_from_the_air() {
     (0..200).for_each(|_| stand(&mut world, &mut hero, 0.0));
     assert!(hero.ground().is_some() && hero.position.is_finite());
 }
+
+/// Animation and sound go by how fast a hero goes, not by how fast he would like to.
+#[test]
+fn a_hero_before_a_wall_stands_still() {
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let wall = RigidBody::fixed().position((3.0, 1.0)).shape(square(1.0));
+    world.add_body(wall).unwrap();
+    for (start, way, stops) in [(0.0, 3.0, 1.69), (6.0, -3.0, 4.31)] {
+        let mut hero = hero(&mut world, (start, 0.91));
+        let (mut before, mut met) = (hero.position.x, false);
+        for step in 0..90 {
+            go(&mut world, &mut hero, walk(way), 1);
+            let went = (hero.position.x - before) as f32 / DT;
+            before = hero.position.x;
+            let told = hero.velocity.x;
+            assert!((told - went).abs() < 0.01, "step {step}: {told} m/s told, {went} gone");
+            met |= told == way;
+        }
+        assert!(met && hero.velocity.x.abs() < 0.01, "{:?}", hero.velocity);
+        assert!((hero.position.x - stops).abs() < 0.02, "{}", hero.position.x);
+        world.remove_body(hero.body.unwrap()).unwrap();
+    }
+}
