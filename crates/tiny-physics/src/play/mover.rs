@@ -17,7 +17,10 @@ use crate::{
 };
 
 mod own;
+mod push;
 mod swept;
+
+use push::Push;
 
 /// Most casts of one movement.
 const MAX_CASTS: u32 = 6;
@@ -29,8 +32,6 @@ const THIN_SKIN: f32 = 0.125;
 const LEAST_EDGE: f32 = 0.05;
 /// No slope is steeper, radians: what is upright is a wall.
 const STEEPEST: f32 = 1.5;
-/// A push that is not bounded is at most this strong, newtons.
-const MAX_PUSH: f32 = 1.0e12;
 
 described! {
     /// What a character is asked to do in an update.
@@ -59,6 +60,8 @@ described! {
         pub point: DVec2,
         /// The same place in the body's frame.
         local: Vec2,
+        /// Velocity of the body there, metres a second.
+        pub velocity: Vec2,
     }
 }
 
@@ -137,8 +140,10 @@ described! {
         launched: Option<Vec2> = default,
         /// Horizontal speed taken along from a platform, until it lands.
         drift: f32,
-        /// Ignores one-way platforms, until it has come through.
+        /// Ignores the one-way platform that it stands on, until it has come through.
         dropping: bool,
+        /// The velocity that the last update left: another one has been given to it since.
+        told: Vec2 = default,
         /// What it pushed in the last update.
         pushed: Option<Push>,
     }
@@ -153,18 +158,6 @@ struct Obstacle {
     point: DVec2,
     shape: ShapeId,
     body: BodyId,
-}
-
-described! {
-    /// What a character pushed in an update, and what came of it.
-    #[derive(Clone, Copy, PartialEq, Debug)]
-    struct Push {
-        body: BodyId,
-        /// Speed of its centre that was expected after the next step, metres a second.
-        expected: f32,
-        /// Force that holds it back: friction, or what it pushes in turn; newtons.
-        resistance: f32,
-    }
 }
 
 /// Numbers of one update.
@@ -213,6 +206,7 @@ impl CharacterMover {
             launched: None,
             drift: 0.0,
             dropping: false,
+            told: Vec2::ZERO,
             pushed: None,
         }
     }
@@ -240,6 +234,7 @@ impl CharacterMover {
         let Frame { up, right, .. } = frame;
         self.previous = self.position;
         self.hits.clear();
+        let before = self.ground;
         self.dropping = input.drop || self.dropping && self.is_at_one_way(world, frame);
 
         self.ride(world, frame);
@@ -250,24 +245,25 @@ impl CharacterMover {
             (self.velocity, self.drift) = (velocity, velocity.dot(right));
             self.ground = None;
         }
-        if self.ground.is_some() && input.jump > 0.0 {
+        if self.ground.is_none() && self.velocity != self.told {
+            self.drift = self.velocity.dot(right);
+        }
+        let jump = if input.jump > 0.0 { input.jump } else { 0.0 };
+        if self.ground.is_some() && (jump > 0.0 || input.drop) {
             // It has gone along with the platform in this step already.
             carried = self.ground_velocity(world);
             self.drift = carried.dot(right);
-            self.velocity = up * (input.jump + carried.dot(up));
+            self.velocity = up * (jump + carried.dot(up));
             self.ground = None;
         }
-        if self.ground.is_some() && !input.drop {
+        if self.ground.is_some() {
             self.walk(world, frame, input.walk, dt);
             self.push_ahead(world, frame, input.walk);
         } else {
-            if self.ground.take().is_some() {
-                self.velocity = Vec2::ZERO;
-            }
             self.fall(world, frame, input.walk, carried * -dt);
         }
-        self.arrived = self.position;
-        self.weigh(world, frame);
+        (self.arrived, self.told) = (self.position, self.velocity);
+        self.weigh(world, frame, before);
         self.lead_body(world);
     }
 
@@ -281,10 +277,35 @@ impl CharacterMover {
             self.velocity = Vec2::ZERO;
             return;
         };
-        if body.kind() != BodyKind::Static {
-            let carry = body.pose().apply(ground.local).relative_to(ground.point);
-            self.slide(world, frame, carry, Some(ground.body));
+        let moves = body.kind() != BodyKind::Static;
+        let mut carry = self.belt(world) * frame.dt;
+        if moves {
+            carry += body.pose().apply(ground.local).relative_to(ground.point);
+            let sinks = (ground.velocity - body.velocity_at(ground.point)).dot(frame.up);
+            if sinks * frame.dt > self.snap_distance + frame.gravity.length() * frame.dt * frame.dt
+            {
+                // Faster than it can fall.
+                self.leave(frame, ground.velocity);
+                return;
+            }
         }
+        self.slide(world, frame, carry, moves.then_some(ground.body));
+    }
+
+    /// Goes on in the air with the velocity of what it stood on.
+    fn leave(&mut self, frame: Frame, velocity: Vec2) {
+        self.drift = velocity.dot(frame.right);
+        self.velocity = frame.up * velocity.dot(frame.up);
+        (self.ground, self.told) = (None, self.velocity);
+    }
+
+    /// How fast the surface that it stands on runs, seen from its body.
+    fn belt(&self, world: &World) -> Vec2 {
+        let runs = |ground: MoverGround| {
+            let speed = world.shape(ground.shape)?.material().tangent_speed;
+            Some(Vec2::new(ground.normal.y, 0.0 - ground.normal.x) * speed)
+        };
+        self.ground.and_then(runs).unwrap_or(Vec2::ZERO)
     }
 
     /// Velocity of the ground under the foot.
@@ -293,7 +314,7 @@ impl CharacterMover {
             let body = world.body(ground.body)?;
             (body.kind() != BodyKind::Static).then(|| body.velocity_at(ground.point))
         };
-        self.ground.and_then(velocity).unwrap_or(Vec2::ZERO)
+        self.ground.and_then(velocity).unwrap_or(Vec2::ZERO) + self.belt(world)
     }
 
     /// Moves by `motion`, along obstacles where there are any. What it stands on may be left out.
@@ -388,9 +409,7 @@ impl CharacterMover {
             }
             _ => {
                 let platform = self.ground_velocity(world);
-                self.drift = platform.dot(frame.right);
-                self.velocity = frame.up * platform.dot(frame.up);
-                self.ground = None;
+                self.leave(frame, platform);
             }
         }
     }
@@ -430,13 +449,15 @@ impl CharacterMover {
             if into < 0.0 {
                 velocity -= hit.normal * into;
             }
+            let asked = (right * speed).dot(-hit.normal);
+            let closing = if -into > asked { -into } else { asked };
             if steep {
                 // It slides on, faster and faster.
                 self.drift = velocity.dot(right) - walk;
             } else if self.drift * right.dot(hit.normal) < -PARALLEL {
                 self.drift = 0.0;
             }
-            self.push(world, frame, &hit, (right * speed).dot(-hit.normal), 1.0);
+            self.push(world, frame, &hit, closing, 1.0);
         }
         self.velocity = velocity;
     }
@@ -459,8 +480,10 @@ impl CharacterMover {
 
     fn stand_on(&mut self, world: &World, hit: &MoverHit) {
         let MoverHit { body, shape, point, normal } = *hit;
-        let local = world.body(body).map_or(Vec2::ZERO, |body| body.pose().unapply(point));
-        self.ground = Some(MoverGround { body, shape, normal, point, local });
+        let (local, velocity) = world.body(body).map_or((Vec2::ZERO, Vec2::ZERO), |body| {
+            (body.pose().unapply(point), body.velocity_at(point))
+        });
+        self.ground = Some(MoverGround { body, shape, normal, point, local, velocity });
     }
 
     /// Can it stand on this: a slope that is not too steep, or an edge with such a floor beside it?
@@ -471,6 +494,13 @@ impl CharacterMover {
         }
         if hit.normal.dot(up) < LEAST_EDGE {
             return false;
+        }
+        // Wedged: what it would slide down into leans the other way.
+        let lean = hit.normal.dot(right);
+        let downhill = along(hit.normal, right, self.skin.copysign(lean));
+        let other = self.cast(world, frame, downhill, None);
+        if other.is_some_and(|other| other.normal.dot(right) * lean < 0.0) {
+            return true;
         }
         let (beside, above, below) = (0.1 * self.radius, 0.3 * self.radius, 0.1 * self.radius);
         let filter = self.query();
@@ -499,88 +529,6 @@ impl CharacterMover {
     /// The normal along which it walks: up where it stands on an edge.
     fn floor(&self, normal: Vec2, up: Vec2) -> Vec2 {
         if self.is_walkable(normal, up) { normal } else { up }
-    }
-
-    /// Pushes what it would walk into in the next update, so that its way is free then: the body moves
-    /// during the step in between, as far as the character is going to come.
-    fn push_ahead(&mut self, world: &mut World, frame: Frame, speed: f32) {
-        let Some(ground) = self.ground else { return };
-        let Frame { up, right, dt, .. } = frame;
-        let motion = along(self.floor(ground.normal, up), right, speed * dt);
-        let Some(hit) = self.cast(world, frame, motion, None) else { return };
-        let dynamic = world.body(hit.body).is_some_and(|body| body.kind() == BodyKind::Dynamic);
-        if !dynamic || self.is_walkable(hit.normal, up) {
-            return;
-        }
-        let left = 1.0 - hit.fraction;
-        let start = self.position;
-        self.position += motion * hit.fraction;
-        let climbs = self.step_up(world, frame, speed * dt * left);
-        self.position = start;
-        if !climbs {
-            self.push(world, frame, &hit, motion.dot(-hit.normal) * left / dt, left);
-        }
-    }
-
-    /// Pushes a dynamic body so that it has a speed (away from the character) in the next step, with bounded
-    /// force, for a part of the step.
-    ///
-    /// What held it back in the last step is a steady force. What its speed lacks would take the character's
-    /// whole force for a time: the faster that goes, the more of it is an impulse at once, so that the body
-    /// comes as far as under that force.
-    fn push(&mut self, world: &mut World, frame: Frame, hit: &Obstacle, speed: f32, part: f32) {
-        let Frame { dt, pushed, .. } = frame;
-        let id = hit.body;
-        let Some(mut body) = world.body_mut(id) else { return };
-        let (view, way) = (body.as_ref(), -hit.normal);
-        let point = self.hand(frame, hit, view.center());
-        let (mass, now) = (view.mass(), view.velocity().dot(way));
-        if view.kind() != BodyKind::Dynamic || speed <= 0.0 || mass <= 0.0 {
-            return;
-        }
-        let lacking = mass * (speed - view.velocity_at(point).dot(way));
-        let held_back = |push: Push| push.resistance + mass * (push.expected - now) / dt;
-        let resistance = pushed.filter(|push| push.body == id).map_or(0.0, held_back);
-        let force = smaller(self.push_force, MAX_PUSH);
-        let resistance = smaller(if resistance > 0.0 { resistance } else { 0.0 }, force);
-        let (wanted, most) = (lacking + resistance * dt, force * part * dt);
-        let total = smaller(wanted, most);
-        if total <= 0.0 {
-            return;
-        }
-        let quick = lacking > 0.0 && wanted < most;
-        let impulse =
-            if quick { lacking * ((most - wanted) / (most - resistance * dt)) } else { 0.0 };
-        body.apply_impulse(way * impulse, point);
-        body.apply_force(way * ((total - impulse) / dt), point);
-        let expected = now + (total - resistance * dt) / mass;
-        self.pushed = Some(Push { body: id, expected, resistance });
-    }
-
-    /// Where it pushes: where its side lies against an obstacle, as near to a centre of mass as that reaches.
-    fn hand(&self, frame: Frame, hit: &Obstacle, center: DVec2) -> DVec2 {
-        let half = frame.up * (0.5 * self.height - self.radius);
-        let ends = [half, -half].map(|end| (self.position + end).relative_to(hit.point));
-        let heights = ends.map(|end| end.dot(hit.normal));
-        if (heights[0] - heights[1]).abs() > self.skin {
-            return hit.point;
-        }
-        let along = hit.normal.perp();
-        let (a, b) = (ends[0].dot(along), ends[1].dot(along));
-        let (low, high) = if a < b { (a, b) } else { (b, a) };
-        let wanted = center.relative_to(hit.point).dot(along);
-        let above = if wanted > low { wanted } else { low };
-        hit.point + along * smaller(above, high)
-    }
-
-    /// Weighs on a dynamic body that it stands on.
-    fn weigh(&self, world: &mut World, frame: Frame) {
-        let Some(ground) = self.ground else { return };
-        if let Some(mut body) = world.body_mut(ground.body)
-            && body.as_ref().kind() == BodyKind::Dynamic
-        {
-            body.apply_force(frame.gravity * self.mass, ground.point);
-        }
     }
 
     /// Gets out of what overlaps it or comes closer than its skin.
@@ -618,15 +566,22 @@ impl CharacterMover {
         }
     }
 
-    /// Is it in a one-way platform, or as near to one as its skin?
+    /// Would it stand on a one-way platform, or pass through its surface?
     fn is_at_one_way(&self, world: &World, frame: Frame) -> bool {
         let capsule = self.capsule(frame.up, 0.0);
         let pose = Pose::new(self.position, Rot::IDENTITY);
         let bounds = capsule.world_aabb(pose).grown(self.skin);
         self.obstacles(world, bounds).into_iter().any(|obstacle| {
-            let start = pose.relative_to(obstacle.pose());
-            let gap = || distance(obstacle.shape(), &capsule, start).separation;
-            obstacle.one_way().is_some() && gap() <= 1.1 * self.skin
+            obstacle.one_way().is_some_and(|way| {
+                let place = obstacle.pose();
+                let gap = distance(obstacle.shape(), &capsule, pose.relative_to(place));
+                let way = obstacle.local().q.unrotate(way).normalized();
+                let body = world.body(obstacle.body());
+                let rises = body.map_or(0.0, |body| body.velocity_at(self.position).dot(frame.up));
+                let moved = rises.abs() * frame.dt;
+                let (least, most) = (-0.5 * self.skin - moved, 1.1 * self.skin + moved);
+                (least..=most).contains(&gap.separation) && gap.normal.dot(way) > 0.3
+            })
         })
     }
 

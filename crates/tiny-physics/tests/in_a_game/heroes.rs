@@ -336,3 +336,145 @@ fn a_hero_before_a_wall_stands_still() {
         world.remove_body(hero.body.unwrap()).unwrap();
     }
 }
+
+/// Through the platform that he stands on he falls onto the next, however near that is, and from one that goes down or along with it.
+#[test]
+fn a_hero_drops_through_one_platform() {
+    let drop = MoverInput { drop: true, ..MoverInput::default() };
+    let mut world = World::new((0.0, -10.0));
+    let rows = ["......", ".----.", "......", ".----.", "......", "######"];
+    world.add_tiles(TileGrid::parse(1.0, &rows).unwrap()).unwrap();
+    let mut one = hero(&mut world, (3.0, 5.91));
+    for foot in [5.0, 3.0, 1.0] {
+        go(&mut world, &mut one, walk(0.0), 120);
+        let height = one.position.y - 0.91;
+        assert!((height - foot).abs() < 0.02 && one.ground().is_some(), "{height}, not {foot}");
+        go(&mut world, &mut one, drop, 1);
+    }
+
+    for velocity in [(0.0, -1.0), (3.0, 0.0), (0.0, 2.0)] {
+        let mut world = World::new((0.0, -10.0));
+        let lift = ShapeDef::new(Shape::rect(4.0, 0.05).unwrap()).one_way((0.0, 1.0));
+        let lift = RigidBody::kinematic().shape(lift).velocity(velocity);
+        let lift = world.add_body(lift).unwrap();
+        let mut hero = hero(&mut world, (0.0, 0.97));
+        go(&mut world, &mut hero, walk(0.0), 30);
+        assert!(hero.ground().is_some());
+        let start = hero.position.x;
+        go(&mut world, &mut hero, drop, 1);
+        go(&mut world, &mut hero, walk(0.0), 59);
+        let below = world.body(lift).unwrap().position().y as f64 - hero.position.y;
+        assert!(below > 1.0, "{velocity:?}: {below}");
+        let along = (hero.position.x - start) as f32;
+        assert!((along - velocity.0).abs() < 0.1, "{velocity:?}: he keeps its speed, {along}");
+    }
+}
+
+/// A belt carries him as it carries crates, and off its end he keeps its speed.
+#[test]
+fn a_hero_rides_on_a_belt() {
+    let mut world = World::new((0.0, -10.0));
+    let belt = ShapeDef::new(Shape::rect(5.0, 0.5).unwrap()).tangent_speed(2.0);
+    world.add_body(RigidBody::fixed().position((0.0, -0.5)).shape(belt)).unwrap();
+    let mut hero = hero(&mut world, (-3.0, 0.91));
+    go(&mut world, &mut hero, walk(0.0), 120);
+    assert!((hero.position.x - 1.0).abs() < 0.1, "{}", hero.position.x);
+    go(&mut world, &mut hero, walk(-2.0), 60);
+    assert!((hero.position.x - 1.0).abs() < 0.15, "against it he stays: {}", hero.position.x);
+    go(&mut world, &mut hero, MoverInput { jump: 4.0, ..walk(0.0) }, 1);
+    let start = hero.position.x;
+    go(&mut world, &mut hero, walk(0.0), 30);
+    assert!((hero.position.x - start - 1.0).abs() < 0.1, "{}", hero.position.x - start);
+}
+
+/// What nothing holds up falls as fast with him as without.
+#[test]
+fn a_hero_does_not_press_down_what_falls() {
+    let mut world = World::new((0.0, -10.0));
+    let block =
+        world.add_body(RigidBody::fixed().position((0.0, 20.0)).shape(square(0.5))).unwrap();
+    let load = Shape::rect(0.5, 0.25).unwrap();
+    let load = RigidBody::dynamic().position((0.0, 20.75)).shape(load).mass(10.0);
+    let load = world.add_body(load).unwrap();
+    let mut one = hero(&mut world, (0.0, 21.91));
+    go(&mut world, &mut one, walk(0.0), 60);
+    world.remove_body(block).unwrap();
+    go(&mut world, &mut one, walk(0.0), 30);
+    let fell = 20.75 - world.body(load).unwrap().position().y;
+    assert!((1.2..2.2).contains(&fell), "{fell} m in half a second");
+
+    // And what is pulled away under him leaves him behind.
+    let mut world = World::new((0.0, -10.0));
+    let lift = world.add_body(RigidBody::kinematic().shape(square(0.5))).unwrap();
+    let mut hero = hero(&mut world, (0.0, 1.41));
+    go(&mut world, &mut hero, walk(0.0), 10);
+    world.body_mut(lift).unwrap().set_velocity((0.0, -30.0));
+    go(&mut world, &mut hero, walk(0.0), 30);
+    let fell = 1.41 - hero.position.y;
+    assert!((1.1..1.5).contains(&fell), "{fell} m in half a second");
+}
+
+/// The velocity is his whole velocity in the air, to be read and to be set.
+#[test]
+fn a_hero_flies_as_he_is_told() {
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let mut hero = hero(&mut world, (0.0, 0.91));
+    go(&mut world, &mut hero, walk(0.0), 5);
+    hero.launch((8.0, 5.0));
+    go(&mut world, &mut hero, walk(0.0), 20);
+    assert!((hero.velocity.x - 8.0).abs() < 0.01);
+    (hero.position, hero.velocity) = (DVec2::new(0.0, 10.0), Vec2::ZERO);
+    go(&mut world, &mut hero, walk(0.0), 30);
+    assert!(hero.position.x.abs() < 0.01, "he falls straight: {}", hero.position.x);
+    hero.velocity = Vec2::new(-6.0, 3.0);
+    go(&mut world, &mut hero, walk(0.0), 30);
+    assert!((hero.position.x + 3.0).abs() < 0.05, "{}", hero.position.x);
+}
+
+/// Between two slopes that are too steep to stand on he stands, and gets out.
+#[test]
+fn a_hero_gets_out_of_a_notch() {
+    for steep in [1.05_f32, 1.2] {
+        let mut world = World::new((0.0, -10.0));
+        for side in [-1.0, 1.0] {
+            let slope = Shape::rect(0.2, 3.0).unwrap();
+            let place = Vec2::new(side * 1.5, 2.0);
+            let turn = side * (steep - 0.5 * core::f32::consts::PI);
+            world.add_body(RigidBody::fixed().position(place).angle(turn).shape(slope)).unwrap();
+        }
+        let mut hero = hero(&mut world, (0.3, 5.0));
+        go(&mut world, &mut hero, walk(0.0), 180);
+        let rests = hero.position.y;
+        assert!(hero.ground().is_some(), "{steep}: at {rests}");
+        go(&mut world, &mut hero, MoverInput { jump: 6.0, ..walk(0.0) }, 1);
+        go(&mut world, &mut hero, walk(0.0), 30);
+        assert!(hero.position.y > rests + 1.0, "{steep}: {} from {rests}", hero.position.y);
+    }
+}
+
+/// What he meets in the air feels how fast he comes; a cart that he stands in does not drive itself.
+#[test]
+fn a_hero_pushes_with_his_own_speed_and_against_what_he_stands_on() {
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let crate_ = RigidBody::dynamic().position((2.0, 0.5)).shape(square(0.5)).mass(5.0);
+    let crate_ = world.add_body(crate_).unwrap();
+    let mut one = hero(&mut world, (0.0, 0.91));
+    go(&mut world, &mut one, walk(0.0), 5);
+    one.launch((10.0, 2.0));
+    go(&mut world, &mut one, walk(0.0), 30);
+    assert!(world.body(crate_).unwrap().position().x > 2.1);
+
+    let mut world = World::new((0.0, -10.0));
+    let ice = ShapeDef::new(Shape::rect(50.0, 1.0).unwrap()).friction(0.0);
+    world.add_body(RigidBody::fixed().position((0.0, -1.0)).shape(ice)).unwrap();
+    let floor = ShapeDef::new(Shape::rect(2.0, 0.1).unwrap()).friction(0.0).density(100.0);
+    let wall = Polygon::turned_rect(0.1, 1.2, Vec2::new(2.0, 1.1), Rot::IDENTITY).unwrap();
+    let cart = RigidBody::dynamic().position((0.0, 0.1)).shape(floor).shape(wall);
+    let cart = world.add_body(cart).unwrap();
+    let mut hero = hero(&mut world, (0.0, 1.11));
+    go(&mut world, &mut hero, walk(3.0), 240);
+    let speed = world.body(cart).unwrap().velocity().x;
+    assert!(speed.abs() < 0.05, "{speed} m/s");
+}

@@ -76,7 +76,7 @@ impl CharacterMover {
     }
 
     /// Makes the next update leave the ground with this velocity, metres a second: knockback, a wall jump, a spring
-    /// board. Upward it goes as a jump; sideways the speed stays, besides what is asked for, until it lands or meets a
+    /// board. Upward it goes as a jump (without that it lands at once); sideways the speed stays, besides what is asked for, until it lands or meets a
     /// wall.
     pub fn launch(&mut self, velocity: impl Into<Vec2>) {
         self.launched = Some(velocity.into());
@@ -92,7 +92,8 @@ impl CharacterMover {
             return Vec2::ZERO;
         }
         let (frame, noted) = (Frame::of(world), self.hits.len());
-        (self.previous, self.ground, self.velocity, self.drift) = (start, None, Vec2::ZERO, 0.0);
+        (self.previous, self.ground, self.drift) = (start, None, 0.0);
+        (self.velocity, self.told) = (Vec2::ZERO, Vec2::ZERO);
         self.slide(world, frame, motion, None);
         for hit in self.hits.split_off(noted) {
             if self.is_walkable(hit.normal, frame.up) {
