@@ -6,8 +6,8 @@ use crate::geometry::check_point;
 use crate::math::{DVec2, Vec2};
 
 described! {
-    /// A spring and damper by its behaviour: independent of the masses that hang on it. Frequency and
-    /// decay are met exactly up to a quarter of the substep rate; a faster spring acts as one of that
+    /// A spring and damper by its behaviour, whatever the masses of the two bodies; what hangs on these in turn makes it slower.
+    /// Frequency and decay are met exactly up to a quarter of the substep rate; a faster spring acts as one of that
     /// rate.
     #[derive(Clone, Copy, PartialEq, Debug)]
     pub struct Spring {

@@ -151,6 +151,8 @@ pub(crate) struct TreeAxis {
     /// Velocity per impulse, of the two bodies alone, and as the rigid rows tie them.
     pub(crate) free: f64,
     pub(crate) tied: f64,
+    /// Of all that hangs on them, by the motor along the coordinate and by that which turns; 0 where it is not known yet.
+    pub(crate) whole: [f64; 2],
     /// The row that an impulse of one acts along with what the rigid rows then give, and how much they give.
     pub(crate) on: [Three; 2],
     pub(crate) given: Three,
@@ -169,7 +171,7 @@ pub(crate) struct JointTree {
     /// That of all its bodies.
     pub(crate) pace: usize,
     /// No other joint moves its bodies.
-    alone: bool,
+    pub(crate) alone: bool,
     /// See [`JointTree::is_undisturbed`]; but for its axes.
     undisturbed: bool,
     /// The rows have been worked out in this step.

@@ -2,21 +2,29 @@
 //!
 //! What rolls without sliding loses nothing, so a plank on a ball and a capsule on its end would rock for ever, and keep all
 //! that they lie on awake. Whatever is real resists rolling a little. Here what rolls on does not. But what has turned
-//! back some times, slowly and without a rest, loses its turning against what it touches.
+//! back some times, slowly and without a rest, loses its turning against what it touches. A ball by itself that rolls to
+//! and fro in a bowl goes on, as it lies on nothing else and nothing on it.
 
 use super::rests::is_calm;
 use super::sway;
-use crate::dynamics::{Bodies, Bucket, Graph, NULL};
+use crate::dynamics::{Bodies, Bucket, Contacts, Graph, NULL};
 use crate::math::Vec2;
 use crate::simd::BLOCK;
 
 /// So often has what rocks turned back.
 const ENOUGH: u8 = 4;
+/// A ball is so round.
+const ROUND: f32 = 1.0e-4;
 /// What is faster than this does not rock but goes somewhere, length units a second.
 const FASTEST: f32 = 0.5;
 
 /// Slows what turns against something that rocks.
-pub(crate) fn resist(bodies: &mut Bodies, graph: &Graph, (dt, length_unit): (f32, f32)) {
+pub(crate) fn resist(
+    bodies: &mut Bodies,
+    contacts: &Contacts,
+    graph: &Graph,
+    (dt, length_unit): (f32, f32),
+) {
     let mut most = 0;
     for i in 0..bodies.awake.len() {
         let body = bodies.awake[i];
@@ -31,8 +39,9 @@ pub(crate) fn resist(bodies: &mut Bodies, graph: &Graph, (dt, length_unit): (f32
     for (_, bucket) in graph.touching_buckets() {
         for slot in (0..bucket.contacts.len()).filter(|&slot| bears(bucket, slot)) {
             let (a, b) = bucket.bodies(slot);
-            let rocks = |&body: &u32| bodies.swings[body as usize] > ENOUGH;
-            if [a, b].iter().any(rocks) && ![a, b].iter().any(|&body| is_led(bodies, body)) {
+            let rocks = |body: u32| bodies.swings[body as usize] > ENOUGH;
+            let free = |body: u32| is_led(bodies, body) || is_ball_alone(bodies, contacts, body);
+            if (rocks(a) || rocks(b)) && !free(a) && !free(b) {
                 slow(bodies, a, b, lost);
             }
         }
@@ -54,6 +63,17 @@ fn swings(bodies: &Bodies, body: u32, length_unit: f32) -> u8 {
         u8::MAX => u8::MAX - 1,
         _ => swings + 1,
     }
+}
+
+/// Is a body a ball about its centre of mass that touches one other alone?
+fn is_ball_alone(bodies: &Bodies, contacts: &Contacts, body: u32) -> bool {
+    let info = &bodies.infos[body as usize];
+    let all = contacts.of_body(info.first_contact);
+    let touching = all.map(|(index, _)| &contacts.records[index as usize]);
+    let mut others = touching.filter(|contact| contact.touching).map(|contact| contact.other(body));
+    let round = info.max_extent - info.min_extent <= ROUND * info.min_extent;
+    let first = others.next();
+    bodies.is_dynamic(body) && round && others.all(|other| Some(other) == first)
 }
 
 /// Does the user alone move a body? What that takes to and fro does not rock.

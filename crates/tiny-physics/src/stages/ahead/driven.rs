@@ -15,7 +15,7 @@ const SATURATED: f32 = 0.99;
 const STRONGER: f32 = 2.0;
 /// Joints of a body that are looked through for one that holds it.
 const HINGES: usize = 8;
-/// A motor that gets so much of its speed goes on, and a spring of whose pull so much goes into motion and damping: the rest is held.
+/// A motor that gets so much of its speed goes on, as does one that gains some; and a spring of whose pull so much goes into motion and damping: the rest is held.
 const GOES: f32 = 0.5;
 const YIELDS: f32 = 0.25;
 /// A spring is at its rest so near to it, metres (times the length unit) or radians, and where it pulls no more than this, by the second
@@ -356,8 +356,9 @@ pub(crate) fn moves(
     let inv_h = REFINEMENT[pace] as f32 / h;
     let now = ends(bodies, record, |body| Course::of(bodies, 0.0, body));
     let gains = ends(bodies, record, |body| Course::gained(bodies, inv_h, body));
-    let goes = |Motor { speed, max }: Motor, now: f32| {
-        max > 0.0 && speed != 0.0 && now * speed.signum() >= GOES * speed.abs()
+    let goes = |Motor { speed, max }: Motor, now: f32, gain: f32, unit: f32| {
+        let [now, gain] = [now, gain].map(|along| along * speed.signum());
+        max > 0.0 && speed != 0.0 && (now >= GOES * speed.abs() || gain > FAINT * unit)
     };
     let pulls = |spring: Spring, strongest: f32, now: &Coordinate, gain: f32| {
         let (rate, unit) =
@@ -370,14 +371,15 @@ pub(crate) fn moves(
     };
     if let JointKind::Motor { velocity, max_force, .. } = record.def.kind {
         let motor = Motor { speed: velocity.length(), max: max_force };
-        if goes(motor, (now[1].velocity() - now[0].velocity()).length()) {
+        if goes(motor, (now[1].velocity() - now[0].velocity()).length(), 0.0, length_unit) {
             return true;
         }
     }
     let along = |ends| efforts(joints, &record.def, ends).into_iter().flatten();
     along(&now).zip(along(&gains)).any(|((now, effort), (gain, _))| {
         let Effort { spring, strongest, motor, .. } = effort;
-        motor.is_some_and(|motor| goes(motor, now.speed))
+        let unit = if now.turns { 1.0 } else { length_unit };
+        motor.is_some_and(|motor| goes(motor, now.speed, gain.speed, unit))
             || spring.is_some_and(|spring| pulls(spring, strongest, &now, gain.speed))
     })
 }

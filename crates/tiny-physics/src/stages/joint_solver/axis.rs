@@ -154,7 +154,7 @@ impl AxisLanes {
         let Coordinate { value, mut velocity, inv_mass } = coordinate;
         let mass = stride.invert(inv_mass);
         let mut axis = self.load(stride);
-        let total = axis.drive::<BIAS>(value, &mut velocity, [mass, inv_mass]);
+        let total = axis.drive::<BIAS>(value, &mut velocity, [mass, inv_mass], [mass, inv_mass]);
         stride.store(axis.spring, &mut self.spring);
         stride.store(axis.motor, &mut self.motor);
         let ([old_lower, old_upper], [lower, upper]) = (axis.limits, axis.ends);
@@ -177,7 +177,8 @@ impl<L: Lanes> Axis<L> {
         self.spring + self.motor + self.limits[0] - self.limits[1]
     }
 
-    /// Spring and motor: what they change in the impulse and in the velocity.
+    /// Spring and motor: what they change in the impulse and in the velocity. With the mass of the spring and its inverse, and those of the
+    /// motor.
     ///
     /// The motor sees the velocity that would be without the limits: against one that holds it gives no more than it
     /// needs to be held, and the two do not wind each other up.
@@ -187,6 +188,7 @@ impl<L: Lanes> Axis<L> {
         value: L,
         velocity: &mut L,
         [mass, inv_mass]: [L; 2],
+        [driven, inv_driven]: [L; 2],
     ) -> L {
         let spring = if BIAS {
             let demand = self.mass_scale * *velocity + self.push * (value - self.rest);
@@ -198,7 +200,7 @@ impl<L: Lanes> Axis<L> {
         *velocity = *velocity + inv_mass * spring;
         let held = self.limits[0] - self.limits[1];
         let motor = [self.motor_speed, self.motor_max, self.motor];
-        let motor = drive(motor, *velocity - inv_mass * held, mass);
+        let motor = drive(motor, *velocity - inv_driven * held, driven);
         let change = motor - self.motor;
         self.motor = motor;
         *velocity = *velocity + inv_mass * change;
@@ -206,9 +208,11 @@ impl<L: Lanes> Axis<L> {
     }
 }
 
-/// The impulse of a motor, from its speed, its greatest impulse and that so far.
+/// The impulse of a motor, from its speed, its greatest impulse and that so far: none where nothing moves.
 #[inline(always)]
 pub(super) fn drive<L: Lanes>([speed, max, old]: [L; 3], velocity: L, mass: L) -> L {
+    let none = mass - mass;
+    let old = L::select(mass.gt(none), old, none);
     (old + mass * (speed - velocity)).clamp(-max, max)
 }
 

@@ -1,6 +1,7 @@
 //! What rocks on something round: it swings no further than it did, and comes to rest.
 
 use super::*;
+use crate::describe::ChainDef;
 
 /// A plank in its balance on a fixed ball but for some radians, which it has rolled.
 fn plank_on_a_ball(world: &mut World, half_length: f32, angle: f32) -> BodyId {
@@ -47,4 +48,28 @@ fn what_tips_slowly_falls() {
     let post = world.add_body(post.shape(rect(0.1, 1.0))).unwrap();
     run(&mut world, 300);
     assert!(y(&world, post) < 0.15, "it hangs in the air at {} m", y(&world, post));
+}
+
+/// A ball that is let go beside the middle of a bowl swings as long as nothing brakes it.
+#[test]
+fn a_ball_in_a_bowl_swings_on() {
+    let mut world = world();
+    let ground = world.add_body(RigidBody::fixed()).unwrap();
+    let points: Vec<Vec2> = (-60..=60)
+        .map(|k| {
+            let (sin, cos) = (-0.01 * k as f32).sin_cos();
+            Vec2::new(4.2 * sin, 4.2 - 4.2 * cos)
+        })
+        .collect();
+    world.add_chain(ground, &ChainDef::open(&points).friction(1.0)).unwrap();
+    let place = Vec2::new(4.0 * 0.06_f32.sin(), 4.2 - 4.0 * 0.06_f32.cos());
+    let ball = RigidBody::dynamic().position(place).shape(circle(0.2).friction(1.0));
+    let ball = world.add_body(ball.can_sleep(false)).unwrap();
+    let mut furthest = 0.0_f32;
+    for step in 0..1500 {
+        world.step(DT);
+        let x = world.body(ball).unwrap().position().x;
+        furthest = if step < 1100 { 0.0 } else { furthest.max(x.abs()) };
+    }
+    assert!((furthest - place.x).abs() < 0.15 * place.x, "{furthest} of {}", place.x);
 }

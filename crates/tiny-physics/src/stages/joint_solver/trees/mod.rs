@@ -40,6 +40,10 @@ const MOST_SOLVES: usize = 4;
 const SOFT_OVERRUN: f64 = 0.005;
 /// Velocity at a limit that does not matter, length units or radians a second.
 const LEAST_OVERRUN: f64 = 1.0e-5;
+/// A motor counts what hangs on its bodies as no heavier than these by more than the inverse.
+const LEAST_SHARE: f64 = 1.0e-9;
+/// An angular impulse, on A and on B.
+const ABOUT: [Three; 2] = [[0.0, 0.0, -1.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
 /// Trees that one member of the team works on at a time.
 const CHUNK: usize = 4;
 
@@ -179,14 +183,15 @@ fn run_tree<S: Simd>(
     rows::store(tree, bodies);
 }
 
-/// May forces act half before and half after a substep? What motors and springs hold would move by the difference in each.
+/// May forces act half before and half after a substep? What motors, springs and joints that are no tree's hold would move by the
+/// difference in each.
 #[inline(always)]
 fn swings_freely(tree: &JointTree) -> bool {
     let drives = |axis: &TreeAxis| {
         let turns = axis.motor.is_some_and(|[_, most, _]| most != 0.0);
         turns || axis.axis.motor_max != 0.0 || axis.axis.push != 0.0
     };
-    !is_jointed(tree.pace) && !tree.axes.iter().any(drives)
+    tree.alone && !is_jointed(tree.pace) && !tree.axes.iter().any(drives)
 }
 
 /// Adds or takes away half of what forces add in a substep: they act half before it and half after it, which
@@ -221,15 +226,41 @@ fn turn(nodes: &mut [TreeNode], [a, b]: [u32; 2], impulse: f64) {
     nodes[b as usize].v[2] += ib * impulse;
 }
 
+/// Works out once a step how the tree answers its motor: one that reckoned with its two bodies alone would swing about its speed, as
+/// its impulse is carried on. Of several, or with springs, each would see what the others do to its bodies before the rest has felt it.
+#[inline(always)]
+fn weigh_motor<S: Simd>(simd: S, tree: &mut JointTree) {
+    let drives = |axis: &TreeAxis| {
+        let turns = axis.motor.is_some_and(|[_, most, _]| most != 0.0);
+        [axis.axis.motor_max != 0.0, turns, axis.axis.push != 0.0]
+    };
+    let all = tree.axes.iter().enumerate();
+    let mut all =
+        all.flat_map(|(i, axis)| (0..3).filter(|&k| drives(axis)[k]).map(move |k| (i, k)));
+    let (Some((i, k @ 0..2)), None) = (all.next(), all.next()) else { return };
+    if tree.axes[i].whole[k] == 0.0 {
+        factor::factor(simd, tree);
+        let TreeAxis { link, on, .. } = tree.axes[i];
+        let TreeLink { a, b, .. } = tree.links[link as usize];
+        tree.axes[i].whole[k] = factor::response(simd, tree, [a, b], &[on, ABOUT][k]);
+    }
+}
+
+/// The inverse mass of a motor's two bodies, or of all that hangs on them where that is known and more.
+fn heavier(alone: f64, whole: f64) -> f64 {
+    if LEAST_SHARE * alone < whole && whole < alone { whole } else { alone }
+}
+
 /// Springs and motors, joint by joint.
 #[inline(always)]
 fn drive<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
+    weigh_motor(simd, tree);
     let JointTree { nodes, links, axes, .. } = tree;
     for axis in axes {
         let link = &mut links[axis.link as usize];
         let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
         if let Some(motor) = &mut axis.motor {
-            let mass = rates.stride.invert(a.inv[2] + b.inv[2]);
+            let mass = rates.stride.invert(heavier(a.inv[2] + b.inv[2], axis.whole[1]));
             let impulse = axis::drive(*motor, b.v[2] - a.v[2], mass);
             let change = impulse - core::mem::replace(&mut motor[2], impulse);
             turn(nodes, [link.a, link.b], change);
@@ -252,11 +283,12 @@ fn drive_axis<S: Simd>(
     Rates { stride, bias, .. }: &Rates,
 ) {
     let mut velocity = velocity(link, nodes);
-    let masses = [stride.invert(axis.tied), axis.tied];
+    let driven = heavier(axis.tied, axis.whole[0]);
+    let masses = [axis.tied, driven].map(|inverse| [stride.invert(inverse), inverse]);
     let change = if *bias {
-        axis.axis.drive::<true>(link.value, &mut velocity, masses)
+        axis.axis.drive::<true>(link.value, &mut velocity, masses[0], masses[1])
     } else {
-        axis.axis.drive::<false>(link.value, &mut velocity, masses)
+        axis.axis.drive::<false>(link.value, &mut velocity, masses[0], masses[1])
     };
     rows::push(simd, nodes, [link.a, link.b], &axis.on, change);
     for (impulse, given) in link.impulses[..link.rigid].iter_mut().zip(axis.given) {

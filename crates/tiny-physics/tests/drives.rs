@@ -1,0 +1,142 @@
+//! Motors and springs on what has more hanging on it than their own two bodies, and what joints tell of it.
+
+mod common;
+
+use common::{circle, rect, steps};
+use tiny_physics::{BodyId, JointDef, JointId, Locks, RigidBody, Shape, Vec2, World};
+
+fn space() -> World {
+    let mut world = World::new(Vec2::ZERO);
+    world.settings.sleep = false;
+    world
+}
+
+fn wall(world: &mut World) -> BodyId {
+    world.add_body(RigidBody::fixed()).expect("a wall")
+}
+
+fn add(world: &mut World, shape: Shape, mass: f32, place: Vec2) -> BodyId {
+    let body = RigidBody::dynamic().shape(shape).mass(mass).position(place);
+    world.add_body(body).expect("a body")
+}
+
+fn spin(world: &World, body: BodyId) -> f32 {
+    world.body(body).expect("it is there").angular_velocity()
+}
+
+fn motor_load(world: &World, joint: JointId) -> f32 {
+    world.joint(joint).expect("it is there").torque()
+}
+
+/// A small hub that turns large blades has their speed soon, and keeps it.
+#[test]
+fn a_motor_turns_what_is_welded_to_its_body() {
+    for (blade, mass) in [(0.5, 1.0), (1.0, 20.0), (2.0, 10.0)] {
+        let mut world = space();
+        let wall = wall(&mut world);
+        let hub = add(&mut world, circle(0.1), 1.0, Vec2::ZERO);
+        let blades = add(&mut world, rect(blade, 0.1), mass, Vec2::ZERO);
+        world.add_joint(wall, hub, JointDef::revolute().motor(1.0, 1e6)).expect("a motor");
+        world.add_joint(hub, blades, JointDef::weld()).expect("a weld");
+        let mut most = 0.0_f32;
+        for step in 0..240 {
+            steps(&mut world, 1);
+            let spin = spin(&world, blades);
+            most = most.max(spin);
+            assert!(
+                step < 60 || (spin - 1.0).abs() < 0.02,
+                "{blade} m, {mass} kg, step {step}: {spin}"
+            );
+        }
+        assert!(most < 1.1, "{blade} m, {mass} kg: {most}");
+    }
+}
+
+/// A pinion drives a wheel through gears.
+#[test]
+fn a_motor_drives_through_gears() {
+    let mut world = space();
+    let wall = wall(&mut world);
+    let pinion = add(&mut world, circle(0.1), 1.0, Vec2::new(-1.1, 0.0));
+    let wheel = add(&mut world, circle(1.0), 100.0, Vec2::ZERO);
+    let at = |x: f32| JointDef::revolute().anchor_at(Vec2::new(x, 0.0));
+    world.add_joint(wall, pinion, at(-1.1).motor(1.0, 1e5)).expect("a motor");
+    world.add_joint(wall, wheel, at(0.0)).expect("an axle");
+    world.add_joint(pinion, wheel, JointDef::gear(10.0)).expect("a gear");
+    let mut most = 0.0_f32;
+    for step in 0..240 {
+        steps(&mut world, 1);
+        let spin = spin(&world, pinion);
+        most = most.max(spin);
+        assert!(step < 60 || (spin - 1.0).abs() < 0.05, "step {step}: {spin}");
+    }
+    assert!(most < 1.2, "{most}");
+}
+
+/// What hangs by a soft weld from a light bar that bears something heavy is still.
+#[test]
+fn a_tree_that_hangs_softly_is_at_rest() {
+    for substeps in [4, 1] {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        world.settings.substeps = substeps;
+        let ceiling = wall(&mut world);
+        let bar = add(&mut world, rect(0.1, 0.5), 1.0, Vec2::new(0.0, -2.5));
+        let load = add(&mut world, rect(0.1, 0.5), 10.0, Vec2::new(0.0, -3.5));
+        let weld = JointDef::weld().anchor_at(Vec2::new(0.0, -2.0)).softness(20.0, 1.0);
+        world.add_joint(ceiling, bar, weld).expect("a weld");
+        let hinge = JointDef::revolute().anchor_at(Vec2::new(0.0, -3.0));
+        world.add_joint(bar, load, hinge).expect("a hinge");
+        steps(&mut world, 600);
+        let load = world.body(load).expect("a load");
+        assert!(
+            load.velocity().length() < 2e-3 && !load.is_awake(),
+            "{substeps}: {:?}",
+            load.velocity()
+        );
+    }
+}
+
+/// A spring bends a long arm as its formula says.
+#[test]
+fn springs_on_long_arms_have_their_frequency() {
+    for (radius, arm) in [(0.1, 3.0), (0.2, 6.0), (0.5, 1.0)] {
+        let mut world = space();
+        let wall = wall(&mut world);
+        let bob = add(&mut world, circle(radius), 1.0, Vec2::new(arm, 0.0));
+        let hinge = JointDef::revolute().anchor_at(Vec2::ZERO).spring(1.0, 0.0);
+        let joint = world.add_joint(wall, bob, hinge).expect("a hinge");
+        world.joint_mut(joint).expect("a hinge").set_target(0.1).expect("a target");
+        let angle = |world: &World| world.joint(joint).expect("a hinge").angle();
+        let mut turns = Vec::new();
+        let mut before = angle(&world) - 0.1;
+        for step in 0..600 {
+            steps(&mut world, 1);
+            let now = angle(&world) - 0.1;
+            if before < 0.0 && now >= 0.0 {
+                turns.push(step as f32 / 60.0);
+            }
+            before = now;
+        }
+        let period = (turns[turns.len() - 1] - turns[0]) / (turns.len() - 1) as f32;
+        assert!((period - 1.0).abs() < 0.05, "{radius} on {arm} m: {period} s");
+    }
+}
+
+/// A motor whose body cannot turn any more bears nothing.
+#[test]
+fn a_motor_on_what_cannot_turn_bears_nothing() {
+    let mut world = space();
+    let wall = wall(&mut world);
+    let disk = add(&mut world, circle(0.5), 1.0, Vec2::ZERO);
+    let joint =
+        world.add_joint(wall, disk, JointDef::revolute().motor(0.0, 100.0)).expect("a brake");
+    for _ in 0..30 {
+        world.body_mut(disk).expect("a disk").apply_torque(20.0);
+        steps(&mut world, 1);
+    }
+    assert!((motor_load(&world, joint) + 20.0).abs() < 0.5);
+    let locks = Locks { rotation: true, ..Locks::default() };
+    world.body_mut(disk).expect("a disk").set_locks(locks);
+    steps(&mut world, 10);
+    assert!(motor_load(&world, joint).abs() < 1e-3, "{}", motor_load(&world, joint));
+}
