@@ -211,8 +211,7 @@ impl<L: Lanes> Axis<L> {
 /// The impulse of a motor, from its speed, its greatest impulse and that so far: none where nothing moves.
 #[inline(always)]
 pub(super) fn drive<L: Lanes>([speed, max, old]: [L; 3], velocity: L, mass: L) -> L {
-    let none = mass - mass;
-    let old = L::select(mass.gt(none), old, none);
+    let old = L::select(mass.gt(-mass), old, mass);
     (old + mass * (speed - velocity)).clamp(-max, max)
 }
 
