@@ -216,7 +216,8 @@ impl JointTree {
 
     /// Notes whether all its contacts go through it, and so leave its joints as they are.
     pub(crate) fn note_undisturbed(&mut self, all_through_it: bool) {
-        self.undisturbed = self.alone && all_through_it;
+        let whole = self.uncut() == self.links.len();
+        self.undisturbed = self.alone && whole && all_through_it;
     }
 
     /// Does nothing act on its bodies between two equal passes but what leaves its joints as they are? The second then has nothing
@@ -482,7 +483,7 @@ fn plant(
         }
     }
     let nodes = vec![NULL; component.bodies.len()];
-    let in_tree = spanning.len() + anchors.len();
+    let in_tree = spanning.len() + anchors.len() + cut.len();
     let all = component.bodies.iter().flat_map(|&body| {
         joints.of_body(bodies.infos[body as usize].first_joint).map(|(joint, _)| joint)
     });

@@ -241,7 +241,7 @@ impl World {
         };
         let (mass, inertia) = (body.as_ref().mass(), body.as_ref().inertia());
         let per_inertia = if inertia > 0.0 { 1.0 / inertia } else { 0.0 };
-        let (middle, rested) = (body.as_ref().center(), body.info().sleep_time);
+        let (middle, rested) = (body.as_ref().center(), body.rest());
         let (mut slowed, mut turned) = (0.0, 0.0);
         for part in parts {
             let rate = part.displaced * water.linear_drag;
@@ -257,7 +257,7 @@ impl World {
             let spin = body.as_ref().angular_velocity();
             body.apply_torque(-spin * (part.spread * water.angular_drag * turned));
         }
-        body.info().sleep_time = rested;
+        body.set_rest(rested);
     }
 
     /// Lets the force of a zone act on all dynamic bodies that overlap it with a shape that the filter shows,
@@ -268,9 +268,11 @@ impl World {
         });
         for body in bodies {
             if let Some(mut body) = self.body_mut(body) {
-                let rested = body.info().sleep_time;
+                let rested = body.rest();
                 body.apply_zone_force(&zone.force, dt);
-                body.info().sleep_time = if zone.wakes { 0.0 } else { rested };
+                if !zone.wakes {
+                    body.set_rest(rested);
+                }
             }
         }
     }

@@ -243,10 +243,13 @@ impl CharacterMover {
         let mut carried = Vec2::ZERO;
         if let Some(velocity) = self.launched.take().filter(|velocity| velocity.is_finite()) {
             (self.velocity, self.drift) = (velocity, velocity.dot(right));
-            self.ground = None;
+            (self.ground, self.told) = (None, velocity);
         }
         if self.ground.is_none() && self.velocity != self.told {
-            self.drift = self.velocity.dot(right);
+            // Set since: by so much more, or to a halt.
+            let sideways = self.velocity.dot(right);
+            self.drift += sideways - self.told.dot(right);
+            self.drift = if sideways == 0.0 { 0.0 } else { self.drift };
         }
         let jump = if input.jump > 0.0 { input.jump } else { 0.0 };
         if self.ground.is_some() && (jump > 0.0 || input.drop) {
@@ -273,8 +276,8 @@ impl CharacterMover {
         let is_here = self.position.relative_to(ground.point).length() <= self.height;
         let Some(body) = world.body(ground.body).filter(|_| is_here) else {
             // That is gone, or it has been taken elsewhere.
-            self.ground = None;
-            self.velocity = Vec2::ZERO;
+            (self.velocity, self.drift) = (Vec2::ZERO, 0.0);
+            (self.ground, self.told) = (None, Vec2::ZERO);
             return;
         };
         let moves = body.kind() != BodyKind::Static;
@@ -294,9 +297,8 @@ impl CharacterMover {
 
     /// Goes on in the air with the velocity of what it stood on.
     fn leave(&mut self, frame: Frame, velocity: Vec2) {
-        self.drift = velocity.dot(frame.right);
-        self.velocity = frame.up * velocity.dot(frame.up);
-        (self.ground, self.told) = (None, self.velocity);
+        (self.velocity, self.drift) = (velocity, velocity.dot(frame.right));
+        (self.ground, self.told) = (None, velocity);
     }
 
     /// How fast the surface that it stands on runs, seen from its body.
@@ -469,7 +471,8 @@ impl CharacterMover {
         // It has met it where the step has taken it: only sideways it goes along.
         let carry = self.ground_velocity(world) * left;
         let carry = carry - hit.normal * hit.normal.dot(carry);
-        self.slide(world, frame, carry, self.ground.map(|ground| ground.body));
+        let moves = world.body(hit.body).is_some_and(|body| body.kind() != BodyKind::Static);
+        self.slide(world, frame, carry, moves.then_some(hit.body));
         self.walk(world, frame, speed, left);
     }
 

@@ -51,8 +51,7 @@ pub(crate) fn resist(
 /// How often a body has turned back by now. The last bit is the direction.
 fn swings(bodies: &Bodies, body: u32, length_unit: f32) -> u8 {
     let info = &bodies.infos[body as usize];
-    let is_pushed = info.force != Vec2::ZERO || info.torque != 0.0;
-    if is_pushed || is_calm(bodies, body) || info.first_joint != NULL {
+    if is_calm(bodies, body) || info.first_joint != NULL {
         return 0;
     }
     let (swings, spin) = (bodies.swings[body as usize], bodies.angular_velocity(body));
@@ -73,7 +72,8 @@ fn is_ball_alone(bodies: &Bodies, contacts: &Contacts, body: u32) -> bool {
     let mut others = touching.filter(|contact| contact.touching).map(|contact| contact.other(body));
     let round = info.max_extent - info.min_extent <= ROUND * info.min_extent;
     let first = others.next();
-    bodies.is_dynamic(body) && round && others.all(|other| Some(other) == first)
+    let free = bodies.is_dynamic(body) && info.first_joint == NULL;
+    free && round && others.all(|other| Some(other) == first)
 }
 
 /// Does the user alone move a body? What that takes to and fro does not rock.

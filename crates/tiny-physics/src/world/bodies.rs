@@ -64,7 +64,7 @@ impl BodyMut<'_> {
         Body { world: self.world, index: self.index }
     }
 
-    pub(crate) fn info(&mut self) -> &mut BodyInfo {
+    pub(super) fn info(&mut self) -> &mut BodyInfo {
         &mut self.world.state.bodies.infos[self.index as usize]
     }
 
@@ -198,8 +198,20 @@ impl BodyMut<'_> {
         let (force, torque) = (info.force + force, info.torque + torque);
         if acts && self.accept(&[force.x, force.y, torque]) {
             let info = self.info();
-            (info.force, info.torque, info.sleep_time) = (force, torque, 0.0);
+            (info.force, info.torque) = (force, torque);
+            self.set_rest((0.0, 0));
         }
+    }
+
+    /// How long it has rested, seconds, and how often it has swung: what acts on it from outside is no rest.
+    pub(crate) fn rest(&mut self) -> (f32, u8) {
+        (self.info().sleep_time, self.world.state.bodies.swings[self.index as usize])
+    }
+
+    /// The way back.
+    pub(crate) fn set_rest(&mut self, (rested, swings): (f32, u8)) {
+        self.info().sleep_time = rested;
+        self.world.state.bodies.swings[self.index as usize] = swings;
     }
 
     /// Applies an impulse in newton seconds at a world point, at once.

@@ -427,6 +427,15 @@ fn a_hero_flies_as_he_is_told() {
     (hero.position, hero.velocity) = (DVec2::new(0.0, 10.0), Vec2::ZERO);
     go(&mut world, &mut hero, walk(0.0), 30);
     assert!(hero.position.x.abs() < 0.01, "he falls straight: {}", hero.position.x);
+    let start = hero.position.x;
+    for _ in 0..12 {
+        hero.velocity.y = 2.0;
+        go(&mut world, &mut hero, walk(3.0), 1);
+    }
+    let went = hero.position.x - start;
+    assert!((went - 0.6).abs() < 0.02, "up again and again he walks no faster: {went}");
+    go(&mut world, &mut hero, walk(0.0), 1);
+    hero.position.x = 0.0;
     hero.velocity = Vec2::new(-6.0, 3.0);
     go(&mut world, &mut hero, walk(0.0), 30);
     assert!((hero.position.x + 3.0).abs() < 0.05, "{}", hero.position.x);
