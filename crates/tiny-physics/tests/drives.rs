@@ -3,7 +3,7 @@
 mod common;
 
 use common::{circle, rect, steps};
-use tiny_physics::{BodyId, JointDef, JointId, Locks, RigidBody, Shape, Vec2, World};
+use tiny_physics::{BodyId, JointDef, JointId, Locks, RigidBody, Shape, SimdLevel, Vec2, World};
 
 fn space() -> World {
     let mut world = World::new(Vec2::ZERO);
@@ -139,4 +139,71 @@ fn a_motor_on_what_cannot_turn_bears_nothing() {
     world.body_mut(disk).expect("a disk").set_locks(locks);
     steps(&mut world, 10);
     assert!(motor_load(&world, joint).abs() < 1e-3, "{}", motor_load(&world, joint));
+}
+
+/// So does a carriage that pulls a heavy train, whichever of its bodies comes first, at any rate of steps, in any unit, and a hub with an arm on
+/// one side; all alike at every level.
+#[test]
+fn motors_reach_their_speed_whatever_they_drive() {
+    for member in 0..24 {
+        let (swapped, unit) = (member % 2 == 1, if member % 4 < 2 { 1.0 } else { 50.0 });
+        let dt = [1.0 / 30.0, 1.0 / 60.0, 1.0 / 240.0][member / 4 % 3];
+        let play = |level: SimdLevel| {
+            let mut world = space();
+            world.set_simd(level).expect("a level");
+            world.settings.length_unit = unit;
+            let wall = wall(&mut world);
+            let small = add(&mut world, rect(0.1 * unit, 0.1 * unit), 1.0, Vec2::ZERO);
+            let mass = if member < 12 { 80.0 } else { 8.0 };
+            let place = Vec2::new(1.5 * unit, 0.0);
+            let large = add(&mut world, rect(unit, 0.5 * unit), mass, place);
+            let mut join = |a: BodyId, b: BodyId, joint: JointDef| {
+                let (a, b) = if swapped { (b, a) } else { (a, b) };
+                world.add_joint(a, b, joint).expect("a joint");
+            };
+            let goal = if swapped { -unit } else { unit };
+            if member < 12 {
+                join(wall, small, JointDef::prismatic(Vec2::new(1.0, 0.0)).motor(goal, 1e9));
+            } else {
+                let speed = if swapped { -1.0 } else { 1.0 };
+                join(wall, small, JointDef::revolute().motor(speed, 1e9));
+            }
+            join(small, large, JointDef::weld().anchor_at(Vec2::new(0.3 * unit, 0.0)));
+            let reached = |world: &World| match member < 12 {
+                true => world.body(large).expect("a train").velocity().x / unit,
+                false => spin(world, large),
+            };
+            let mut most = 0.0_f32;
+            for _ in 0..(2.0 / dt) as usize {
+                world.step(dt);
+                most = most.max(reached(&world));
+            }
+            (reached(&world), most, world.state_hash())
+        };
+        let (reached, most, hash) = play(SimdLevel::Scalar);
+        assert!((reached - 1.0).abs() < 0.02 && most < 1.15, "{member}: {reached}, {most} at most");
+        for level in SimdLevel::available() {
+            assert_eq!(play(level).2, hash, "{member}: {level}");
+        }
+    }
+}
+
+/// A spring has its frequency for its two bodies; under a load it sinks by as many times more as that makes what moves heavier.
+#[test]
+fn springs_sink_in_proportion_to_what_lies_on_them() {
+    for load in [0.0, 1.0, 4.0] {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let wall = wall(&mut world);
+        let plate = add(&mut world, rect(1.0, 0.1), 1.0, Vec2::ZERO);
+        let spring = JointDef::prismatic(Vec2::new(0.0, 1.0)).spring(4.0, 0.7);
+        world.add_joint(wall, plate, spring).expect("a spring");
+        if load > 0.0 {
+            add(&mut world, rect(0.3, 0.3), load, Vec2::new(0.0, 0.4));
+        }
+        steps(&mut world, 600);
+        let rate = core::f32::consts::TAU * 4.0;
+        let sunk = -world.body(plate).expect("a plate").position().y;
+        let formula = (1.0 + load) * 10.0 / (rate * rate);
+        assert!((sunk - formula).abs() < 0.02 * formula + 2e-4, "{load} kg: {sunk}, {formula}");
+    }
 }

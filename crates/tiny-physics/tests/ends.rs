@@ -4,7 +4,9 @@
 mod common;
 
 use common::{DT, Random, circle, rect, steps, world};
-use tiny_physics::{BodyId, ChainDef, JointDef, Locks, RigidBody, ShapeDef, TileGrid, Vec2, World};
+use tiny_physics::{
+    BodyId, ChainDef, JointDef, Locks, Polygon, RigidBody, Rot, ShapeDef, TileGrid, Vec2, World,
+};
 
 fn dynamic(world: &mut World, shape: ShapeDef, place: Vec2) -> BodyId {
     world.add_body(RigidBody::dynamic().position(place).shape(shape)).expect("a body")
@@ -52,6 +54,45 @@ fn one_way_tiles_and_solid_ones_make_one_floor() {
     }
 }
 
+/// So do they where the world lies on its side, in another unit, and where both are parts of a raft that floats.
+#[test]
+fn one_way_parts_make_one_floor_anywhere() {
+    let mut random = Random::new(8);
+    for member in 0..60 {
+        let (unit, turn) = ([1.0, 50.0][member % 2], random.range(-3.0, 3.0));
+        let rot = Rot::from_angle(turn);
+        let mut world = World::new(rot.rotate(Vec2::new(0.0, -10.0 * unit)));
+        world.settings.length_unit = unit;
+        let mut floor = if member % 3 == 0 {
+            RigidBody::dynamic().gravity_scale(0.0)
+        } else if member % 3 == 1 {
+            RigidBody::kinematic()
+        } else {
+            RigidBody::fixed()
+        };
+        for k in 0..6 {
+            let place = Vec2::new(2.0 * unit * k as f32, 0.0);
+            let part =
+                Polygon::turned_rect(unit, 0.5 * unit, place, Rot::IDENTITY).expect("a part");
+            let part = ShapeDef::new(part).friction(0.0).density(1000.0);
+            floor = floor.shape(if k % 2 == member % 2 { part.one_way(Vec2::Y) } else { part });
+        }
+        world.add_body(floor.angle(turn)).expect("a floor");
+        let half = unit * random.range(0.15, 0.45);
+        let body = RigidBody::dynamic().position(rot.rotate(Vec2::new(0.0, 0.5 * unit + half)));
+        let body = body.angle(turn).shape(ShapeDef::new(rect(half, half)).friction(0.0));
+        let body = world.add_body(body).expect("a body");
+        steps(&mut world, 30);
+        let speed = unit * random.range(1.0, 12.0);
+        world.body_mut(body).expect("a body").set_velocity(rot.rotate(Vec2::new(speed, 0.0)));
+        for _ in 0..(60.0 * 10.0 * unit / speed) as usize {
+            world.step(DT);
+            let velocity = rot.unrotate(world.body(body).expect("a body").velocity());
+            assert!(velocity.x > 0.97 * speed, "{member}: {velocity:?} of {speed}, {turn} rad");
+        }
+    }
+}
+
 /// And a wall that one-way ground runs into is a wall for what is inside that ground or comes under it.
 #[test]
 fn a_wall_beside_one_way_ground_stays_a_wall() {
@@ -95,16 +136,23 @@ fn the_end_of_a_one_way_platform_stops_nobody() {
     }
 }
 
-/// Planks lean on the edge of a platform, and tip over it, as they do on a solid one.
+/// Planks lean on the edge of a platform, and tip over it, as they do on a solid one; on the end of a chain, too.
 #[test]
 fn planks_lean_on_the_edges_of_one_way_platforms() {
     for tilt in [0.3_f32, 0.5, 0.7] {
-        let heights = [false, true].map(|one_way| {
+        let heights = [0, 1, 2].map(|kind| {
             let mut world = world();
             fixed(&mut world, rect(20.0, 0.5).into(), Vec2::new(0.0, -1.6));
             let platform = ShapeDef::new(rect(2.0, 0.1)).friction(0.8);
-            let platform = if one_way { platform.one_way(Vec2::Y) } else { platform };
-            fixed(&mut world, platform, Vec2::ZERO);
+            let platform = if kind == 1 { platform.one_way(Vec2::Y) } else { platform };
+            if kind == 2 {
+                let ground = world.add_body(RigidBody::fixed()).expect("ground");
+                let points = [2.0, 0.7, -0.8, -2.0].map(|x| Vec2::new(x, 0.1));
+                let chain = ChainDef::open(&points).friction(0.8);
+                world.add_chain(ground, &chain).expect("a chain");
+            } else {
+                fixed(&mut world, platform, Vec2::ZERO);
+            }
             let along = Vec2::new(tilt.cos(), -tilt.sin());
             let length = (1.2 / tilt.sin() + 0.5) * 0.5;
             let middle = Vec2::new(2.0, 0.1) + along * (length - 0.5) + along.perp() * 0.055;
@@ -115,8 +163,10 @@ fn planks_lean_on_the_edges_of_one_way_platforms() {
             let plank = world.body(plank).expect("a plank");
             (plank.position().y, plank.angle())
         });
-        let [solid, one_way] = heights;
-        assert!((solid.0 - one_way.0).abs() < 0.05, "{tilt}: {solid:?}, {one_way:?}");
+        let [solid, others @ ..] = heights;
+        for other in others {
+            assert!((solid.0 - other.0).abs() < 0.05, "{tilt}: {solid:?}, {heights:?}");
+        }
     }
 }
 

@@ -142,7 +142,7 @@ described! {
         drift: f32,
         /// Ignores the one-way platform that it stands on, until it has come through.
         dropping: bool,
-        /// The velocity that the last update left: another one has been given to it since.
+        /// The velocity that the last update left; where `velocity` is another, the user has set that since.
         told: Vec2 = default,
         /// What it pushed in the last update.
         pushed: Option<Push>,
@@ -410,8 +410,9 @@ impl CharacterMover {
                 self.stand(world, &hit);
             }
             _ => {
-                let platform = self.ground_velocity(world);
+                let (platform, walked) = (self.ground_velocity(world), self.velocity);
                 self.leave(frame, platform);
+                self.velocity += walked;
             }
         }
     }

@@ -12,7 +12,7 @@ use super::boxes::{self, Moved, Way};
 use super::finalize::{self, FastBody};
 use super::narrow_context::Ground;
 use super::one_way;
-use super::pairs::PairRule;
+use super::pairs::{PairRule, may_collide};
 use super::surfaces::{self, Seams};
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, NULL, ShapeRecord, Shapes, Slot, is_rigid};
@@ -512,10 +512,8 @@ impl Search<'_> {
         let other = &shapes.records[index as usize];
         other.body != record.body
             && !other.sensor
-            && record.filter.collides(&other.filter)
             && rules.off.binary_search(&[shape, other.body]).is_err()
-            && rules.joints.may_collide(bodies, record.body, other.body)
-            && rules.custom.is_none_or(|rule| rule.allows(bodies, shapes, shape, index))
+            && may_collide((bodies, shapes, rules.joints), rules.custom, [shape, index])
     }
 }
 

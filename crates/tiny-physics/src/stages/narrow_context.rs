@@ -56,14 +56,3 @@ pub(crate) struct Ground<'a> {
     pub(crate) custom: Option<&'a dyn PairRule>,
     pub(crate) length_unit: f32,
 }
-
-impl Ground<'_> {
-    /// May two shapes collide, whatever they are?
-    pub(crate) fn allows(&self, a: u32, b: u32) -> bool {
-        let Self { bodies, shapes, joints, custom, .. } = *self;
-        let [one, other] = [a, b].map(|shape| &shapes.records[shape as usize]);
-        one.filter.collides(&other.filter)
-            && joints.may_collide(bodies, one.body, other.body)
-            && custom.is_none_or(|rule| rule.allows(bodies, shapes, a, b))
-    }
-}

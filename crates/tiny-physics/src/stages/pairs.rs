@@ -257,6 +257,18 @@ pub(crate) trait PairRule: Sync {
     fn allows(&self, bodies: &Bodies, shapes: &Shapes, a: u32, b: u32) -> bool;
 }
 
+/// Do filters, joints and the user let two shapes collide, whatever else they are?
+pub(crate) fn may_collide(
+    (bodies, shapes, joints): (&Bodies, &Shapes, &Joints),
+    custom: Option<&dyn PairRule>,
+    [a, b]: [u32; 2],
+) -> bool {
+    let [one, other] = [a, b].map(|shape| &shapes.records[shape as usize]);
+    one.filter.collides(&other.filter)
+        && joints.may_collide(bodies, one.body, other.body)
+        && custom.is_none_or(|rule| rule.allows(bodies, shapes, a, b))
+}
+
 /// What decides whether two shapes may meet.
 #[derive(Clone, Copy)]
 pub(crate) struct Partners<'a> {
@@ -328,10 +340,8 @@ impl Partners<'_> {
         shape_a.body != shape_b.body
             && !shape_a.sensor
             && !shape_b.sensor
-            && shape_a.filter.collides(&shape_b.filter)
             && self.contacts.pairs.get(a, b).is_none()
-            && self.joints.may_collide(self.bodies, shape_a.body, shape_b.body)
-            && self.custom.is_none_or(|rule| rule.allows(self.bodies, self.shapes, a, b))
+            && may_collide((self.bodies, self.shapes, self.joints), self.custom, [a, b])
     }
 }
 

@@ -16,6 +16,7 @@
 
 use super::narrow_context::{Context, Ground};
 use super::one_way;
+use super::pairs::may_collide;
 use crate::broad_phase::{BroadPhase, ProxyId, ProxyKind};
 use crate::describe::ChainLink;
 use crate::dynamics::{Bodies, Change, ShapeRecord, Shapes, guard};
@@ -275,7 +276,7 @@ impl<'a> Seams<'a> {
     /// Visits the cores of the shapes near some points that make one surface with this one, in this frame
     /// and no fixed order, as the other shape meets them.
     fn each_neighbour(&self, points: &[Vec2], mut visit: impl FnMut(&Core)) {
-        let Ground { bodies, shapes, broad_phase, length_unit, .. } = self.ground;
+        let Ground { bodies, shapes, broad_phase, joints, custom, length_unit } = self.ground;
         let pose = self.own_pose();
         let bounds = world_box(pose, points, TOLERANCE * length_unit);
         let Some(kind) = self.kind() else { return };
@@ -284,7 +285,7 @@ impl<'a> Seams<'a> {
             if index != self.own
                 && is_ground(neighbour, self.record, kind)
                 && neighbour.body != shapes.records[self.other as usize].body
-                && self.ground.allows(index, self.other)
+                && may_collide((bodies, shapes, joints), custom, [index, self.other])
             {
                 let place = boxed_pose(&bodies.poses, neighbour).relative_to(pose);
                 let core = boxed_core(neighbour).transformed(place);
@@ -357,10 +358,8 @@ impl<'a> View<'a> {
         let is_behind = face.dot(middle(&seams.other_core) - a) < 0.0;
         // What leans on the end has its middle behind, perhaps.
         let is_open = link.previous.is_none() || link.next.is_none();
-        if is_behind && !(is_open && self.meets_a_corner(normal)) {
-            return Verdict::Drop;
-        }
-        if seams.link_has(link, normal) {
+        let is_met = !is_behind || is_open && self.meets_a_corner(normal);
+        if is_met && seams.link_has(link, normal) {
             return Verdict::Keep;
         }
         if is_behind {

@@ -487,3 +487,58 @@ fn a_hero_pushes_with_his_own_speed_and_against_what_he_stands_on() {
     let speed = world.body(cart).unwrap().velocity().x;
     assert!(speed.abs() < 0.05, "{speed} m/s");
 }
+
+/// Off a ledge he goes on as fast as he walked, and says so.
+#[test]
+fn a_hero_says_how_fast_he_goes_over_a_ledge() {
+    let mut world = World::new((0.0, -10.0));
+    world.add_body(RigidBody::fixed().shape(square(2.0))).unwrap();
+    let mut hero = hero(&mut world, (0.0, 2.91));
+    for step in 0..90 {
+        go(&mut world, &mut hero, walk(3.0), 1);
+        assert!((hero.velocity.x - 3.0).abs() < 0.01, "step {step}: {:?}", hero.velocity);
+    }
+    assert!(hero.ground().is_none());
+}
+
+/// Belts carry him on platforms that move, on slopes, and where the world is upside down or lies on its side.
+#[test]
+fn a_hero_rides_on_belts_anywhere() {
+    for (turn, slope, moves) in
+        [(0.0, 0.0, 1.5), (3.0, 0.0, 0.0), (1.2, 0.3, 0.0), (-1.9, -0.4, -0.7)]
+    {
+        let rot = Rot::from_angle(turn);
+        let mut world = World::new(rot.rotate(Vec2::new(0.0, -10.0)));
+        let belt = ShapeDef::new(Shape::rect(9.0, 0.5).unwrap()).tangent_speed(1.0);
+        let belt = RigidBody::kinematic().angle(turn + slope).shape(belt);
+        world.add_body(belt.velocity(rot.rotate(Vec2::new(moves, 0.0)))).unwrap();
+        let start = rot.rotate(Vec2::new(0.0, 1.6));
+        let mut hero = CharacterMover::new(start, 1.8, 0.3);
+        go(&mut world, &mut hero, walk(0.0), 30);
+        assert!(hero.ground().is_some(), "{turn}, {slope}");
+        let before = hero.position;
+        go(&mut world, &mut hero, walk(0.0), 60);
+        let went = rot.unrotate(hero.position.relative_to(before));
+        let (along, up) = (slope.cos() + moves, slope.sin());
+        assert!((went - Vec2::new(along, up)).length() < 0.05, "{turn}, {slope}: {went:?}");
+    }
+}
+
+/// A steep slope before a wall is a notch as well.
+#[test]
+fn a_hero_gets_out_from_between_a_slope_and_a_wall() {
+    for side in [-1.0, 1.0] {
+        let mut world = World::new((0.0, -10.0));
+        let wall = Shape::rect(0.2, 5.0).unwrap();
+        world.add_body(RigidBody::fixed().position((side * 0.8, 3.0)).shape(wall)).unwrap();
+        let slope = RigidBody::fixed().position((-side * 0.6, 1.5)).angle(side as f32 * 0.35);
+        world.add_body(slope.shape(Shape::rect(0.2, 4.0).unwrap())).unwrap();
+        let mut hero = hero(&mut world, (-side * 0.2, 6.0));
+        go(&mut world, &mut hero, walk(0.0), 240);
+        let rests = hero.position.y;
+        assert!(hero.ground().is_some() && rests > 0.0, "{side}: at {rests}");
+        go(&mut world, &mut hero, MoverInput { jump: 6.0, ..walk(0.0) }, 1);
+        go(&mut world, &mut hero, walk(0.0), 25);
+        assert!(hero.position.y > rests + 1.0, "{side}: {} from {rests}", hero.position.y);
+    }
+}

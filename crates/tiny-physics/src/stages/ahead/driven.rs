@@ -15,7 +15,8 @@ const SATURATED: f32 = 0.99;
 const STRONGER: f32 = 2.0;
 /// Joints of a body that are looked through for one that holds it.
 const HINGES: usize = 8;
-/// A motor that gets so much of its speed goes on, as does one that gains some; and a spring of whose pull so much goes into motion and damping: the rest is held.
+/// A motor that gets so much of its speed goes on, as does one that gains some, and a spring of whose pull so much goes into motion and
+/// damping: the rest is held.
 const GOES: f32 = 0.5;
 const YIELDS: f32 = 0.25;
 /// A spring is at its rest so near to it, metres (times the length unit) or radians, and where it pulls no more than this, by the second
@@ -371,7 +372,9 @@ pub(crate) fn moves(
     };
     if let JointKind::Motor { velocity, max_force, .. } = record.def.kind {
         let motor = Motor { speed: velocity.length(), max: max_force };
-        if goes(motor, (now[1].velocity() - now[0].velocity()).length(), 0.0, length_unit) {
+        let [now, gain] =
+            [&now, &gains].map(|ends| (ends[1].velocity() - ends[0].velocity()).length());
+        if goes(motor, now, gain, length_unit) {
             return true;
         }
     }
