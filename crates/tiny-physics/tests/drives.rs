@@ -3,7 +3,9 @@
 mod common;
 
 use common::{circle, rect, steps};
-use tiny_physics::{BodyId, JointDef, JointId, Locks, RigidBody, Shape, SimdLevel, Vec2, World};
+use tiny_physics::{
+    BodyId, JointDef, JointId, Limits, Locks, RigidBody, Shape, SimdLevel, Vec2, World,
+};
 
 fn space() -> World {
     let mut world = World::new(Vec2::ZERO);
@@ -205,5 +207,98 @@ fn springs_sink_in_proportion_to_what_lies_on_them() {
         let sunk = -world.body(plate).expect("a plate").position().y;
         let formula = (1.0 + load) * 10.0 / (rate * rate);
         assert!((sunk - formula).abs() < 0.02 * formula + 2e-4, "{load} kg: {sunk}, {formula}");
+    }
+}
+
+/// What pushes a hinge far beyond a limit is taken back no faster than what may stand in its way can be seen to.
+#[test]
+fn limits_that_move_do_not_jump_over_what_is_between() {
+    for (mass, turn) in [(3.0, 0.7), (30.0, 0.4), (3.0, 1.0)] {
+        let mut world = space();
+        let wall = wall(&mut world);
+        let door = RigidBody::dynamic().shape(rect(1.0, 0.05)).mass(mass);
+        let along = Vec2::new(1.5_f32.cos(), 1.5_f32.sin());
+        let door = world.add_body(door.position(along).angle(1.5)).expect("a door");
+        let hinge = JointDef::revolute().anchors(Vec2::ZERO, Vec2::new(-1.0, 0.0)).limits(0.0, 1.6);
+        let hinge = world.add_joint(wall, door, hinge).expect("a hinge");
+        let ball = add(&mut world, circle(0.2), 1.0, Vec2::new(f32::cos(turn), f32::sin(turn)));
+        steps(&mut world, 1);
+        world
+            .joint_mut(hinge)
+            .expect("a hinge")
+            .set_limits(Some(Limits { lower: 0.0, upper: 0.1 }))
+            .unwrap();
+        let mut fastest = 0.0_f32;
+        for _ in 0..120 {
+            let before = world.body(door).expect("a door").angle();
+            steps(&mut world, 1);
+            let after = world.body(door).expect("a door").angle();
+            fastest = fastest.max((after - before).abs());
+        }
+        let at = world.body(ball).expect("a ball").position();
+        let (angle, ball) = (world.body(door).expect("a door").angle(), (at.y / at.x).atan());
+        assert!(fastest < 0.3, "{mass} kg: {fastest} rad a step");
+        assert!(angle < 0.11, "{mass} kg: open by {angle}");
+        assert!(ball < angle || at.length() > 2.0, "{mass} kg: {ball} of {angle}");
+    }
+}
+
+/// Stiff springs with little damping that share a body swing and do not swing up.
+#[test]
+fn many_stiff_springs_on_one_body_hold() {
+    for (count, hertz, damping) in [
+        (3, 60.0, 0.0),
+        (3, 60.0, 0.1),
+        (3, 60.0, 0.3),
+        (4, 60.0, 0.1),
+        (8, 60.0, 0.1),
+        (8, 40.0, 0.0),
+    ] {
+        let mut world = space();
+        let wall = wall(&mut world);
+        let ball = add(&mut world, circle(0.3), 1.0, Vec2::ZERO);
+        for k in 0..count {
+            let anchor = Vec2::new(if k % 2 == 0 { -1.0 } else { 1.0 }, 0.0);
+            let spring = JointDef::distance(1.0).spring(hertz, damping).anchors(anchor, Vec2::ZERO);
+            world.add_joint(wall, ball, spring).expect("a spring");
+        }
+        world.body_mut(ball).expect("a ball").set_velocity(Vec2::new(0.01, 0.0));
+        for step in 0..240 {
+            steps(&mut world, 1);
+            let speed = world.body(ball).expect("a ball").velocity().length();
+            assert!(speed < 0.02, "{count} of {hertz} Hz, {damping}: {speed} in step {step}");
+        }
+    }
+}
+
+/// The force of a rope that has just been woken is the one it had, or none.
+#[test]
+fn forces_of_what_wakes_point_where_they_pull() {
+    let mut world = World::new(Vec2::new(0.0, -10.0));
+    let wall = wall(&mut world);
+    let lamp = add(&mut world, circle(0.3), 4.0, Vec2::new(0.0, -2.0));
+    let rope = world.add_joint(wall, lamp, JointDef::rope(2.0)).expect("a rope");
+    steps(&mut world, 300);
+    assert!(!world.body(lamp).expect("a lamp").is_awake());
+    world.body_mut(lamp).expect("a lamp").wake();
+    let force = world.joint(rope).expect("a rope").force();
+    assert!(force.x.abs() < 0.1, "{force:?}");
+    steps(&mut world, 1);
+    let force = world.joint(rope).expect("a rope").force();
+    assert!(force.x.abs() < 0.1 && (force.y.abs() - 40.0).abs() < 1.0, "{force:?}");
+}
+
+/// A crane shortens its rope.
+#[test]
+fn ropes_take_a_new_length() {
+    let mut world = World::new(Vec2::new(0.0, -10.0));
+    let wall = wall(&mut world);
+    let load = add(&mut world, circle(0.3), 4.0, Vec2::new(0.0, -5.0));
+    let rope = world.add_joint(wall, load, JointDef::rope(5.0)).expect("a rope");
+    for length in [3.0, 6.0] {
+        world.joint_mut(rope).expect("a rope").set_target(length).expect("it has a length");
+        steps(&mut world, 400);
+        let y = world.body(load).expect("a load").position().y;
+        assert!((y + length).abs() < 0.02, "{y} of {length}");
     }
 }

@@ -247,3 +247,52 @@ fn sensors_tell_of_what_passes_close_by_and_what_grazes() {
         }
     }
 }
+
+/// What turns about its own middle does not let pass what it hits with its solid side.
+#[test]
+fn one_way_paddles_hit_what_they_turn_into() {
+    for (spin, kinematic) in [(30.0, true), (12.0, true), (30.0, false)] {
+        let mut world = World::new(Vec2::ZERO);
+        let paddle =
+            if kinematic { RigidBody::kinematic() } else { RigidBody::dynamic().mass(100.0) };
+        let paddle = paddle.angle(-0.25).angular_velocity(spin);
+        let shape = ShapeDef::new(rect(1.0, 0.05)).one_way(Vec2::Y);
+        world.add_body(paddle.shape(shape)).expect("a paddle");
+        let ball = dynamic(&mut world, ShapeDef::new(circle(0.1)), Vec2::new(0.8, 0.0));
+        steps(&mut world, 4);
+        let ball = world.body(ball).expect("a ball");
+        assert!(ball.velocity().y > 0.3 * spin, "{spin} {kinematic}: {:?}", ball.velocity());
+    }
+}
+
+/// Ground may be as large as it likes: small boxes lie on it with both ends, and what falls fast lands on it.
+#[test]
+fn endless_ground_is_as_good_as_any() {
+    for half in [1e3, 1e4, 1e5, 1e6] {
+        let segment = tiny_physics::Shape::segment((-half, 0.0), (half, 0.0)).expect("a floor");
+        let slab = rect(half, 1.0);
+        for (ground, y) in [(slab, -1.0), (segment, 0.0)] {
+            for angle in [0.0, 0.1, -0.1] {
+                let mut world = world();
+                fixed(&mut world, ShapeDef::new(ground), Vec2::new(0.0, y));
+                let body = RigidBody::dynamic().shape(rect(0.3, 0.2)).angle(angle);
+                let body = world.add_body(body.position((0.0, 0.3))).expect("a box");
+                steps(&mut world, 120);
+                let body = world.body(body).expect("a box");
+                let off = (body.angle().abs(), (body.position().y - 0.2).abs());
+                assert!(off.0 < 0.01 && off.1 < 0.01, "{half} {angle}: {off:?}");
+            }
+            for (radius, from, speed) in [(0.5, 3.3, 30.0), (0.1, 1.0, 10.0), (0.1, 1.03, 20.0)] {
+                let mut world = world();
+                let floor = ShapeDef::new(ground).restitution(0.7);
+                fixed(&mut world, floor, Vec2::new(0.0, y));
+                let shape = ShapeDef::new(circle(radius)).restitution(0.7);
+                let ball = dynamic(&mut world, shape, Vec2::new(0.0, from));
+                world.body_mut(ball).expect("a ball").set_velocity(Vec2::new(0.0, -speed));
+                steps(&mut world, 12);
+                let up = world.body(ball).expect("a ball").velocity().y;
+                assert!(up > 0.45 * speed - 2.0, "{half} {radius}: {up} of {speed}");
+            }
+        }
+    }
+}

@@ -470,6 +470,16 @@ impl JointKind {
 
     pub(crate) fn set_rest(&mut self, value: f32) -> bool {
         match self {
+            Self::Distance { length, spring: None, limits: Some(limits), motor: None } => {
+                if limits.upper != *length {
+                    return false;
+                }
+                // A rope of that length.
+                if limits.lower == limits.upper || limits.lower > value {
+                    limits.lower = value;
+                }
+                (limits.upper, *length) = (value, value);
+            }
             Self::Distance { length: rest, .. }
             | Self::Revolute { target_angle: rest, .. }
             | Self::Prismatic { target: rest, .. }

@@ -194,12 +194,16 @@ pub(crate) mod flags {
     pub(crate) const ROLLING: u8 = 2;
     /// Some lane has a moving surface.
     pub(crate) const TANGENT_SPEED: u8 = 4;
-    /// Some lane's impulses are summed up in the step: for hit events, and for contacts that were predicted.
+    /// Some lane's hits are events.
     pub(crate) const HIT: u8 = 8;
     /// Some point has a rest.
     pub(crate) const RESTS: u8 = 16;
     /// All lanes are solved elsewhere, for the length of the substeps.
     pub(crate) const TAKEN: u8 = 32;
+    /// Some lane's contact was predicted for this step.
+    pub(crate) const WATCHED: u8 = 64;
+    /// The impulses of a step are summed up.
+    pub(crate) const SUMMED: u8 = HIT | WATCHED;
 }
 
 record! {

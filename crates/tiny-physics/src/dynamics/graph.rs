@@ -9,6 +9,7 @@ use super::blocks::{
     load_lanes, move_lane, save_lanes,
 };
 use super::bodies::{Bodies, NULL};
+use super::body_rows::Slot;
 use super::coloured::{Bucketful, Coloured, IDLE, Place, give_colour_back, place_of, take_colour};
 use super::contacts::{Contact, Contacts, SavedPoint};
 use crate::codec::{Data, Reader, Sink, clone_by_field, store};
@@ -16,7 +17,7 @@ use crate::error::Error;
 use crate::footprint::{Footprint, MemoryUse, each, footprint};
 use crate::geometry::manifold::PairClass;
 use crate::math::Vec2;
-use crate::simd::BLOCK;
+use crate::simd::{BLOCK, Row};
 use crate::threads::SharedSlice;
 use core::ops::Range;
 
@@ -200,6 +201,18 @@ pub(crate) struct Blocks<'a> {
 }
 
 impl Bucket {
+    /// Speeds along the normal at the points of a lane: what the bodies have now.
+    pub(crate) fn approach(&self, rows: &[Row], (block, lane): (usize, usize)) -> [f32; 2] {
+        let constraint = &self.constraints[block];
+        let [a, b] = [constraint.body_a, constraint.body_b].map(|body| &rows[body[lane] as usize]);
+        let along = constraint.normal_x[lane] * (b[Slot::VX] - a[Slot::VX])
+            + constraint.normal_y[lane] * (b[Slot::VY] - a[Slot::VY]);
+        [0, 1].map(|k| {
+            let point = &constraint.points[k];
+            along + point.normal_arm_b[lane] * b[Slot::W] - point.normal_arm_a[lane] * a[Slot::W]
+        })
+    }
+
     /// Some of its blocks.
     #[inline(always)]
     pub(super) fn blocks(&mut self, range: Range<usize>) -> Blocks<'_> {
@@ -512,7 +525,7 @@ impl Graph {
     /// Has the impulses of a contact summed up in this step.
     pub(crate) fn watch(&mut self, contact: &Contact) {
         if let Some((bucket, slot)) = self.solved_at(contact) {
-            self.buckets.list_mut()[bucket].heads[slot / BLOCK].flags |= flags::HIT;
+            self.buckets.list_mut()[bucket].heads[slot / BLOCK].flags |= flags::WATCHED;
         }
     }
 
@@ -522,6 +535,17 @@ impl Graph {
             let surface = &mut self.buckets.list_mut()[bucket].surfaces[slot / BLOCK];
             (surface.approach_1[slot % BLOCK], surface.approach_2[slot % BLOCK]) = (HELD, HELD);
         }
+    }
+
+    /// Has it bounce as its bodies move, after all; gives the speeds at its points.
+    pub(crate) fn let_go(&mut self, contact: &Contact, rows: &[Row]) -> Option<[f32; 2]> {
+        let (bucket, slot) = self.solved_at(contact)?;
+        let (bucket, block, lane) =
+            (&mut self.buckets.list_mut()[bucket], slot / BLOCK, slot % BLOCK);
+        let approach = bucket.approach(rows, (block, lane));
+        let surface = &mut bucket.surfaces[block];
+        (surface.approach_1[lane], surface.approach_2[lane]) = (approach[0], approach[1]);
+        Some(approach)
     }
 
     /// Did a contact that was watched push in this step?

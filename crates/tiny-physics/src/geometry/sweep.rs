@@ -51,7 +51,7 @@ impl Sweep {
         let q = if self.angle == 0.0 || fraction == 0.0 {
             self.rotation
         } else {
-            Rot::from_angle(self.angle * fraction).compose(self.rotation)
+            Rot::turn(self.angle * fraction).compose(self.rotation)
         };
         let center = self.start + self.translation() * fraction;
         Transform::new(center - q.rotate(self.local_center), q)

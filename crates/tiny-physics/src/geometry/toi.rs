@@ -25,6 +25,8 @@ const MAX_ITERATIONS: u32 = 128;
 pub const LINEAR_SLOP: f32 = 0.005;
 /// Closer to the target than this part of the slop is a hit.
 const TOLERANCE: f32 = 0.1;
+/// Rounding counts up to so many tolerances: ground of a hundred kilometres is not touched from ten centimetres away.
+const ROUNDED: f32 = 4.0;
 
 /// How a search for an impact ended.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -126,7 +128,9 @@ struct Goal {
 impl Goal {
     /// The separation that is a hit, as far as rounding can tell.
     fn touch(&self, a: &Moving<'_>, b: &Moving<'_>) -> f32 {
-        self.target + self.tolerance + a.rounding() + b.rounding()
+        let rounding = a.rounding() + b.rounding();
+        let most = ROUNDED * self.tolerance;
+        self.target + self.tolerance + if rounding < most { rounding } else { most }
     }
 
     fn is_finite(&self, a: &Moving<'_>, b: &Moving<'_>) -> bool {

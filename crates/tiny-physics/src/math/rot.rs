@@ -88,7 +88,7 @@ impl Rot {
     /// The rotation by an angle in radians. Small ones take the half-angle form `((1 - t^2), 2t) / (1 + t^2)` with
     /// `t = tan(angle / 2)` by its series, which needs no table of quadrants.
     #[inline(always)]
-    fn turn(delta: f32) -> Self {
+    pub(crate) fn turn(delta: f32) -> Self {
         if delta.abs() > Self::SMALL_TURN {
             return Self::from_angle(delta);
         }

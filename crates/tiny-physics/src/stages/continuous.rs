@@ -428,7 +428,9 @@ impl Search<'_> {
         let motion = their.child(other.central);
         let middle = || body.start + body.rotation.rotate(middle_of(record));
         let turn = bodies.poses[other.body as usize].q;
-        if surfaces::lets_pass(other, motion.at(0.0), turn, middle, relative) {
+        let turned =
+            body.angle.abs() * shapes.reach(shape) + their.angle.abs() * shapes.reach(index);
+        if surfaces::lets_pass(other, motion.at(0.0), turn, middle, (relative, turned)) {
             return None;
         }
         // One-way platforms stop only what comes from their solid side.

@@ -149,6 +149,9 @@ impl<K: PairKernel> LaneKernel for Update<'_, K> {
             let lanes = contacts.len();
             let (mut touching, mut closing) = (0, 0);
             let mut at = 0;
+            if context.naming {
+                blocks.heads[index].flags &= !flags::WATCHED;
+            }
             while at < lanes {
                 let mut load = L::splat(token, 0.0);
                 if constrained {
@@ -181,7 +184,9 @@ impl<K: PairKernel> LaneKernel for Update<'_, K> {
             let valid = if lanes == BLOCK { u16::MAX } else { (1 << lanes) - 1 };
             blocks.heads[index].touching = touching as u16 & valid;
             blocks.heads[index].closing = if context.naming { closing as u16 & valid } else { 0 };
-            note_joints(&context, &blocks.manifolds[index], &mut blocks.heads[index], lanes);
+            if constrained {
+                note_joints(&context, &blocks.manifolds[index], &mut blocks.heads[index], lanes);
+            }
         }
     }
 }
@@ -247,8 +252,8 @@ impl<L: Lanes> Geometry<L> {
             b: [shape_b[4], shape_b[5], shape_b[6]],
         };
         let limit = L::splat(token, context.speculative_distance);
-        let ahead =
-            context.fast.then(|| Ahead::of(token, context.dt, bodies, &pair, [place_a, place_b]));
+        let ahead = (context.fast && Ahead::matters(token, context, bodies, [&shape_a, &shape_b]))
+            .then(|| Ahead::of(token, context.dt, bodies, &pair, [place_a, place_b]));
         let reach = ahead.as_ref().map_or(limit, |ahead| ahead.way.max(limit));
         let shapes = [&block.shape_a[at..], &block.shape_b[at..]];
         let mut m = K::collide::<L>(token, context, shapes, &pair, reach);
@@ -323,6 +328,26 @@ struct Ahead<L: Lanes> {
 }
 
 impl<L: Lanes> Ahead<L> {
+    /// May some lane go so far that it closes in? Where none does, the way is shorter than the reach of contacts, too.
+    #[inline(always)]
+    fn matters(
+        token: L::Token,
+        context: &Context<'_>,
+        [a, b]: [&[L; 8]; 2],
+        [shape_a, shape_b]: [&[L; 8]; 2],
+    ) -> bool {
+        let thickness = |shape: &[L; 8]| shape[4].min(shape[5]) + shape[6];
+        let extent =
+            |shape: &[L; 8]| shape[0].abs() + shape[1].abs() + shape[4] + shape[5] + shape[6];
+        let linear = (b[0] - a[0]).abs() + (b[1] - a[1]).abs();
+        let turned = a[2].abs() * extent(shape_a) + b[2].abs() * extent(shape_b);
+        let way = (linear + turned) * L::splat(token, context.dt);
+        let slight = L::splat(token, SLIGHT * context.speculative_distance);
+        let thin = (thickness(shape_a) + thickness(shape_b)) * L::splat(token, 0.5);
+        // Less by more than rounding makes.
+        L::bits(way.le(slight.min(thin) * L::splat(token, 0.99))) != L::bits(slight.eq(slight))
+    }
+
     #[inline(always)]
     fn of(
         token: L::Token,
@@ -560,7 +585,7 @@ fn write_constraint<L: Lanes, K: PairKernel>(
         rests[0].store(&mut surface.rest_1[at..]);
         rests[1].store(&mut surface.rest_2[at..]);
     }
-    if blocks.heads[index].flags & (flags::RESTITUTION | flags::HIT) != 0 {
+    if blocks.heads[index].flags & (flags::RESTITUTION | flags::SUMMED) != 0 {
         approach[0].store(&mut surface.approach_1[at..]);
         approach[1].store(&mut surface.approach_2[at..]);
         zero.store(&mut surface.total_1[at..]);

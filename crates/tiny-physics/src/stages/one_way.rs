@@ -70,7 +70,9 @@ pub(crate) fn are_solid_along([a, b]: [&ShapeRecord; 2], turned: [Rot; 2], norma
     is_solid(a, turned[0], normal) && is_solid(b, turned[1], -normal)
 }
 
-/// Does one let pass what moves by `way` relative to it? `q` is the rotation of its body.
-pub(crate) fn lets_pass(shape: &ShapeRecord, q: Rot, way: Vec2) -> bool {
-    shape.one_way.is_some_and(|direction| q.rotate(direction).dot(way) >= 0.0)
+/// Does one let pass what moves by `way` relative to it, and a point of which turning takes `turned` further at most? `q` is the rotation
+/// of its body.
+pub(crate) fn lets_pass(shape: &ShapeRecord, q: Rot, way: Vec2, turned: f32) -> bool {
+    let along = |direction: Vec2| q.rotate(direction.normalized()).dot(way);
+    shape.one_way.is_some_and(|direction| along(direction) >= turned)
 }

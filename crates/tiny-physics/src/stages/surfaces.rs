@@ -620,18 +620,19 @@ fn touched_by(core: &Core, other: &Core, tolerance: f32) -> u32 {
 }
 
 /// May something that moves by `motion` (metres, world) from behind or inside pass this shape? For the
-/// continuous stage: `middle` is that of the moving shape and `place` the other's frame, in one frame.
+/// continuous stage: `middle` is that of the moving shape and `place` the other's frame, in one frame. Turning takes a point by
+/// `turned` more at most.
 pub(crate) fn lets_pass(
     record: &ShapeRecord,
     place: Transform,
     body_rotation: crate::math::Rot,
     middle: impl FnOnce() -> Vec2,
-    motion: Vec2,
+    (motion, turned): (Vec2, f32),
 ) -> bool {
     if let (Some(_), Shape::Segment { a, b }) = (record.link, record.shape) {
         let way = b - a;
         let outside = Vec2::new(way.y, 0.0 - way.x);
         return outside.dot(place.unapply(middle()) - a) < 0.0;
     }
-    one_way::lets_pass(record, body_rotation, motion)
+    one_way::lets_pass(record, body_rotation, motion, turned)
 }

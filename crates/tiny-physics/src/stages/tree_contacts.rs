@@ -313,7 +313,7 @@ impl Touch {
             belt: asked(flags::TANGENT_SPEED, surface.tangent_speed[lane]),
             rolling: asked(flags::ROLLING, surface.rolling_resistance[lane]),
             rolling_impulse: asked(flags::ROLLING, surface.rolling_impulse[lane]),
-            hit: flags & flags::HIT != 0,
+            hit: flags & flags::SUMMED != 0,
             fixed: sides[0].fixed || sides[1].fixed,
             points,
         }

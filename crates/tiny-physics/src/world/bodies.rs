@@ -11,7 +11,7 @@ use crate::math::{DVec2, Pose, Rot, Vec2};
 use crate::stages::sleep;
 
 /// Velocities, forces, impulses beyond this are refused, in any unit.
-const MAX_NUMBER: f32 = 1.0e15;
+pub(super) const MAX_NUMBER: f32 = 1.0e15;
 
 /// A body of the world, to read.
 #[derive(Clone, Copy)]

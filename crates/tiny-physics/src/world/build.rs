@@ -350,7 +350,8 @@ impl World {
         let info = &mut bodies.infos[record.body as usize];
         info.never_turns |= matches!(record.shape, Shape::Aabb { .. });
         let solid = |other: u32| other != shape && !shapes.records[other as usize].sensor;
-        let is_first = !shapes.of_body(info.first_shape).any(solid);
+        // A sensor has no say in it, and there may be many of them.
+        let is_first = !record.sensor && !shapes.of_body(info.first_shape).any(solid);
         self.update_central_frame(shape, is_first);
     }
 

@@ -7,7 +7,7 @@
 use super::World;
 use super::contacts::ContactView;
 use super::ids::{BodyId, ShapeId};
-use crate::dynamics::{Bodies, Bucket, IDLE, Shapes, Slot, flags};
+use crate::dynamics::{Bodies, Bucket, IDLE, Shapes, flags};
 use crate::geometry::manifold::PairClass;
 use crate::simd::BLOCK;
 use crate::stages::pairs::PairRule;
@@ -190,7 +190,12 @@ impl World {
         for (&at, rules) in places.iter().zip(chunks.iter().flatten()) {
             self.apply_rules(at, rules);
         }
-        self.scratch.switched_off.sort_unstable();
+        let off = &mut self.scratch.switched_off;
+        off.sort_unstable();
+        if !off.is_empty() {
+            let super::State { graph, contacts, bodies, .. } = &mut self.state;
+            self.scratch.predictions.let_go(off, (bodies, contacts), graph);
+        }
         self.scratch.touching = places;
         self.scratch.answers = answers;
     }
@@ -223,7 +228,7 @@ impl World {
         let (block, lane) = (slot as usize / BLOCK, slot as usize % BLOCK);
         let bucket = self.state.graph.bucket_mut(place.into(), class);
         let restitution = positive(rules.restitution);
-        let known = flags::RESTITUTION | flags::HIT;
+        let known = flags::RESTITUTION | flags::SUMMED;
         if restitution > 0.0 && bucket.heads[block].flags & known == 0 {
             note_approach(bucket, &self.state.bodies.rows, block);
         }
@@ -258,16 +263,9 @@ fn positive(value: f32) -> f32 {
 /// Writes the normal velocities at the start of the step, which the narrow phase does only for blocks that
 /// bounce or send hit events.
 fn note_approach(bucket: &mut Bucket, rows: &[crate::simd::Row], block: usize) {
-    let (constraint, surface) = (&bucket.constraints[block], &mut bucket.surfaces[block]);
     for lane in 0..BLOCK {
-        let a = &rows[constraint.body_a[lane] as usize];
-        let b = &rows[constraint.body_b[lane] as usize];
-        let along = constraint.normal_x[lane] * (b[Slot::VX] - a[Slot::VX])
-            + constraint.normal_y[lane] * (b[Slot::VY] - a[Slot::VY]);
-        let approach = [0, 1].map(|k| {
-            let point = &constraint.points[k];
-            along + point.normal_arm_b[lane] * b[Slot::W] - point.normal_arm_a[lane] * a[Slot::W]
-        });
+        let approach = bucket.approach(rows, (block, lane));
+        let surface = &mut bucket.surfaces[block];
         (surface.approach_1[lane], surface.approach_2[lane]) = (approach[0], approach[1]);
         (surface.total_1[lane], surface.total_2[lane]) = (0.0, 0.0);
     }

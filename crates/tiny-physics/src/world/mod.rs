@@ -212,6 +212,8 @@ impl World {
         self.update_sensors(team);
         self.put_resting_islands_to_sleep();
         self.state.events.flush_pending();
+        // A hook may have asked in the middle of the step.
+        self.moved.take();
         watch.lap(&mut self.stats, Stage::Sleep);
     }
 
@@ -301,15 +303,19 @@ impl World {
 
     /// Predicts contacts that will be made in the step.
     fn predict(&mut self, team: &Team, lengths: Lengths) {
+        let mut changed = false;
         if self.foresee(lengths) {
-            self.look_again(team, lengths);
+            changed |= self.look_again(team, lengths);
             let candidates = &mut self.scratch.predictions.candidates;
             candidates.sort_unstable();
             candidates.dedup();
         }
         while self.predict_round(team, lengths) {
-            self.wake_struck(team, lengths);
-            self.look_again(team, lengths);
+            changed |= self.wake_struck(team, lengths);
+            changed |= self.look_again(team, lengths);
+        }
+        if changed {
+            self.scratch.schedule.fill(&self.state.graph, narrow_phase::CHUNK);
         }
         let Self { state: State { contacts, graph, .. }, scratch, .. } = self;
         let ahead::Predictions { contacts: predicted, fresh, .. } = &mut scratch.predictions;
@@ -337,20 +343,21 @@ impl World {
         self.scratch.predictions.round(team, scene)
     }
 
-    /// Wakes what is struck, with all that it may hit in turn.
-    fn wake_struck(&mut self, team: &Team, lengths: Lengths) {
+    /// Wakes what is struck, with all that it may hit in turn. Was anything asleep?
+    fn wake_struck(&mut self, team: &Team, lengths: Lengths) -> bool {
         let awake = self.state.bodies.awake.len();
         for place in 0..self.scratch.predictions.struck.len() {
             self.wake_index(self.scratch.predictions.struck[place].body);
         }
-        if self.state.bodies.awake.len() > awake {
+        let woken = self.state.bodies.awake.len() > awake;
+        if woken {
             self.update_fresh_manifolds(team, lengths);
-            self.scratch.schedule.fill(&self.state.graph, narrow_phase::CHUNK);
         }
+        woken
     }
 
-    /// Looks for what they may meet on their new ways.
-    fn look_again(&mut self, team: &Team, lengths: Lengths) {
+    /// Looks for what they may meet on their new ways. Are there contacts that were not there before?
+    fn look_again(&mut self, team: &Team, lengths: Lengths) -> bool {
         let reach = self.contact_reach();
         let State { bodies, shapes, contacts, joints, broad_phase, graph, waiting, .. } =
             &mut self.state;
@@ -361,7 +368,7 @@ impl World {
         let waiting = &waiting.pairs;
         let around = ahead::Around { broad_phase, graph, waiting, partners, dt: lengths.dt };
         predictions.look_again(team, around, &mut search.pairs);
-        self.add_candidates(team);
+        self.add_candidates(team)
     }
 
     /// Predicted contacts that pushed have begun; those that did not have never been.
@@ -397,12 +404,12 @@ impl World {
         }
     }
 
-    /// Creates contacts for the pairs of the search, after the narrow phase.
-    fn add_candidates(&mut self, team: &Team) {
+    /// Creates contacts for the pairs of the search, after the narrow phase. Are there any?
+    fn add_candidates(&mut self, team: &Team) -> bool {
         let State { bodies, shapes, contacts, graph, .. } = &mut self.state;
-        let Scratch { predictions, search, created, transfers, schedule, .. } = &mut self.scratch;
+        let Scratch { predictions, search, created, transfers, .. } = &mut self.scratch;
         if search.pairs.is_empty() {
-            return;
+            return false;
         }
         pairs::create_contacts(&search.pairs, &self.settings, shapes, bodies, contacts, created);
         transfers.insert(team, graph, bodies, contacts, created.iter().copied());
@@ -410,7 +417,7 @@ impl World {
             graph.mark_touching(&contacts.records[contact as usize], false);
         }
         predictions.candidates.extend_from_slice(created);
-        schedule.fill(graph, narrow_phase::CHUNK);
+        true
     }
 
     /// Moves contacts that began or ended to where they belong; wakes what was touched. The schedule is still
@@ -515,7 +522,7 @@ impl World {
 
     /// Looks for islands at rest now and then, and lets them sleep.
     fn put_resting_islands_to_sleep(&mut self) {
-        if !self.settings.sleep || !self.state.step_count.is_multiple_of(sleep::INTERVAL) {
+        if !self.settings.sleep || !self.is_sleep_due() {
             return;
         }
         let mut islands = core::mem::take(&mut self.scratch.islands);
@@ -530,6 +537,19 @@ impl World {
         );
         self.put_to_sleep(&islands);
         self.scratch.islands = islands;
+    }
+
+    /// Every eighth step, and as soon as all that is awake has rested long enough.
+    fn is_sleep_due(&self) -> bool {
+        let State { bodies, step_count, .. } = &self.state;
+        let least = self.settings.time_to_sleep.max(f32::MIN_POSITIVE);
+        let mut rested = bodies.awake.iter().map(|&body| bodies.infos[body as usize].sleep_time);
+        let mut just_now = false;
+        step_count.is_multiple_of(sleep::INTERVAL)
+            || rested.all(|time| {
+                just_now |= time < least + self.stats.dt;
+                time >= least
+            }) && just_now
     }
 
     /// Steps made so far.

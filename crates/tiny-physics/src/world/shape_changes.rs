@@ -86,7 +86,6 @@ impl ShapeMut<'_> {
         let (body, density) = (record.body, record.material.density);
         self.world.state.shapes.records[self.index as usize].material = material;
         self.world.wake_index(body);
-        self.world.wake_neighbours(body);
         if density != material.density && self.world.state.bodies.is_dynamic(body) {
             self.world.update_mass(body);
         }
@@ -218,9 +217,13 @@ impl World {
         self.contacts_where(body, |contact| contact.shape_a == shape || contact.shape_b == shape)
     }
 
-    /// Brings what contacts know of the materials of their shapes up to date.
+    /// Brings what contacts know of the materials of their shapes up to date, and wakes what touches.
     fn refresh_contacts_of(&mut self, shape: u32) {
         for index in self.contacts_of(shape) {
+            let record = &self.state.contacts.records[index as usize];
+            for body in [record.body_a, record.body_b] {
+                self.wake_index(body);
+            }
             let State { contacts, shapes, graph, .. } = &mut self.state;
             let contact = &mut contacts.records[index as usize];
             pairs::mix_materials(contact, &self.settings, shapes);

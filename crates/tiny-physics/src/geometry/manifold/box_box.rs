@@ -11,7 +11,7 @@ const AXIS_BIAS: f32 = 5.0e-4;
 /// Below this fraction of both boxes' size, the direction between two corners is rounding noise.
 const NOISE: f32 = 4.0e-5;
 
-/// Two points nearer to each other than this fraction of both boxes' size are one.
+/// Two points nearer to each other than this fraction of the smaller box and of where they are along the face are one.
 const MIN_WIDTH: f32 = 4.0e-6;
 
 /// Box against box, both with a radius; A and B may be flat (capsules) or points (circles).
@@ -36,8 +36,8 @@ pub(super) struct Scale<L> {
     pub(super) bias: L,
     /// Shorter than this has no direction.
     pub(super) noise: L,
-    /// Narrower than this is one point.
-    pub(super) width: L,
+    /// The smaller box's size.
+    pub(super) smaller: L,
     /// Both radii.
     pub(super) radius: L,
 }
@@ -49,10 +49,17 @@ impl<L: Lanes> Scale<L> {
         let size_b = pair.b[0] + pair.b[1] + pair.b[2];
         Self {
             bias: L::splat(token, AXIS_BIAS) * size_a.min(size_b),
+            smaller: size_a.min(size_b),
             noise: L::splat(token, NOISE) * (size_a + size_b),
-            width: L::splat(token, MIN_WIDTH) * (size_a + size_b),
             radius: pair.a[2] + pair.b[2],
         }
+    }
+
+    /// Is there more between the ends of an overlap than rounding? Both are ends of the smaller box, wherever that lies.
+    #[inline(always)]
+    pub(super) fn is_wide(&self, token: L::Token, low: L, high: L) -> L::Mask {
+        let size = low.abs() + high.abs() + self.smaller;
+        (high - low).gt(L::splat(token, MIN_WIDTH) * size)
     }
 }
 
@@ -158,7 +165,7 @@ impl<L: Lanes> View<L> {
             L::select(self.flipped, overlap.high, overlap.low),
             L::select(self.flipped, overlap.low, overlap.high),
         ];
-        let wide = (overlap.high - overlap.low).gt(scale.width);
+        let wide = scale.is_wide(token, overlap.low, overlap.high);
 
         let direction = self.direction_in_a(pair, overlap.normal);
         let normal = [

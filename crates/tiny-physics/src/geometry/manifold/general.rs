@@ -304,7 +304,7 @@ fn overlap<L: Lanes>(
     let (low, high) = (below.low.max(above.low), below.high.min(above.high));
     let (middle, crossed) = (half * (low + high), high.lt(low));
     let ends = [L::select(crossed, middle, low), L::select(crossed, middle, high)];
-    let wide = (ends[1] - ends[0]).gt(scale.width);
+    let wide = scale.is_wide(token, ends[0], ends[1]);
     let lift = pair.a[2] - pair.b[2];
     let mut points = [[L::splat(token, 0.0); 2]; 2];
     let mut separation = [L::splat(token, ABSENT); 2];

@@ -32,7 +32,9 @@ pub(super) struct Meeting<'a> {
 impl Meeting<'_> {
     /// Is one of the shapes one-way, and lets the other pass?
     pub(super) fn is_let_pass(&self) -> bool {
-        let lets = |k: usize, way: Vec2| one_way::lets_pass(self.shapes[k], self.turned[k], way);
+        let turned = self.turned_way();
+        let lets =
+            |k: usize, way: Vec2| one_way::lets_pass(self.shapes[k], self.turned[k], way, turned);
         lets(0, self.way) || lets(1, -self.way)
     }
 
@@ -85,8 +87,12 @@ impl Meeting<'_> {
 
     /// How far a point can come nearer in the step, metres.
     pub(super) fn longest_way(&self) -> f32 {
-        let turned = |k: usize| self.turns[k].abs() * self.extents[k];
-        self.way.length() + turned(0) + turned(1)
+        self.way.length() + self.turned_way()
+    }
+
+    /// How far turning takes a point at most, metres.
+    fn turned_way(&self) -> f32 {
+        self.turns[0].abs() * self.extents[0] + self.turns[1].abs() * self.extents[1]
     }
 
     /// Do the disks around the shapes meet on their ways?

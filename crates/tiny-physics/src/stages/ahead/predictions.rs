@@ -142,6 +142,27 @@ impl Predictions {
         self.behind.iter().for_each(|&index| graph.hold_back(&contacts.records[index as usize]));
     }
 
+    /// Has those that were held back bounce after all where what hit first is switched off: shapes, and the bodies that they do not touch.
+    pub(crate) fn let_go(
+        &mut self,
+        off: &[[u32; 2]],
+        (bodies, contacts): (&Bodies, &Contacts),
+        graph: &mut Graph,
+    ) {
+        for index in core::mem::take(&mut self.behind) {
+            let contact = &contacts.records[index as usize];
+            let is_off =
+                |body| bodies.is_dynamic(body) && off.iter().any(|&[_, other]| other == body);
+            if !is_off(contact.body_a) && !is_off(contact.body_b) {
+                continue;
+            }
+            let parting = graph.let_go(contact, &bodies.rows);
+            if let (Some(known), Some(parting)) = (self.known_mut(index), parting) {
+                known.parting = parting;
+            }
+        }
+    }
+
     /// Are there none?
     pub(crate) fn is_empty(&self) -> bool {
         self.list.is_empty()
@@ -459,6 +480,10 @@ impl Look<'_> {
             return None;
         }
         let meeting = self.meeting(contact);
+        // The narrow phase has found no other within its reach.
+        if meeting.longest_way() <= self.reach() {
+            return None;
+        }
         let frames = meeting.sweeps().map(|sweep| sweep.at(0.0));
         let manifold = self.correct(contact, &meeting, &frames)?;
         (manifold.count == 2).then(|| meeting.predict(&manifold, &frames[0], 0.0))

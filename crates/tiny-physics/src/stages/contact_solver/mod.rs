@@ -195,7 +195,7 @@ impl Work<'_> {
                 }
                 Pass::Solve => solve::<L, POINTS>(&stride, block, surface, flags),
                 Pass::Relax | Pass::RelaxLast => {
-                    let unsummed = if self.pass == Pass::Relax { flags::HIT } else { 0 };
+                    let unsummed = if self.pass == Pass::Relax { flags::SUMMED } else { 0 };
                     relax::<L, POINTS>(&stride, block, surface, flags & !unsummed);
                 }
             }
@@ -321,7 +321,7 @@ fn relax<L: Lanes, const POINTS: usize>(
     for (point, load) in block.points.iter_mut().zip(loads).take(POINTS) {
         stride.store(load, &mut point.load);
     }
-    if flags & flags::HIT != 0 {
+    if flags & flags::SUMMED != 0 {
         let totals = [&mut surface.total_1, &mut surface.total_2];
         for (total, load) in totals.into_iter().zip(loads).take(POINTS) {
             stride.store(stride.load(total) + load, total);

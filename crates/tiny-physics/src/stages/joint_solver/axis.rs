@@ -228,6 +228,9 @@ const FIRMNESS: f32 = 1.5;
 /// How many times the usual way a limit of an angle may turn back in a substep: what is hit hard needs it, what lies in a
 /// heap of 40 or more would rest sooner without.
 const TURN_BACK: f32 = 40.0;
+/// Overrun of an angle at which that is over, radians: no hit bends so far. What was moved or made out of its limits comes in slowly enough
+/// for what is in its way to be seen.
+const BENT: f32 = 0.2;
 
 /// How limits give way.
 #[derive(Clone, Copy)]
@@ -235,6 +238,9 @@ pub(super) struct Give<L> {
     /// Speed at which an overrun is taken back, besides that with which it comes and what the limit stops already: a
     /// ragdoll that is hit needs more than one that lies in a heap.
     snap: L,
+    /// So much faster close to the limit, and how that fades over an overrun.
+    haste: L,
+    fade: L,
     /// Overrun beyond which it is pushed back more firmly than softly, and that over which it becomes quite firm.
     overrun: L,
     spread: L,
@@ -245,7 +251,9 @@ impl<L: Lanes> Give<L> {
     #[inline(always)]
     pub(super) fn turning(stride: &Stride<L>) -> Self {
         Self {
-            snap: stride.snap_turn * stride.splat(TURN_BACK),
+            snap: stride.snap_turn,
+            haste: stride.snap_turn * stride.splat(TURN_BACK - 1.0),
+            fade: stride.splat(1.0 / BENT),
             overrun: stride.splat(SOFT_OVERRUN),
             spread: stride.splat(SPREAD),
         }
@@ -256,7 +264,8 @@ impl<L: Lanes> Give<L> {
     pub(super) fn sliding(stride: &Stride<L>) -> Self {
         let [overrun, spread] =
             [SOFT_OVERRUN, SPREAD].map(|length| stride.unit * stride.splat(length));
-        Self { snap: stride.snap, overrun, spread }
+        let [haste, fade] = [stride.zero; 2];
+        Self { snap: stride.snap, haste, fade, overrun, spread }
     }
 
     /// Ropes, never firm: a net of 900 whips itself to 26 m/s with firm ones. In time they have to follow a net that
@@ -264,7 +273,8 @@ impl<L: Lanes> Give<L> {
     #[inline(always)]
     pub(super) fn rope(stride: &Stride<L>) -> Self {
         let snap = stride.snap * stride.splat(4.0);
-        Self { snap, overrun: stride.splat(f32::MAX), spread: stride.one }
+        let [haste, fade] = [stride.zero; 2];
+        Self { snap, haste, fade, overrun: stride.splat(f32::MAX), spread: stride.one }
     }
 
     /// The impulse of one limit: it pushes only, and stops within the substep what would run over it.
@@ -280,7 +290,9 @@ impl<L: Lanes> Give<L> {
         let apart = room.gt(stride.zero);
         let impulse = if BIAS {
             let (soft_push, firm_push) = (soft.push * room, (room + self.overrun) * stride.inv_h);
-            let least = velocity.min(stride.zero) - inv_mass * old - self.snap;
+            let near = (stride.one + room * self.fade).clamp(stride.zero, stride.one);
+            let snap = self.snap + self.haste * near;
+            let least = velocity.min(stride.zero) - inv_mass * old - snap;
             let push = firm_push.min(soft_push).max(least);
             // Only a soft push takes part of the velocity, and of what was pushed before.
             let firm = (soft_push - firm_push) / (self.spread * stride.inv_h);

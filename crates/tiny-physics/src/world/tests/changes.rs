@@ -496,3 +496,28 @@ fn no_contact_is_shown_without_its_normal() {
     world.step(DT);
     assert_eq!((world.contacts().count(), bad(&world)), (1, 0));
 }
+
+/// The material of one shape of a body concerns what touches that.
+#[test]
+fn one_tile_of_a_level_wakes_what_lies_on_it() {
+    let mut world = world();
+    let ground = world.add_body(RigidBody::fixed()).unwrap();
+    let [left, _] = [-50.0, 50.0]
+        .map(|x| world.add_shape(ground, rect(2.0, 0.5).offset(Vec2::new(x, 0.0))).unwrap());
+    let [a, b] = [-50.0, 50.0].map(|x| add(&mut world, x, 1.0, rect(0.5, 0.5)));
+    run(&mut world, 200);
+    assert_eq!(world.awake_body_count(), 0);
+    world.shape_mut(left).unwrap().set_friction(0.1).unwrap();
+    assert!(world.body(a).unwrap().is_awake() && !world.body(b).unwrap().is_awake());
+}
+
+/// A target that is refused is refused as a whole.
+#[test]
+fn targets_are_taken_whole() {
+    let mut world = world();
+    let lift = world.add_body(RigidBody::kinematic().shape(rect(0.5, 0.5))).unwrap();
+    let target = crate::Transform::from_angle(Vec2::new(1.0e6, 0.0), 0.1);
+    world.body_mut(lift).unwrap().set_target(target, 1.0e-10);
+    let lift = world.body(lift).unwrap();
+    assert_eq!((lift.velocity(), lift.angular_velocity()), (Vec2::ZERO, 0.0));
+}

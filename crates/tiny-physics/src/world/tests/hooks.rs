@@ -137,3 +137,45 @@ fn worlds_with_a_pair_filter_are_read_again() {
     run(&mut world, 60);
     assert!(friends.iter().all(|&friend| (y(&world, friend) - 0.5).abs() < 0.02));
 }
+
+/// What hits something first that is switched off bounces from what is behind as if that were not there.
+#[test]
+fn what_is_switched_off_stops_no_bounce() {
+    for phase in 0..12 {
+        let mut world = World::new(Vec2::ZERO);
+        let wall = RigidBody::fixed().position(Vec2::new(0.5, 0.0));
+        world.add_body(wall.shape(rect(0.5, 2.0).restitution(1.0))).unwrap();
+        let ghost = RigidBody::fixed().position(Vec2::new(-0.15, 0.0));
+        let ghost = world.add_body(ghost.shape(rect(0.15, 1.0).restitution(0.0))).unwrap();
+        world.set_pre_solve(move |_, contact, rules| {
+            rules.enabled = contact.body_a != ghost && contact.body_b != ghost;
+        });
+        let ball = RigidBody::dynamic().position(Vec2::new(-1.0 - 0.007 * phase as f32, 0.0));
+        let shape = circle(0.3).restitution(1.0);
+        let shape = ShapeDef { hit_events: true, ..shape };
+        let ball = world.add_body(ball.shape(shape).velocity(Vec2::new(5.0, 0.0))).unwrap();
+        let mut hits = 0;
+        for _ in 0..30 {
+            world.step(DT);
+            hits += world.events().hits().iter().filter(|hit| (hit.speed - 5.0).abs() < 0.01).count();
+        }
+        assert_eq!(hits, 1, "{phase}");
+        assert!((world.body(ball).unwrap().velocity().x + 5.0).abs() < 0.01, "{phase}");
+    }
+}
+
+/// A hook may ask which bodies have moved.
+#[test]
+fn hooks_ask_what_has_moved() {
+    let mut world = World::new(Vec2::new(0.0, -10.0));
+    add_ground(&mut world);
+    let lies = RigidBody::dynamic().position(Vec2::new(0.0, 0.5)).can_sleep(false);
+    world.add_body(lies.shape(rect(0.5, 0.5))).unwrap();
+    let far = RigidBody::dynamic().position(Vec2::new(50.0, 30.0)).gravity_scale(0.0);
+    let far = world.add_body(far.shape(rect(0.5, 0.5))).unwrap();
+    world.set_pre_solve(|world, _, _| assert!(world.moved_bodies().len() < 3));
+    run(&mut world, 10);
+    world.body_mut(far).unwrap().set_velocity(Vec2::X);
+    run(&mut world, 1);
+    assert!(world.moved_bodies().contains(&far));
+}

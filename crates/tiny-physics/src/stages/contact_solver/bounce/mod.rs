@@ -234,7 +234,7 @@ impl Batch {
         for (index, &Hit { at, .. }) in self.hits.iter().enumerate() {
             let (points, lane) = (&self.blocks[index / BLOCK].points, index % BLOCK);
             let head = graph.bucket(at.place, at.class).heads[at.slot / BLOCK];
-            if head.flags & flags::HIT != 0 {
+            if head.flags & flags::SUMMED != 0 {
                 told.push((at, [0, 1].map(|k| points[k].normal_impulse[lane])));
             }
         }
