@@ -121,6 +121,8 @@ fn bad_files_are_refused_with_line_field_and_value() {
         ("\"substeps\": 4 }", "\"substeps\": 4 }, \"script\": { \"walkers\": { \"first\": 1, \"count\": 9, \"speed\": 1 } }", 5, "script.walkers.count", "9, but bodies"),
         ("\"substeps\": 4 }", "\"substeps\": 4 }, \"script\": { \"rain\": { \"rows\": 0 } }", 5, "script.rain.rows", "0; allowed is 1"),
         ("\"substeps\": 4 }", "\"substeps\": 4 }, \"script\": { \"wake_sleepers\": { \"bodies\": [0, 5] } }", 5, "script.wake_sleepers.bodies[1]", "5"),
+        ("\"substeps\": 4 }", "\"substeps\": 4 }, \"script\": { \"timeline\": { \"acts\": [{ \"when\": \"always\", \"deed\": { \"water\": { \"surface\": 0, \"between\": [10, -10], \"density\": 1 } } }] } }", 5, "script.timeline.acts[0].deed.water.between", "-10; allowed is the left end or more"),
+        ("\"substeps\": 4 }", "\"substeps\": 4 }, \"script\": { \"character\": { \"position\": [0, 0], \"height\": 1.8, \"radius\": 0.3, \"body\": 0, \"keys\": [{ \"from\": 2 }, { \"from\": 1 }] } }", 5, "script.character.keys[1].from", "not before the key before it"),
         ("\"substeps\": 4 }", "\"substeps\": 4 }, \"script\": { \"snow\": {} }", 5, "script", "unknown variant `snow`"),
         ("\"substeps\": 4 }", "\"substeps\": 4 }, []", 5, "", "key must be a string"),
     ];
