@@ -161,7 +161,8 @@ impl WorldBatch {
     ///
     /// actions: float32, shape (worlds, actuators); may be left out where nothing is to be done.
     ///
-    /// Raises ValueError where the shape is another or a number is not finite; nothing has changed then.
+    /// Raises ValueError where the shape is another, a number is not finite, or `dt` is not above 0; nothing has changed
+    /// then. Raises it, too, where a body does not take a number; worlds before it have had their actions then.
     #[pyo3(signature = (actions=None, dt=1.0 / 60.0, steps=1))]
     fn step<'py>(
         &mut self,
@@ -170,8 +171,10 @@ impl WorldBatch {
         dt: f32,
         steps: u32,
     ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        // A copy: they may be the array that is written afterwards.
-        let actions = actions.map(|actions| actions.as_slice().map(<[f32]>::to_vec)).transpose()?;
+        if !(dt.is_finite() && dt > 0.0) {
+            return Err(PyValueError::new_err(format!("dt is {dt}; allowed is above 0")));
+        }
+        let actions = actions.map(|actions| self.copied(&actions)).transpose()?;
         let Self { inner, actuators, .. } = self;
         py.detach(|| {
             for _ in 0..steps {
@@ -308,6 +311,20 @@ impl WorldBatch {
         let mut batch = Self { inner, actuators, readings, observations };
         batch.observe(py)?;
         Ok(batch)
+    }
+
+    /// The actions, world after world, however the array lies in memory. A copy: it may be the array that is written
+    /// afterwards.
+    fn copied(&self, actions: &PyReadonlyArray2<'_, f32>) -> PyResult<Vec<f32>> {
+        let (actions, needed) = (actions.as_array(), [self.inner.len(), self.actuators.len()]);
+        let shape = actions.shape();
+        if shape == needed {
+            return Ok(actions.iter().copied().collect());
+        }
+        let ([rows, columns], [worlds, each]) = ([shape[0], shape[1]], needed);
+        let reason =
+            format!("actions has the shape ({rows}, {columns}); needed is ({worlds}, {each})");
+        Err(PyValueError::new_err(reason))
     }
 
     /// Reads all worlds into the array that Python sees.

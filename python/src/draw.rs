@@ -103,8 +103,10 @@ pub fn gif<'py>(
         if shape[2] != 3 {
             return Err(PyValueError::new_err("a frame must have the shape (height, width, 3)"));
         }
+        // Row after row, however the array lies in memory.
+        let bytes: Vec<u8> = frame.as_array().iter().copied().collect();
         let pixels: Vec<[u8; 3]> =
-            frame.as_slice()?.chunks(3).map(|rgb| [rgb[0], rgb[1], rgb[2]]).collect();
+            bytes.chunks_exact(3).map(|rgb| [rgb[0], rgb[1], rgb[2]]).collect();
         let canvas = Canvas::from_rgb(shape[1] as u32, shape[0] as u32, &pixels);
         animation.add(&canvas.map_err(draw_error)?).map_err(draw_error)?;
     }

@@ -280,7 +280,8 @@ impl World {
 
     /// State of all bodies in index order, float64: x, y, angle, vx, vy, angular velocity. Shape (bodies, 6).
     ///
-    /// out: an array to write into, of that shape; a new one where it is left out.
+    /// out: an array to write into, of that shape, its rows one after another in memory (order C); a new one where it
+    /// is left out.
     #[pyo3(signature = (out=None))]
     fn states<'py>(
         &self,
@@ -293,6 +294,9 @@ impl World {
         if rows.shape() != [count, 6] {
             let reason = format!("out must have the shape ({count}, 6)");
             return Err(PyValueError::new_err(reason));
+        }
+        if !rows.is_c_contiguous() {
+            return Err(PyValueError::new_err("out must be in order C"));
         }
         let rows = rows.as_slice_mut()?;
         for (row, id) in rows.chunks_mut(6).zip(self.inner.body_ids()) {

@@ -40,6 +40,23 @@ def test_actions_go_in_and_observations_come_out():
     assert np.isclose(seen[:, 3], 0.1, atol=0.01).all()
 
 
+def test_actions_count_by_their_shape_not_by_how_they_lie_in_memory():
+    world, _, cart, *_ = template()
+    ends = []
+    for given in [lambda a: a, np.asfortranarray, lambda a: np.repeat(a, 2, axis=1)[:, ::2]]:
+        many = tp.WorldBatch(world, 3, 1, [("force_x", cart), ("force_y", cart)])
+        many.step(given(np.arange(6, dtype=np.float32).reshape(3, 2)))
+        ends.append(many.state_hashes().tolist())
+    assert ends[0] == ends[1] == ends[2]
+
+
+def test_a_number_that_a_body_does_not_take_is_an_error():
+    world, _, cart, *_ = template()
+    many = tp.WorldBatch(world, 1, 1, [("velocity_x", cart)])
+    with pytest.raises(ValueError, match="too large"):
+        many.step(np.full((1, 1), 3e38, dtype=np.float32))
+
+
 def test_one_world_of_a_batch_is_that_world():
     world, _, cart, actuators, readings = template()
     many = tp.WorldBatch([world], 3, 1, actuators, readings)
@@ -107,12 +124,17 @@ def test_rays_of_all_worlds():
 def test_bad_input_is_named():
     many = batch(4)
     before = many.state_hashes()
-    with pytest.raises(ValueError, match="actions has 3"):
+    with pytest.raises(ValueError, match=r"actions has the shape \(3, 1\)"):
         many.step(np.zeros((3, 1), dtype=np.float32))
+    with pytest.raises(ValueError, match=r"needed is \(4, 1\)"):
+        many.step(np.zeros((1, 4), dtype=np.float32))
     bad = np.zeros((4, 1), dtype=np.float32)
     bad[2] = np.nan
     with pytest.raises(ValueError, match=r"actions\[2\]"):
         many.step(bad)
+    for dt in [np.nan, 0.0, -1.0]:
+        with pytest.raises(ValueError, match="dt is"):
+            many.step(np.ones((4, 1), dtype=np.float32), dt=dt)
     assert (many.state_hashes() == before).all()
     world, _, cart, *_ = template()
     with pytest.raises(ValueError, match="warp"):

@@ -303,6 +303,14 @@ def test_states_write_into_the_array_that_is_given():
     assert out[1].tolist() == [0, 4, 0, 0, 0, 0]
     with pytest.raises(ValueError, match="shape"):
         world.states(np.empty((3, 6)))
+    with pytest.raises(ValueError, match="order C"):
+        world.states(np.empty((2, 6), order="F"))
+
+
+def test_frames_of_a_film_may_lie_in_memory_as_they_like():
+    world, _, _ = falling()
+    picture = world.draw(40, 20)
+    assert tp.gif([np.asfortranarray(picture)]) == tp.gif([picture])
 
 
 def test_pictures():

@@ -587,13 +587,14 @@ export declare class Body {
   setKind(kind: BodyKind): this;
   setEnabled(enabled: boolean): this;
   setLocks(locks: { x?: boolean; y?: boolean; rotation?: boolean }): this;
-  /** Kilograms; `undefined` takes it from the densities of the shapes. */
+  /** Kilograms, above 0; `undefined` takes it from the densities of the shapes. */
   setMass(mass?: number): this;
   setGravityScale(scale: number): this;
   setDamping(linear: number, angular: number): this;
   setCanSleep(canSleep: boolean): this;
   setSleepSpeed(metresPerSecond: number): this;
   setBullet(bullet: boolean): this;
+  /** A whole number from 0 to 2^53 - 1. */
   setUserData(data: number): this;
 }
 

@@ -30,7 +30,7 @@ async function load(source) {
   const found = await (source ?? moduleBeside());
   if (found instanceof WebAssembly.Module || found instanceof ArrayBuffer || ArrayBuffer.isView(found)) {
     const made = await WebAssembly.instantiate(found, {});
-    wasm = (made.instance ?? made).exports;
+    wasm ??= (made.instance ?? made).exports;
     return;
   }
   const response = found instanceof Response ? found : await fetch(found);
@@ -40,7 +40,7 @@ async function load(source) {
   const made = streams
     ? await WebAssembly.instantiateStreaming(response, {})
     : await WebAssembly.instantiate(await response.arrayBuffer(), {});
-  wasm = made.instance.exports;
+  wasm ??= made.instance.exports;
 }
 
 /** The file beside this one: read in Node, fetched elsewhere. */
@@ -97,6 +97,8 @@ function giveQuestion(filter, shape, angle = 0) {
 }
 
 const ALL = 2n ** 64n - 1n;
+/** The least number of 32 bits that keeps all its digits. */
+const LEAST = 2 ** -126;
 
 const text = () => decoder.decode(rawText());
 const rawText = () => new Uint8Array(wasm.memory.buffer, wasm.tp_text(), wasm.tp_text_length());
@@ -198,8 +200,8 @@ export class World {
   // Time.
 
   step(dt) {
-    // The module takes 0 for the scene's own step.
-    if (Math.fround(dt) === 0) throw new PhysicsError(`dt is ${dt}; it has to be above 0`);
+    // The module takes 0 for the scene's own step, and with what is next to nothing nothing moves.
+    if (Math.abs(Math.fround(dt)) < LEAST) throw new PhysicsError(`dt is ${dt}; it has to be above 0, and ${LEAST} or more`);
     check(wasm.tp_step(this.session, dt === undefined ? 0 : Number.isFinite(dt) ? dt : NaN));
   }
 
@@ -478,7 +480,8 @@ export class World {
   }
 
   goTo(step) {
-    check(wasm.tp_go_to(this.session, Math.max(0, Math.round(step))));
+    takes("goTo", 1, [step]);
+    check(wasm.tp_go_to(this.session, Math.min(Math.max(0, Math.round(step)), 2 ** 32 - 1)));
   }
 
   forgetLater() {
@@ -494,6 +497,7 @@ export class World {
 /** A character that stands nowhere yet. */
 export function character(x, y, height, radius) {
   takes("character", 4, [x, y, height, radius]);
+  if (!(height > 0 && radius > 0)) throw new PhysicsError(`height is ${height} and radius ${radius}; both have to be above 0`);
   if (!engine().tp_character(x, y, height, radius)) throw new PhysicsError(text());
   return withHandles(read(text()), whole);
 }
@@ -652,12 +656,26 @@ export class Body {
 
 /** What a method takes, as the module's four numbers. */
 const NUMBERS = {
-  setKind: (kind) => [KINDS.indexOf(kind) < 0 ? 9 : KINDS.indexOf(kind)],
+  setKind: (kind) => {
+    const index = KINDS.indexOf(kind);
+    if (index < 0) throw new PhysicsError(`kind is ${kind}; allowed are ${KINDS.join(", ")}`);
+    return [index];
+  },
   setLocks: ({ x = false, y = false, rotation = false } = {}) => [+x, +y, +rotation],
   setEnabled: (flag) => [+flag],
   setCanSleep: (flag) => [+flag],
   setBullet: (flag) => [+flag],
-  setMass: (mass) => [mass ?? 0],
+  // The module takes 0 for the mass by densities.
+  setMass: (mass) => {
+    if (mass === 0) throw new PhysicsError("mass is 0; allowed is above 0");
+    return [mass ?? 0];
+  },
+  setUserData: (data) => {
+    if (Number.isFinite(data) && !(Number.isSafeInteger(data) && data >= 0)) {
+      throw new PhysicsError(`user data is ${data}; allowed are whole numbers from 0 to 2^53 - 1`);
+    }
+    return [data];
+  },
 };
 
 Object.entries(COMMANDS).forEach(([name, count], which) => {

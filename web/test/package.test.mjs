@@ -1,5 +1,6 @@
 // The package as a user sees it: `node --test`.
 import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
 import { before, test } from "node:test";
 import * as engine from "../npm/index.js";
 
@@ -20,6 +21,18 @@ function pile() {
 const run = (world, steps) => {
   for (let i = 0; i < steps; i++) world.step(1 / 60);
 };
+
+test("a load that is under way leaves a module alone that has come before it", async () => {
+  const bytes = await readFile(new URL("../npm/tiny_physics.wasm", import.meta.url));
+  const fresh = await import("../npm/index.js?fresh");
+  const loading = fresh.init(bytes);
+  fresh.initSync(bytes);
+  const world = new fresh.World();
+  const body = world.addBody(ball(0, 4));
+  await loading;
+  world.step(1 / 60);
+  assert(world.body(body).position.y < 4);
+});
 
 test("a ball falls and rests", () => {
   const world = new World({ gravity: [0, -10] });
@@ -85,6 +98,9 @@ test("what is wrong is said in the engine's words, and changes nothing", () => {
   wrong(() => world.step(NaN), /dt is NaN/);
   wrong(() => world.step(0), /dt is 0/);
   wrong(() => world.step(1e-50), /dt is 1e-50/);
+  wrong(() => world.step(1e-38), /dt is 1e-38/);
+  wrong(() => engine.character(0, 2, 1.8, -0.3), /radius -0.3/);
+  wrong(() => engine.character(0, 2, 0, 0.3), /height is 0/);
   wrong(() => world.setSettings({ substeps: 0 }), /substeps/);
   assert.equal(world.settings.substeps, 4);
   wrong(() => World.loadScene('{ "version": 1, "bodies": [ { "weight": 2 } ] }'), /line 1 column \d+: bodies\[0\]/);
@@ -117,7 +133,11 @@ test("bodies, shapes and joints can be read and changed", () => {
   assert.deepEqual(body.damping, { linear: Math.fround(0.1), angular: Math.fround(0.2) });
   body.setLocks({ rotation: true }).setKind("kinematic");
   assert.deepEqual([body.kind, body.locks.rotation, body.locks.x], ["kinematic", true, false]);
-  assert.throws(() => body.setKind("liquid"), PhysicsError);
+  assert.throws(() => body.setKind("liquid"), /kind is liquid; allowed are static, kinematic, dynamic/);
+  assert.throws(() => body.setMass(0), /mass is 0/);
+  assert.throws(() => body.setUserData(-1), /user data is -1/);
+  assert.throws(() => body.setUserData(1.5), /user data is 1.5/);
+  assert.equal(body.setUserData(7).userData, 7);
   const [shape] = body.shapes;
   world.changeShape(shape, { set_shape: { circle: { radius: 2 } } });
   assert.equal(world.shape(shape).shape.circle.radius, 2);
@@ -232,6 +252,7 @@ test("a script is not part of a frame, but of a copy and of the history", () => 
   const kept = scene();
   kept.keepHistory();
   assert(moves(kept));
+  for (const step of [Infinity, NaN]) assert.throws(() => kept.goTo(step), /goTo takes 1 number/);
   kept.goTo(0);
   assert(moves(kept));
 });

@@ -61,7 +61,15 @@ impl Actuator {
             | Self::AngularVelocity(body)
             | Self::PositionX(body)
             | Self::PositionY(body)
-            | Self::Angle(body) => self.apply_to_body(world, body, value),
+            | Self::Angle(body) => {
+                let before = world.stats().refused_numbers;
+                self.apply_to_body(world, body, value)?;
+                if world.stats().refused_numbers == before {
+                    return Ok(());
+                }
+                let allowed = "what a body takes; this is too large";
+                Err(Error::OutOfRange { name: "action", value: value.into(), allowed })
+            }
         }
     }
 

@@ -62,6 +62,29 @@ fn joints_are_read_as_they_count() {
     assert!(out[0].abs() < 1e-6 && out[1] == -0.5, "{out:?}");
 }
 
+/// A finite number that the engine refuses is told, and changes nothing.
+#[test]
+fn actions_that_are_too_large_are_errors() {
+    let mut world = World::new(Vec2::ZERO);
+    let ball = RigidBody::dynamic().shape(Shape::circle(0.5).unwrap());
+    let ball = world.add_body(ball).unwrap();
+    let mut batch = WorldBatch::new(&[world], 2, 1).unwrap();
+    let before = batch.state_hashes().unwrap();
+    let each = [
+        Actuator::VelocityX,
+        Actuator::ForceY,
+        Actuator::ImpulseX,
+        Actuator::Thrust,
+        Actuator::AngularVelocity,
+        Actuator::PositionX,
+    ];
+    for actuator in each.map(|actuator| actuator(ball)) {
+        let told = batch.apply(&[actuator], &[f32::MAX, 0.0]);
+        assert!(matches!(told, Err(BatchError::Engine(_))), "{actuator:?}: {told:?}");
+    }
+    assert_eq!(batch.state_hashes().unwrap(), before);
+}
+
 #[test]
 fn threads_change_nothing() {
     let runs = [1, 2, 5].map(|threads| {

@@ -2,6 +2,7 @@
 
 use core::fmt;
 use std::io;
+use std::path::Path;
 
 /// Result of a command or a part of one.
 pub type Outcome<T = ()> = Result<T, Failure>;
@@ -18,6 +19,11 @@ impl Failure {
     /// A failure without a hint.
     pub fn new(what: impl Into<String>) -> Self {
         Self { what: what.into(), hint: None, broken_pipe: false }
+    }
+
+    /// A file or folder that cannot be written.
+    pub fn cannot_write(path: &Path, error: &io::Error) -> Self {
+        Self::new(format!("cannot write '{}': {error}", path.display()))
     }
 
     /// A failure about which everything has been said already.

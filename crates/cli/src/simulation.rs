@@ -170,6 +170,18 @@ impl Simulation {
         Ok(())
     }
 
+    /// Was all done that the script asked for?
+    ///
+    /// # Errors
+    /// The first thing that the engine refused.
+    pub fn all_done(&self) -> Outcome {
+        let error = match &self.run {
+            Course::Once(run) => run.host().error(),
+            Course::Kept(tape) => tape.error(),
+        };
+        error.map_or(Ok(()), |error| Err(error.clone().into()))
+    }
+
     /// One step of the scene; in the past the one that was, unless something is held.
     pub fn step(&mut self) {
         self.pull();

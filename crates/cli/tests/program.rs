@@ -50,6 +50,18 @@ fn without_a_terminal_the_demo_plays_by_itself() {
 }
 
 #[test]
+fn what_cannot_be_written_is_named() {
+    let words = bad(&["record", "seed_demo", "--steps", "5", "-o", "no/such/folder/x.tpr"]);
+    assert!(words.contains("cannot write 'no/such/folder/x.tpr'"), "{words}");
+    let file = scratch("in_the_way");
+    std::fs::write(&file, "").unwrap();
+    let folder = file.join("pictures").to_string_lossy().into_owned();
+    let output = program(&["doctor", "seed_demo", "--steps", "5", "--pictures", &folder]);
+    let words = text(&output.stderr);
+    assert!(words.contains("cannot write") && words.contains("in_the_way"), "{words}");
+}
+
+#[test]
 fn help_has_examples_everywhere() {
     assert!(good(&["--help"]).contains("Examples:"));
     for command in ["demo", "list", "run", "bench", "render", "view"] {

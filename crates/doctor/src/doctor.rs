@@ -62,7 +62,8 @@ impl Doctor {
         let mut look = Look::new(world);
         if self.last_step.is_some_and(|last| look.step < last) {
             let findings = core::mem::take(&mut self.findings);
-            *self = Self { findings, steps: self.steps, ..Self::default() };
+            let time = self.time.anew();
+            *self = Self { findings, steps: self.steps, time, ..Self::default() };
         }
         self.time.check_refused(&look, &mut self.findings);
         if self.last_step == Some(look.step) || look.step == 0 {

@@ -2,7 +2,7 @@
 
 use crate::finding::{Figure, Finding, Who};
 use crate::{Code, Report, Severity};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use tiny_physics::{BodyId, ContactView, JointId, ShapeId, Vec2, World};
 
 /// One step of a world, as all checks see it.
@@ -88,6 +88,17 @@ pub(crate) enum About {
     Joint(JointId),
 }
 
+impl About {
+    /// Where it is in its list: bodies that follow each other in one place are counted as one, so that memory is bounded.
+    fn place(self) -> (u32, bool) {
+        match self {
+            Self::World => (u32::MAX, false),
+            Self::Body(id) => (id.index() as u32, false),
+            Self::Joint(id) => (id.index() as u32, true),
+        }
+    }
+}
+
 /// Something seen: a finding in the making.
 pub(crate) struct Sighting {
     pub(crate) code: Code,
@@ -118,8 +129,10 @@ pub(crate) struct Words {
     pub(crate) figures: Vec<Figure>,
 }
 
-/// Findings kept of one code; more are counted.
+/// Findings kept of one code; of more is remembered what they are about.
 const KEPT: usize = 16;
+/// What more findings of one code may be about; beyond it is not counted.
+const COUNTED: usize = 1000;
 
 /// Steps by which a cause may be told later than what it brings about: some are seen sooner than others.
 const SOON: u64 = 120;
@@ -128,7 +141,7 @@ const SOON: u64 = 120;
 #[derive(Default, Debug, Clone)]
 pub(crate) struct Findings {
     found: BTreeMap<Code, BTreeMap<About, Finding>>,
-    more: BTreeMap<Code, u64>,
+    more: BTreeMap<Code, BTreeSet<(u32, bool)>>,
 }
 
 impl Findings {
@@ -148,7 +161,10 @@ impl Findings {
         } else if kept.len() < KEPT {
             kept.insert(seen.about, describe(look, &seen, words()));
         } else {
-            *self.more.entry(seen.code).or_default() += 1;
+            let more = self.more.entry(seen.code).or_default();
+            if more.len() < COUNTED {
+                more.insert(seen.about.place());
+            }
         }
     }
 
@@ -161,6 +177,7 @@ impl Findings {
     pub(crate) fn memory(&self) -> usize {
         let kept = self.found.values().flat_map(BTreeMap::values);
         kept.map(Finding::memory).sum::<usize>()
+            + self.more.values().map(BTreeSet::len).sum::<usize>() * size_of::<(u32, bool)>()
             + (self.found.len() + self.more.len()) * size_of::<(Code, BTreeMap<About, Finding>)>()
     }
 
@@ -190,7 +207,7 @@ impl Findings {
                 known.others = others;
             }
             if let Some(mut most) = worst.last_entry() {
-                most.get_mut().others += u64::from(self.more.contains_key(code));
+                most.get_mut().others += self.more.get(code).map_or(0, |more| more.len() as u64);
             }
             findings.extend(worst.into_values());
         }

@@ -18,41 +18,34 @@ pub(crate) fn check_settings(settings: &Settings) -> Check {
     settings.validate().map_err(of_number)
 }
 
-/// That of a number, named as the engine does.
+/// The engine's error under the field that it names.
 fn of_number(error: Error) -> SceneError {
     match error {
-        Error::OutOfRange { name, .. } | Error::NotFinite { name, .. } => value(name, error),
+        Error::OutOfRange { name, .. } | Error::NotFinite { name, .. } => {
+            value(name.trim_end_matches(".x").trim_end_matches(".y"), error)
+        }
         _ => value("", error),
     }
 }
 
 pub(crate) fn check_body(body: &RigidBody) -> Check {
-    finite_dvec("position", body.position)?;
-    finite("angle", body.angle)?;
-    finite_vec("velocity", body.velocity)?;
-    finite("angular_velocity", body.angular_velocity)?;
-    not_negative("linear_damping", body.linear_damping)?;
-    not_negative("angular_damping", body.angular_damping)?;
-    finite("gravity_scale", body.gravity_scale)?;
-    body.mass.map_or(Ok(()), |mass| positive("mass", mass))?;
-    not_negative("sleep_speed", body.sleep_speed)?;
-    each("shapes", &body.shapes, check_shape_def)
+    each("shapes", &body.shapes, check_shape_def)?;
+    body.validate().map_err(of_number)
 }
 
 fn check_shape_def(def: &ShapeDef) -> Check {
     check_shape(&def.shape).map_err(|e| e.under("shape"))?;
-    finite_vec("offset", def.offset)?;
-    finite("angle", def.angle)?;
     check_material(&def.material).map_err(|e| e.under("material"))?;
-    def.one_way.map_or(Ok(()), |direction| finite_vec("one_way", direction))
+    def.validate().map_err(|error| match error {
+        Error::Unsupported { .. } => value("link", error),
+        _ => of_number(error),
+    })
 }
 
 pub(crate) fn check_material(material: &Material) -> Check {
-    not_negative("density", material.density)?;
-    not_negative("friction", material.friction)?;
-    not_negative("restitution", material.restitution)?;
-    not_negative("rolling_resistance", material.rolling_resistance)?;
-    finite("tangent_speed", material.tangent_speed)
+    let mut def = ShapeDef::new(Shape::Circle { radius: 1.0 });
+    def.material = *material;
+    def.validate().map_err(of_number)
 }
 
 /// The engine says what is wrong with a shape; here the error finds its field.
@@ -78,15 +71,8 @@ pub(crate) fn check_shape(shape: &Shape) -> Check {
 
 pub(crate) fn check_joint(def: &JointDef) -> Check {
     check_kind(&def.kind).map_err(|e| e.under("kind"))?;
-    finite_vec("anchor_a", def.anchor_a)?;
-    finite_vec("anchor_b", def.anchor_b)?;
-    finite("angle_a", def.angle_a)?;
-    finite("angle_b", def.angle_b)?;
     def.softness.as_ref().map_or(Ok(()), |s| check_spring("softness", s))?;
-    let Some(limit) = def.break_at else { return Ok(()) };
-    not_negative("force", limit.force)
-        .and_then(|()| not_negative("torque", limit.torque))
-        .map_err(|e| e.under("break_at"))
+    def.validate().map_err(of_number)
 }
 
 /// The engine checks the kinds whose fields are not named here; its message names the number.
@@ -94,10 +80,12 @@ fn check_kind(kind: &JointKind) -> Check {
     match kind {
         JointKind::Distance { length, spring, limits, motor } => positive("length", *length)
             .and_then(|()| check_parts(spring.as_ref(), limits.as_ref(), motor.as_ref()))
+            .and_then(|()| check_whole(kind))
             .map_err(|e| e.under("distance")),
         JointKind::Revolute { spring, target_angle, limits, motor } => {
             finite("target_angle", *target_angle)
                 .and_then(|()| check_parts(spring.as_ref(), limits.as_ref(), motor.as_ref()))
+                .and_then(|()| check_whole(kind))
                 .map_err(|e| e.under("revolute"))
         }
         other => match JointDef::new(*other).validate() {
@@ -105,6 +93,11 @@ fn check_kind(kind: &JointKind) -> Check {
             Ok(()) => Ok(()),
         },
     }
+}
+
+/// What the engine asks of the parts together.
+fn check_whole(kind: &JointKind) -> Check {
+    JointDef::new(*kind).validate().map_err(of_number)
 }
 
 fn check_parts(spring: Option<&Spring>, limits: Option<&Limits>, motor: Option<&Motor>) -> Check {

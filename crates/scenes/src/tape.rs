@@ -82,6 +82,11 @@ impl Tape {
         self.dt
     }
 
+    /// The first thing of the script that the world refused.
+    pub fn error(&self) -> Option<&Error> {
+        self.script.as_ref()?.error()
+    }
+
     /// Does something to the world. What came after the current step is forgotten.
     ///
     /// # Errors

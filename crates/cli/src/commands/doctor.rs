@@ -111,7 +111,7 @@ fn recording(subject: &str) -> Outcome<Option<Recording>> {
 
 /// Draws the first moments of the findings that are worse than notes.
 fn take_pictures(args: &DoctorArgs, subject: &str, folder: &Path, report: &Report) -> Outcome {
-    std::fs::create_dir_all(folder)?;
+    std::fs::create_dir_all(folder).map_err(|error| Failure::cannot_write(folder, &error))?;
     let worse =
         |finding: &&Finding| finding.severity > Severity::Note && !finding.bodies.is_empty();
     let moments: Vec<&Finding> = report.findings.iter().filter(worse).take(PICTURES).collect();
@@ -141,7 +141,7 @@ fn take_picture(canvas: &mut Canvas, world: &World, finding: &Finding, path: &Pa
     picture::draw_world(canvas, world, &camera, &overlays, Vec::new());
     mark(canvas, world, &camera, finding);
     picture::draw_notes(canvas, &overlays, &text);
-    std::fs::write(path, canvas.to_png()?)?;
+    std::fs::write(path, canvas.to_png()?).map_err(|error| Failure::cannot_write(path, &error))?;
     // Not among the report's lines, which a program may read.
     Ok(writeln!(stderr(), "{}", path.display())?)
 }

@@ -30,13 +30,15 @@ pub fn run(args: &DemoArgs) -> Outcome {
     let mut last = Instant::now();
     while player.state != State::Quit {
         screen.draw(&player)?;
-        let waiting = if player.state == State::Playing { TICK } else { Duration::from_secs(1) };
+        let playing = player.state == State::Playing;
+        let waiting = if playing { TICK } else { Duration::from_secs(1) };
         if event::poll(waiting)?
             && let Event::Key(key) = event::read()?
         {
             player.key(key)?;
         }
-        player.play(last.elapsed().as_secs_f32());
+        // The time of a pause is not caught up with.
+        player.play(if playing { last.elapsed().as_secs_f32() } else { 0.0 });
         last = Instant::now();
     }
     Ok(())

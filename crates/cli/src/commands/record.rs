@@ -16,6 +16,10 @@ use tiny_physics_scenes::{CommandHost, Player as ScenePlayer};
 /// There is no such scene, something in it is refused, or the file cannot be written.
 pub fn record(args: &RecordArgs) -> Outcome {
     let scene = source::open(&args.scene, args.seed)?;
+    // Before all is played.
+    if let Some(folder) = args.output.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        fs::metadata(folder).map_err(|error| Failure::cannot_write(&args.output, &error))?;
+    }
     let host = CommandHost::recording(scene.gravity, scene.settings);
     let mut player = ScenePlayer::new(&scene, host);
     let steps = args.steps.unwrap_or(scene.steps);
@@ -27,7 +31,7 @@ pub fn record(args: &RecordArgs) -> Outcome {
         return Err(error.clone().into());
     }
     let bytes = host.recorder().recording().to_bytes();
-    fs::write(&args.output, &bytes)?;
+    fs::write(&args.output, &bytes).map_err(|error| Failure::cannot_write(&args.output, &error))?;
     let hash = host.world().state_hash();
     writeln!(stdout(), "{steps} steps, {} bytes, state hash {hash:016x}", bytes.len())?;
     Ok(())

@@ -46,6 +46,7 @@ pub fn run(args: &RenderArgs) -> Outcome {
     let first = if one { steps } else { args.from };
     let preview = Preview::of(scene.clone(), &args.world, first..=steps)?;
     let Preview { framing, moments, end } = preview;
+    end.all_done()?;
     let simulation = if one { end } else { Simulation::new(scene, &args.world)? };
     let eye = match args.area {
         Some(Area { min, max }) => {
@@ -134,12 +135,12 @@ impl Film {
 
     fn write_png(&self, path: &Path) -> Outcome {
         let png = self.canvas.to_png()?;
-        std::fs::write(path, png).map_err(|error| cannot_write(path, &error))
+        std::fs::write(path, png).map_err(|error| Failure::cannot_write(path, &error))
     }
 
     /// An animation of every so many steps.
     fn gif(&mut self, path: &Path, steps: u32, every: u32, colors: ColorTable) -> Outcome {
-        let file = File::create(path).map_err(|error| cannot_write(path, &error))?;
+        let file = File::create(path).map_err(|error| Failure::cannot_write(path, &error))?;
         let delay_ms = self.simulation.dt() * 1000.0 * every as f32;
         let file = BufWriter::new(file);
         let mut animation = Animation::new(file, delay_ms.round() as u32).colors(colors);
@@ -158,13 +159,9 @@ impl Film {
         }
         progress.finish();
         animation.hold(HOLD_MS)?;
-        animation.finish()?.flush().map_err(|error| cannot_write(path, &error))?;
+        animation.finish()?.flush().map_err(|error| Failure::cannot_write(path, &error))?;
         report(path, &format!("{count} frames"))
     }
-}
-
-fn cannot_write(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::new(format!("cannot write '{}': {error}", path.display()))
 }
 
 fn report(path: &Path, what: &str) -> Outcome {

@@ -92,6 +92,7 @@ pub fn run(args: &RunArgs) -> Outcome {
     let steps = args.steps.unwrap_or(scene.steps);
     let mut simulation = Simulation::new(scene, &args.world)?;
     let report = measure(&mut simulation, steps);
+    simulation.all_done()?;
     let mut out = stdout().lock();
     if args.json {
         serde_json::to_writer_pretty(&mut out, &report)?;

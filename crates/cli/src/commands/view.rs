@@ -67,7 +67,7 @@ pub fn run(args: &ViewArgs) -> Outcome {
         viewer.draw(&mut canvas);
         window.show(&canvas)?;
     }
-    Ok(())
+    viewer.simulation.all_done()
 }
 
 /// The scene in the window and what the user has set; knows no window, so that it can be tested.

@@ -3,7 +3,9 @@
 use crate::look::{About, Findings, Look, Sighting, Words, figure};
 use crate::{Code, Severity};
 use std::collections::BTreeMap;
-use tiny_physics::{BodyId, BodyKind, JointId, JointKind, JointRef, Limits, Motor, Rot, Vec2};
+use tiny_physics::{
+    BodyId, BodyKind, JointDef, JointId, JointKind, JointRef, Limits, Motor, Rot, Vec2,
+};
 
 /// Length units and radians of a limit that may be overrun.
 const OVERRUN: [f32; 2] = [0.03, 0.07];
@@ -49,10 +51,13 @@ impl Memory {
 }
 
 /// Does a joint of this kind do work by itself, or store it?
-pub(crate) fn is_driven(kind: &JointKind) -> bool {
-    match kind {
+pub(crate) fn is_driven(def: &JointDef) -> bool {
+    if !def.enabled {
+        return false;
+    }
+    match &def.kind {
         JointKind::Mouse { .. } | JointKind::Motor { .. } => true,
-        _ => motor(kind).is_some_and(|motor| motor.max > 0.0 && motor.speed != 0.0),
+        kind => motor(kind).is_some_and(|motor| motor.max > 0.0 && motor.speed != 0.0),
     }
 }
 
@@ -131,7 +136,7 @@ pub(crate) fn check(
         memory.ill.remove(&joint.id());
         return;
     }
-    memory.driven_now |= is_driven(kind) || has_spring(kind);
+    memory.driven_now |= is_driven(joint.def()) || has_spring(kind);
     let Some(state) = state(look, joint) else { return };
     let ends = [joint.bodies().0, joint.bodies().1];
     let awake = ends.iter().filter_map(|&id| look.world.body(id)).any(|body| body.is_awake());
@@ -252,6 +257,11 @@ fn check_springs(
     }
 }
 
+/// Does it turn or push from the second of `ends` to the first? Lengths between two bodies have no first.
+fn swaps(joint: &JointRef<'_>, ends: [BodyId; 2]) -> bool {
+    joint.bodies().0 != ends[0] && !matches!(joint.def().kind, JointKind::Distance { .. })
+}
+
 /// Do two motors between the same bodies want different speeds, so that one of them never gets its own?
 fn check_rival_motor(
     look: &Look<'_>,
@@ -260,7 +270,12 @@ fn check_rival_motor(
     since: &mut Option<u64>,
     findings: &mut Findings,
 ) {
-    let works = |joint: &JointRef<'_>| motor(&joint.def().kind).filter(|motor| motor.max > 0.0);
+    // Its speed as one from the first of `ends` to the second.
+    let works = |joint: &JointRef<'_>| {
+        let motor = motor(&joint.def().kind).filter(|motor| joint.def().enabled && motor.max > 0.0);
+        let speed = |motor: Motor| if swaps(joint, ends) { -motor.speed } else { motor.speed };
+        motor.map(speed)
+    };
     let body = ends.iter().filter_map(|&id| look.world.body(id));
     let rival = works(joint).and_then(|mine| {
         let mut others = body.flat_map(|body| body.joints()).filter_map(|id| look.world.joint(id));
@@ -269,7 +284,7 @@ fn check_rival_motor(
             other.id() != joint.id() && ends.contains(&a) && ends.contains(&b)
         };
         let differ = |other: &JointRef<'_>| {
-            works(other).is_some_and(|its| (its.speed - mine.speed).abs() > 0.2 * mine.speed.abs())
+            works(other).is_some_and(|its| (its - mine).abs() > 0.2 * mine.abs())
         };
         others.find(|other| same(other) && differ(other)).map(|other| (mine, other))
     });
@@ -281,8 +296,8 @@ fn check_rival_motor(
     if seconds < 0.75 {
         return;
     }
-    let its = works(&rival).map_or(0.0, |motor| motor.speed);
-    let (apart, bound) = ((its - mine.speed).abs(), 0.2 * mine.speed.abs());
+    let its = works(&rival).unwrap_or_default();
+    let (apart, bound) = ((its - mine).abs(), 0.2 * mine.abs());
     let figure = figure("speeds apart", apart, bound, "/s");
     let seen = Sighting::new(Code::JointFight, Severity::Warning, About::Joint(joint.id()), figure);
     findings.add(look, seen, || Words {

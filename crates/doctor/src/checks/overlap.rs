@@ -252,7 +252,7 @@ fn is_driven(look: &Look<'_>, id: BodyId, track: &Track) -> bool {
     let mut joints = body.joints().filter_map(|id| look.world.joint(id));
     match body.kind() {
         BodyKind::Kinematic => speed > 0.0,
-        BodyKind::Dynamic => joints.any(|joint| super::joints::is_driven(&joint.def().kind)),
+        BodyKind::Dynamic => joints.any(|joint| super::joints::is_driven(joint.def())),
         BodyKind::Static => false,
     }
 }

@@ -72,7 +72,7 @@ fn touches_moved(look: &Look<'_>, touches: &[Touch]) -> bool {
 /// A joint of the body with a motor that is at work.
 fn motor_of<'a>(look: &Look<'a>, body: &Body<'a>) -> Option<JointRef<'a>> {
     let joints = body.joints().filter_map(|id| look.world.joint(id));
-    joints.into_iter().find(|joint| super::joints::is_driven(&joint.def().kind))
+    joints.into_iter().find(|joint| super::joints::is_driven(joint.def()))
 }
 
 fn jitter(

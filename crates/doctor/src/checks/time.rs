@@ -5,6 +5,8 @@ use crate::{Code, Severity};
 
 /// Steps whose lengths are remembered.
 const REMEMBERED: usize = 64;
+/// Of fewer steps than these it is not said how many are long: the first one of a program often is.
+const FEW: usize = 16;
 /// Seconds.
 const TOO_LONG: f32 = 1.0 / 29.0;
 /// Steps in a row with pushes that are every step.
@@ -24,6 +26,12 @@ pub(crate) struct Memory {
 }
 
 impl Memory {
+    /// One that has seen no step, but knows what the world counts on: a world that goes back keeps its counts.
+    pub(crate) fn anew(&self) -> Self {
+        let Self { refused, pushes, stale, .. } = *self;
+        Self { refused, pushes, stale, ..Self::default() }
+    }
+
     /// Bytes.
     pub(crate) fn memory(&self) -> usize {
         self.lengths.capacity() * size_of::<f32>()
@@ -42,10 +50,10 @@ impl Memory {
             self.lengths.push(look.dt);
         } else {
             self.lengths[self.next] = look.dt;
-            self.next = (self.next + 1) % REMEMBERED;
-            if self.next == 0 {
-                self.check_variety(look, findings);
-            }
+        }
+        self.next = (self.next + 1) % REMEMBERED;
+        if self.next == 0 {
+            self.check_variety(look, findings);
         }
         if look.dt > TOO_LONG {
             self.report_long(look, findings);
@@ -56,7 +64,7 @@ impl Memory {
         let long = self.lengths.iter().filter(|dt| **dt > TOO_LONG).count();
         // Few among many are hitches; from somewhere on nothing holds together.
         let severity = match () {
-            () if 2 * long < self.lengths.len() => Severity::Note,
+            () if 2 * long < self.lengths.len().max(FEW) => Severity::Note,
             () if look.dt > ABSURD => Severity::Error,
             () => Severity::Warning,
         };

@@ -1,6 +1,6 @@
 //! A character that walks by a script, and platforms that move to and fro.
 
-use crate::check::{Check, finite, finite_dvec, finite_vec, index, positive};
+use crate::check::{Check, finite, finite_dvec, finite_vec, index, positive, range};
 use crate::host::Host;
 use serde::{Deserialize, Serialize};
 use tiny_physics::{CharacterMover, DVec2, MoverInput, Vec2};
@@ -72,7 +72,8 @@ impl Character {
         positive("radius", self.radius)?;
         index("body", self.body, bodies, "bodies")?;
         for (i, key) in self.keys.iter().enumerate() {
-            key.check().map_err(|e| e.under(format_args!("keys[{i}]")))?;
+            let before = self.keys[i.saturating_sub(1)].from;
+            key.check(before).map_err(|e| e.under(format_args!("keys[{i}]")))?;
         }
         for (i, ride) in self.rides.iter().enumerate() {
             ride.check(bodies).map_err(|e| e.under(format_args!("rides[{i}]")))?;
@@ -113,8 +114,10 @@ impl Character {
 }
 
 impl Key {
-    fn check(&self) -> Check {
+    /// `before`: when the key before it begins.
+    fn check(&self, before: f32) -> Check {
         finite("from", self.from)?;
+        range("from", self.from, self.from >= before, "not before the key before it")?;
         finite("walk", self.walk)?;
         finite("jump", self.jump)
     }

@@ -2,7 +2,7 @@
 
 use crate::check::{
     Check, check_body, check_material, check_shape, finite, finite_vec, index, not_negative,
-    positive,
+    positive, range,
 };
 use serde::{Deserialize, Serialize};
 use tiny_physics::record::{Command, FilterData};
@@ -206,6 +206,7 @@ impl Deed {
                 finite("surface", *surface)?;
                 let (left, right) = between.unwrap_or_default();
                 finite("between", left).and_then(|()| finite("between", right))?;
+                range("between", right, left <= right, "the left end or more")?;
                 not_negative("density", *density)?;
                 finite_vec("flow", *flow)
             }

@@ -10,6 +10,26 @@ pub(super) const MAX_COORDINATE: f64 = 1.0e12;
 /// Masses and densities outside of this are refused: products with them would leave 32 bits.
 const MASSES: core::ops::RangeInclusive<f32> = 1.0e-9..=1.0e12;
 
+impl RigidBody {
+    /// Checks what [`World::add_body`](crate::World::add_body) checks.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] and [`Error::OutOfRange`] name the first field that makes no sense.
+    pub fn validate(&self) -> Result<(), Error> {
+        check_body(self)
+    }
+}
+
+impl ShapeDef {
+    /// Checks what [`World::add_shape`](crate::World::add_shape) checks.
+    ///
+    /// # Errors
+    /// As [`RigidBody::validate`] has them.
+    pub fn validate(&self) -> Result<(), Error> {
+        check_shape(self)
+    }
+}
+
 pub(super) fn check_body(body: &RigidBody) -> Result<(), Error> {
     for (name, value) in [("position.x", body.position.x), ("position.y", body.position.y)] {
         let is_near = value.abs() <= MAX_COORDINATE;

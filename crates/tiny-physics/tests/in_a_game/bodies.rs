@@ -172,6 +172,40 @@ fn drawing_stands_between_steps() {
     }
 }
 
+/// Joints outside of what is to be drawn leave nothing.
+#[test]
+fn anchors_that_nobody_sees_are_not_drawn() {
+    struct Points(usize);
+    impl DebugDraw for Points {
+        fn polygon(&mut self, _: &Transform, _: &[Vec2], _: f32, _: Color) {}
+        fn circle(&mut self, _: &Transform, _: f32, _: Color) {}
+        fn capsule(&mut self, _: Vec2, _: Vec2, _: f32, _: Color) {}
+        fn segment(&mut self, _: Vec2, _: Vec2, _: Color) {}
+        fn point(&mut self, _: Vec2, _: f32, _: Color) {
+            self.0 += 1;
+        }
+        fn text(&mut self, _: Vec2, _: &str, _: Color) {}
+    }
+    let mut world = World::new((0.0, 0.0));
+    let hub = world.add_body(RigidBody::fixed()).unwrap();
+    let door = world.add_body(RigidBody::dynamic().shape(square(1.0))).unwrap();
+    world.add_joint(hub, door, JointDef::revolute().anchor_at((0.0, 0.0))).unwrap();
+    let points = |at: f32| {
+        let mut points = Points(0);
+        let clip = Some(Aabb::from_center(Vec2::new(at, 0.0), Vec2::splat(1.0)));
+        let joints = DebugDrawOptions {
+            joints: true,
+            contacts: false,
+            mass: false,
+            clip,
+            ..Default::default()
+        };
+        world.debug_draw(&mut points, &joints);
+        points.0
+    };
+    assert_eq!((points(0.0), points(100.0)), (1, 0));
+}
+
 /// A polygon of more than eight corners is split, whole and with the same mass.
 #[test]
 fn polygons_of_many_corners_are_split() {

@@ -111,7 +111,9 @@ impl World {
             }
             pen.line(anchor_a, anchor_b, color);
             let anchor = pen.local(anchor_a);
-            pen.draw.point(anchor, 0.6 * pen.options.point_size, color);
+            if pen.sees(&Aabb::new(anchor, anchor)) {
+                pen.draw.point(anchor, 0.6 * pen.options.point_size, color);
+            }
         }
     }
 
