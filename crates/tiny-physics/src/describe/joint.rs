@@ -7,7 +7,8 @@ use crate::math::{DVec2, Vec2};
 
 described! {
     /// A spring and damper by its behaviour, whatever the masses of the two bodies; what hangs on these in turn makes it slower.
-    /// Frequency and decay are met exactly up to a quarter of the substep rate; a faster spring acts as one of that
+    /// Frequency and decay are met exactly up to a tenth of the substep rate; stiffer ones of little damping are damped more, so that
+    /// many of them on one body do not swing up, and one faster than a quarter of the rate acts as one of that
     /// rate.
     #[derive(Clone, Copy, PartialEq, Debug)]
     pub struct Spring {

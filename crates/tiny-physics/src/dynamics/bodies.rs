@@ -358,6 +358,15 @@ impl Bodies {
         (if x > y { x } else { y }, turn)
     }
 
+    /// An impulse that is not finite has reached bodies without mass as well: nothing times infinity. Those stop.
+    pub(crate) fn stop_what_is_not_finite(&mut self) {
+        for row in &mut self.rows {
+            if row[Slot::INV_MASS] == 0.0 && !row.iter().all(|value| value.is_finite()) {
+                *row = [0.0; 8];
+            }
+        }
+    }
+
     pub(crate) fn set_velocity(&mut self, index: u32, velocity: Vec2) {
         let row = &mut self.rows[index as usize];
         row[Slot::VX] = velocity.x;

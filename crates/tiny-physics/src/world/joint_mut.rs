@@ -98,11 +98,11 @@ impl JointMut<'_> {
         self.set_part("this kind of joint has no spring", |kind| kind.set_spring(spring))
     }
 
-    /// Sets where the spring rests: radians of a hinge, metres of a slider; the length of a rod, of its spring or of a
+    /// Sets where the spring rests: radians of a hinge, metres of a slider; the length of a rod, of a rope, of its spring or of a
     /// pulley's rope.
     ///
     /// # Errors
-    /// The kind has no such number, or it is out of range.
+    /// The kind has no such number (limits alone have none, unless their upper one is the length: a rope), or it is out of range.
     pub fn set_target(&mut self, target: f32) -> Result<(), Error> {
         self.set_part("this kind of joint has no target", |kind| kind.set_rest(target))
     }

@@ -503,6 +503,9 @@ impl World {
         let broken: Vec<u32> = findings.iter().flat_map(|chunk| &chunk.broken).copied().collect();
         self.stats.fast_bodies = self.scratch.fast.len();
         self.stats.frozen_bodies = broken.len();
+        if !broken.is_empty() {
+            self.state.bodies.stop_what_is_not_finite();
+        }
         broken.into_iter().for_each(|index| self.freeze(index));
     }
 

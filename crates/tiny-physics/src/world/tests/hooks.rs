@@ -157,7 +157,8 @@ fn what_is_switched_off_stops_no_bounce() {
         let mut hits = 0;
         for _ in 0..30 {
             world.step(DT);
-            hits += world.events().hits().iter().filter(|hit| (hit.speed - 5.0).abs() < 0.01).count();
+            hits +=
+                world.events().hits().iter().filter(|hit| (hit.speed - 5.0).abs() < 0.01).count();
         }
         assert_eq!(hits, 1, "{phase}");
         assert!((world.body(ball).unwrap().velocity().x + 5.0).abs() < 0.01, "{phase}");
