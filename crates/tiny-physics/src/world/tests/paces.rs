@@ -236,7 +236,7 @@ fn what_has_tumbled_into_place_sleeps_before_it_becomes_finer() {
         world
     };
     let (mut refined, mut awake) = (0, 0);
-    // One heap in four ends in a corner: a sample of six may have none or three.
+    // Five of the 24 are finer for much of it: six of them may hold none or three.
     for case in 0..24 {
         let mut world = heap(case, true);
         for _ in 0..900 {
