@@ -271,23 +271,6 @@ fn many_stiff_springs_on_one_body_hold() {
     }
 }
 
-/// The force of a rope that has just been woken is the one it had, or none.
-#[test]
-fn forces_of_what_wakes_point_where_they_pull() {
-    let mut world = World::new(Vec2::new(0.0, -10.0));
-    let wall = wall(&mut world);
-    let lamp = add(&mut world, circle(0.3), 4.0, Vec2::new(0.0, -2.0));
-    let rope = world.add_joint(wall, lamp, JointDef::rope(2.0)).expect("a rope");
-    steps(&mut world, 300);
-    assert!(!world.body(lamp).expect("a lamp").is_awake());
-    world.body_mut(lamp).expect("a lamp").wake();
-    let force = world.joint(rope).expect("a rope").force();
-    assert!(force.x.abs() < 0.1, "{force:?}");
-    steps(&mut world, 1);
-    let force = world.joint(rope).expect("a rope").force();
-    assert!(force.x.abs() < 0.1 && (force.y.abs() - 40.0).abs() < 1.0, "{force:?}");
-}
-
 /// A crane shortens its rope.
 #[test]
 fn ropes_take_a_new_length() {

@@ -218,7 +218,7 @@ joint_lanes! {
         x: f32 = 1.0,
         y: f32 = 0.0,
         /// In the world's axes as of the last relax pass.
-        now_x: f32 = 0.0,
+        now_x: f32 = 1.0,
         now_y: f32 = 0.0,
     }
 }
@@ -276,7 +276,7 @@ joint_lanes! {
     LengthLanes {
         length: f32 = 0.0,
         /// From A to B as of the last relax pass.
-        now_x: f32 = 0.0,
+        now_x: f32 = 1.0,
         now_y: f32 = 0.0,
     }
 }
@@ -367,7 +367,7 @@ joint_lanes! {
         ratio: f32 = 1.0,
         length: f32 = 0.0,
         /// From the fixed point of B to its anchor as of the last relax pass.
-        now_x: f32 = 0.0,
+        now_x: f32 = 1.0,
         now_y: f32 = 0.0,
     }
 }
