@@ -271,6 +271,87 @@ fn many_stiff_springs_on_one_body_hold() {
     }
 }
 
+/// So do nets of them, with diagonals, and where a step is one substep.
+#[test]
+fn nets_of_stiff_springs_hold() {
+    let across = 2.0_f32.sqrt();
+    let springs = [
+        (4, 60.0, 0.1),
+        (4, 30.0, 0.0),
+        (1, 15.0, 0.1),
+        (8, 200.0, 0.05),
+        (4, 40.0, 0.0),
+        (4, 26.0, 0.0),
+        (4, 50.0, 0.3),
+        (4, 35.0, 0.2),
+        (1, 7.0, 0.0),
+    ];
+    for (net, (substeps, hertz, damping)) in springs.into_iter().flat_map(|s| [(4, s), (8, s)]) {
+        let mut world = space();
+        world.settings.substeps = substeps;
+        let knots: Vec<BodyId> = (0..36)
+            .map(|k| add(&mut world, circle(0.1), 0.3, Vec2::new((k % 6) as f32, (k / 6) as f32)))
+            .collect();
+        for k in 0..36i32 {
+            let far = 5.0_f32.sqrt();
+            let others = [
+                (1, 0, 1.0),
+                (0, 1, 1.0),
+                (1, 1, across),
+                (-1, 1, across),
+                (2, 1, far),
+                (-2, 1, far),
+                (1, 2, far),
+                (-1, 2, far),
+            ];
+            let others = &others[..net];
+            for &(dx, dy, length) in others {
+                let (x, y) = (k % 6 + dx, k / 6 + dy);
+                if (0..6).contains(&x) && y < 6 {
+                    let spring = JointDef::distance(length).spring(hertz, damping);
+                    let (a, b) = (knots[k as usize], knots[(6 * y + x) as usize]);
+                    world.add_joint(a, b, spring).expect("a spring");
+                }
+            }
+        }
+        world.body_mut(knots[14]).expect("a knot").set_velocity(Vec2::new(0.3, 0.1));
+        for step in 0..300 {
+            steps(&mut world, 1);
+            let speeds = knots.iter().map(|&knot| world.body(knot).expect("a knot").velocity());
+            let most = speeds.map(Vec2::length).fold(0.0, f32::max);
+            assert!(most < 0.5, "{net}, {substeps}, {hertz} Hz, {damping}: {most} in step {step}");
+        }
+    }
+}
+
+/// Two free bars whose hinge is made far outside its limits come together slowly, whatever they weigh, and turn nobody through
+/// anybody.
+#[test]
+fn hinges_made_outside_their_limits_come_in_slowly() {
+    for (light, bent) in [(1.0, 2.0), (0.1, -1.0), (10.0, 2.8)] {
+        let mut world = space();
+        let first = add(&mut world, rect(1.0, 0.05), 1.0, Vec2::ZERO);
+        let at = Vec2::new(1.0 + f32::cos(bent), f32::sin(bent));
+        let other = RigidBody::dynamic().shape(rect(1.0, 0.05)).mass(light).angle(bent);
+        let other = world.add_body(other.position(at)).expect("a bar");
+        let hinge = JointDef::revolute().anchors(Vec2::new(1.0, 0.0), Vec2::new(-1.0, 0.0));
+        world.add_joint(first, other, hinge.limits(-0.1, 0.1)).expect("a hinge");
+        let angle = |world: &World| {
+            let of = |body| world.body(body).expect("a bar").rotation();
+            of(other).angle_from(of(first))
+        };
+        let mut before = angle(&world);
+        for step in 0..240 {
+            steps(&mut world, 1);
+            let after = angle(&world);
+            let turned = (after - before).abs();
+            assert!(turned < 0.3, "{light} kg, {bent}: {turned} in step {step}");
+            before = after;
+        }
+        assert!(before.abs() < 0.11, "{light} kg, {bent}: {before}");
+    }
+}
+
 /// A crane shortens its rope.
 #[test]
 fn ropes_take_a_new_length() {

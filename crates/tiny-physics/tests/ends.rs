@@ -265,6 +265,37 @@ fn one_way_paddles_hit_what_they_turn_into() {
     }
 }
 
+/// Nor does a hinged plank go through a one-way plate that it turns onto, or a polygon one through a ball.
+#[test]
+fn one_way_plates_hold_what_turns_onto_them() {
+    for spin in [20.0, 40.0] {
+        let mut world = World::new(Vec2::ZERO);
+        let wall = world.add_body(RigidBody::fixed()).expect("a wall");
+        let plank = RigidBody::dynamic().position((0.0, 1.0)).angular_velocity(-spin);
+        let plank = world.add_body(plank.shape(rect(1.0, 0.05))).expect("a plank");
+        let hinge = JointDef::revolute().anchor_at((0.0, 1.0));
+        world.add_joint(wall, plank, hinge).expect("a hinge");
+        let plate = ShapeDef::new(rect(0.3, 0.05)).one_way(Vec2::Y);
+        fixed(&mut world, plate, Vec2::new(0.85, 0.65));
+        let mut lowest = 0.0_f32;
+        for _ in 0..30 {
+            steps(&mut world, 1);
+            lowest = lowest.min(world.body(plank).expect("a plank").angle());
+        }
+        assert!(lowest > -0.5, "{spin}: {lowest}");
+
+        let mut world = World::new(Vec2::ZERO);
+        let blade = [(-1.0, -0.05), (1.0, -0.05), (1.0, 0.02), (0.0, 0.06), (-1.0, 0.02)];
+        let blade = Polygon::convex(&blade.map(Vec2::from)).expect("a blade");
+        let paddle = RigidBody::kinematic().angle(-0.25).angular_velocity(spin);
+        world.add_body(paddle.shape(ShapeDef::new(blade).one_way(Vec2::Y))).expect("a paddle");
+        let ball = dynamic(&mut world, ShapeDef::new(circle(0.1)), Vec2::new(0.8, 0.0));
+        steps(&mut world, 4);
+        let up = world.body(ball).expect("a ball").velocity().y;
+        assert!(up > 0.3 * spin, "{spin}: {up}");
+    }
+}
+
 /// Ground may be as large as it likes: small boxes lie on it with both ends, and what falls fast lands on it.
 #[test]
 fn endless_ground_is_as_good_as_any() {

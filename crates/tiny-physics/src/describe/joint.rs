@@ -8,8 +8,7 @@ use crate::math::{DVec2, Vec2};
 described! {
     /// A spring and damper by its behaviour, whatever the masses of the two bodies; what hangs on these in turn makes it slower.
     /// Frequency and decay are met exactly up to a tenth of the substep rate; stiffer ones of little damping are damped more, so that
-    /// many of them on one body do not swing up, and one faster than a quarter of the rate acts as one of that
-    /// rate.
+    /// many of them on one body and nets of them do not swing up, and what is faster than a seventh of the rate acts as one of that.
     #[derive(Clone, Copy, PartialEq, Debug)]
     pub struct Spring {
         /// Oscillations a second, hertz, above 0.
@@ -472,14 +471,12 @@ impl JointKind {
     pub(crate) fn set_rest(&mut self, value: f32) -> bool {
         match self {
             Self::Distance { length, spring: None, limits: Some(limits), motor: None } => {
-                if limits.upper != *length {
-                    return false;
-                }
                 // A rope of that length.
-                if limits.lower == limits.upper || limits.lower > value {
-                    limits.lower = value;
+                let is_rope = limits.upper == *length && limits.lower < value.min(*length);
+                if is_rope {
+                    (limits.upper, *length) = (value, value);
                 }
-                (limits.upper, *length) = (value, value);
+                return is_rope;
             }
             Self::Distance { length: rest, .. }
             | Self::Revolute { target_angle: rest, .. }

@@ -358,11 +358,18 @@ impl Bodies {
         (if x > y { x } else { y }, turn)
     }
 
-    /// An impulse that is not finite has reached bodies without mass as well: nothing times infinity. Those stop.
-    pub(crate) fn stop_what_is_not_finite(&mut self) {
-        for row in &mut self.rows {
-            if row[Slot::INV_MASS] == 0.0 && !row.iter().all(|value| value.is_finite()) {
-                *row = [0.0; 8];
+    /// Takes velocity and the motion of the step from a body.
+    pub(crate) fn stop(&mut self, index: u32) {
+        let row = &mut self.rows[index as usize];
+        Slot::MOTION.iter().for_each(|&slot| row[slot] = 0.0);
+    }
+
+    /// Stops what does not move by the solver and has got numbers that are not finite: nothing times infinity, from what blew up on it.
+    pub(crate) fn stop_ground_that_is_not_finite(&mut self) {
+        for index in 0..self.rows.len() as u32 {
+            let row = &self.rows[index as usize];
+            if !self.is_solved(index) && Slot::MOTION.iter().any(|&slot| !row[slot].is_finite()) {
+                self.stop(index);
             }
         }
     }

@@ -14,6 +14,9 @@ impl Slot {
     pub(crate) const DY: usize = 5;
     pub(crate) const DA: usize = 6;
     pub(crate) const INV_INERTIA: usize = 7;
+    /// All but the masses.
+    pub(crate) const MOTION: [usize; 6] =
+        [Self::VX, Self::VY, Self::W, Self::DX, Self::DY, Self::DA];
 }
 
 /// Inverse masses along x and y and inverse inertia, by the rows of bodies. What is locked along one axis has a negative inverse mass

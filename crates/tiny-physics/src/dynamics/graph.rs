@@ -201,16 +201,24 @@ pub(crate) struct Blocks<'a> {
 }
 
 impl Bucket {
-    /// Speeds along the normal at the points of a lane: what the bodies have now.
-    pub(crate) fn approach(&self, rows: &[Row], (block, lane): (usize, usize)) -> [f32; 2] {
-        let constraint = &self.constraints[block];
+    /// Writes and gives the speeds along the normal at the points of a lane, which the narrow phase does only for blocks that bounce or
+    /// whose impulses are summed up.
+    pub(crate) fn note_approach(
+        &mut self,
+        rows: &[Row],
+        (block, lane): (usize, usize),
+    ) -> [f32; 2] {
+        let (constraint, surface) = (&self.constraints[block], &mut self.surfaces[block]);
         let [a, b] = [constraint.body_a, constraint.body_b].map(|body| &rows[body[lane] as usize]);
         let along = constraint.normal_x[lane] * (b[Slot::VX] - a[Slot::VX])
             + constraint.normal_y[lane] * (b[Slot::VY] - a[Slot::VY]);
-        [0, 1].map(|k| {
+        let approach = [0, 1].map(|k| {
             let point = &constraint.points[k];
             along + point.normal_arm_b[lane] * b[Slot::W] - point.normal_arm_a[lane] * a[Slot::W]
-        })
+        });
+        (surface.approach_1[lane], surface.approach_2[lane]) = (approach[0], approach[1]);
+        (surface.total_1[lane], surface.total_2[lane]) = (0.0, 0.0);
+        approach
     }
 
     /// Some of its blocks.
@@ -540,12 +548,8 @@ impl Graph {
     /// Has it bounce as its bodies move, after all; gives the speeds at its points.
     pub(crate) fn let_go(&mut self, contact: &Contact, rows: &[Row]) -> Option<[f32; 2]> {
         let (bucket, slot) = self.solved_at(contact)?;
-        let (bucket, block, lane) =
-            (&mut self.buckets.list_mut()[bucket], slot / BLOCK, slot % BLOCK);
-        let approach = bucket.approach(rows, (block, lane));
-        let surface = &mut bucket.surfaces[block];
-        (surface.approach_1[lane], surface.approach_2[lane]) = (approach[0], approach[1]);
-        Some(approach)
+        let at = (slot / BLOCK, slot % BLOCK);
+        Some(self.buckets.list_mut()[bucket].note_approach(rows, at))
     }
 
     /// Did a contact that was watched push in this step?

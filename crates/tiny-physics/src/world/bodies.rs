@@ -11,7 +11,12 @@ use crate::math::{DVec2, Pose, Rot, Vec2};
 use crate::stages::sleep;
 
 /// Velocities, forces, impulses beyond this are refused, in any unit.
-pub(super) const MAX_NUMBER: f32 = 1.0e15;
+const MAX_NUMBER: f32 = 1.0e15;
+
+/// Are they neither too large nor something else than numbers?
+pub(super) fn are_acceptable(numbers: &[f32]) -> bool {
+    numbers.iter().all(|number| number.abs() <= MAX_NUMBER)
+}
 
 /// A body of the world, to read.
 #[derive(Clone, Copy)]
@@ -75,7 +80,7 @@ impl BodyMut<'_> {
 
     /// Wakes it if all numbers are acceptable, and says whether to go on.
     pub(super) fn accept(&mut self, numbers: &[f32]) -> bool {
-        let acceptable = numbers.iter().all(|n| n.abs() <= MAX_NUMBER);
+        let acceptable = are_acceptable(numbers);
         if acceptable {
             self.world.stats.pushes += u64::from(!numbers.is_empty());
             self.world.wake_index(self.index);

@@ -1,7 +1,7 @@
 //! Changing what a body is while the world runs: kind, mass, locks, sleep; and targets for platforms.
 
 use super::World;
-use super::bodies::{Body, BodyMut, MAX_NUMBER};
+use super::bodies::{Body, BodyMut, are_acceptable};
 use super::descriptions::{check_center, check_given};
 use super::ids::{BodyId, JointId};
 use crate::describe::{BodyKind, Locks};
@@ -165,8 +165,7 @@ impl BodyMut<'_> {
         let spin = if turn.abs() <= 4.0 * f32::EPSILON { 0.0 } else { turn * (1.0 / dt) };
         let rests = velocity == Vec2::ZERO && spin == 0.0;
         let rested = body.velocity() == Vec2::ZERO && body.angular_velocity() == 0.0;
-        let numbers = [velocity.x, velocity.y, spin];
-        if !numbers.iter().all(|number| number.abs() <= MAX_NUMBER) {
+        if !are_acceptable(&[velocity.x, velocity.y, spin]) {
             return self.world.refuse();
         }
         if !(rests && rested) {

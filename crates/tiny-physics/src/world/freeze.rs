@@ -8,10 +8,7 @@ impl World {
     /// Stops a body where it last was, and lets all that acts on it start anew: what has been gathered there may
     /// not be finite either and would come back in the next step.
     pub(super) fn freeze(&mut self, index: u32) {
-        let row = &mut self.state.bodies.rows[index as usize];
-        for value in [0, 1, 2, 4, 5, 6] {
-            row[value] = 0.0;
-        }
+        self.state.bodies.stop(index);
         let info = &mut self.state.bodies.infos[index as usize];
         info.force = Vec2::ZERO;
         info.torque = 0.0;

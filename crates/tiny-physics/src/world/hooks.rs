@@ -7,7 +7,7 @@
 use super::World;
 use super::contacts::ContactView;
 use super::ids::{BodyId, ShapeId};
-use crate::dynamics::{Bodies, Bucket, IDLE, Shapes, flags};
+use crate::dynamics::{Bodies, IDLE, Shapes, flags};
 use crate::geometry::manifold::PairClass;
 use crate::simd::BLOCK;
 use crate::stages::pairs::PairRule;
@@ -230,7 +230,8 @@ impl World {
         let restitution = positive(rules.restitution);
         let known = flags::RESTITUTION | flags::SUMMED;
         if restitution > 0.0 && bucket.heads[block].flags & known == 0 {
-            note_approach(bucket, &self.state.bodies.rows, block);
+            let rows = &self.state.bodies.rows;
+            (0..BLOCK).for_each(|lane| _ = bucket.note_approach(rows, (block, lane)));
         }
         let head = &mut bucket.heads[block];
         let (constraint, surface) = (&mut bucket.constraints[block], &mut bucket.surfaces[block]);
@@ -258,15 +259,4 @@ impl World {
 
 fn positive(value: f32) -> f32 {
     if value.is_finite() && value > 0.0 { value } else { 0.0 }
-}
-
-/// Writes the normal velocities at the start of the step, which the narrow phase does only for blocks that
-/// bounce or send hit events.
-fn note_approach(bucket: &mut Bucket, rows: &[crate::simd::Row], block: usize) {
-    for lane in 0..BLOCK {
-        let approach = bucket.approach(rows, (block, lane));
-        let surface = &mut bucket.surfaces[block];
-        (surface.approach_1[lane], surface.approach_2[lane]) = (approach[0], approach[1]);
-        (surface.total_1[lane], surface.total_2[lane]) = (0.0, 0.0);
-    }
 }

@@ -303,16 +303,15 @@ impl World {
 
     /// Predicts contacts that will be made in the step.
     fn predict(&mut self, team: &Team, lengths: Lengths) {
-        let mut changed = false;
-        if self.foresee(lengths) {
-            changed |= self.look_again(team, lengths);
+        let mut changed = self.foresee(lengths);
+        if changed {
+            self.look_again(team, lengths);
             let candidates = &mut self.scratch.predictions.candidates;
             candidates.sort_unstable();
             candidates.dedup();
         }
         while self.predict_round(team, lengths) {
-            changed |= self.wake_struck(team, lengths);
-            changed |= self.look_again(team, lengths);
+            changed |= self.wake_struck(team, lengths) | self.look_again(team, lengths);
         }
         if changed {
             self.scratch.schedule.fill(&self.state.graph, narrow_phase::CHUNK);
@@ -504,7 +503,7 @@ impl World {
         self.stats.fast_bodies = self.scratch.fast.len();
         self.stats.frozen_bodies = broken.len();
         if !broken.is_empty() {
-            self.state.bodies.stop_what_is_not_finite();
+            self.state.bodies.stop_ground_that_is_not_finite();
         }
         broken.into_iter().for_each(|index| self.freeze(index));
     }

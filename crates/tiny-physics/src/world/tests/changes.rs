@@ -1,5 +1,6 @@
 use super::*;
 use crate::describe::{Filter, JointDef, Locks, Material};
+use crate::dynamics::Slot;
 use crate::math::Rot;
 
 #[test]
@@ -520,4 +521,24 @@ fn targets_are_taken_whole() {
     world.body_mut(lift).unwrap().set_target(target, 1.0e-10);
     let lift = world.body(lift).unwrap();
     assert_eq!((lift.velocity(), lift.angular_velocity()), (Vec2::ZERO, 0.0));
+}
+
+/// What blows up is stopped, and what it lies on keeps nothing of it.
+#[test]
+fn ground_keeps_nothing_that_is_not_finite() {
+    for kind in [BodyKind::Static, BodyKind::Kinematic] {
+        let mut world = world();
+        let ground = RigidBody { kind, ..RigidBody::fixed() };
+        let ground = world.add_body(ground.shape(rect(5.0, 0.5))).unwrap();
+        let ball = add(&mut world, 0.0, 1.0, circle(0.5));
+        run(&mut world, 20);
+        let rows = &mut world.state.bodies.rows;
+        rows[ball.index()][Slot::VX] = f32::INFINITY;
+        rows[ground.index()][Slot::W] = f32::NAN;
+        run(&mut world, 2);
+        world.validate().unwrap();
+        assert_eq!(world.body(ground).unwrap().angular_velocity(), 0.0, "{kind:?}");
+        run(&mut world, 60);
+        assert!((y(&world, ball) - 1.0).abs() < 0.02, "{kind:?}");
+    }
 }
