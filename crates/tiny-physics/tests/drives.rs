@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{circle, rect, steps};
+use common::{Random, circle, rect, steps};
 use tiny_physics::{
     BodyId, JointDef, JointId, Limits, Locks, RigidBody, Shape, SimdLevel, Vec2, World,
 };
@@ -349,6 +349,34 @@ fn hinges_made_outside_their_limits_come_in_slowly() {
             before = after;
         }
         assert!(before.abs() < 0.11, "{light} kg, {bent}: {before}");
+    }
+}
+
+/// Sliders that are made far beside their lines come in, and turn no faster than what they pull together.
+#[test]
+fn sliders_made_out_of_place_do_not_spin_up() {
+    let mut random = Random::new(77);
+    for member in 0..200 {
+        let mut world = space();
+        let mut body = || {
+            let shape = rect(random.range(0.2, 0.5), random.range(0.2, 0.5));
+            let body = RigidBody::dynamic().shape(shape).angle(random.range(-3.0, 3.0));
+            let body = body.velocity((random.range(-5.0, 5.0), random.range(-5.0, 5.0)));
+            let place = Vec2::new(random.range(-5.0, 5.0), random.range(-5.0, 5.0));
+            let body = body.angular_velocity(random.range(-5.0, 5.0)).position(place);
+            world.add_body(body).expect("a body")
+        };
+        let (a, b) = (body(), body());
+        let slider = JointDef::prismatic(Vec2::X);
+        let slider = if member % 2 == 0 { slider.limits(-1.0, 1.0) } else { slider };
+        world.add_joint(a, b, slider).expect("a slider");
+        for step in 0..300 {
+            steps(&mut world, 1);
+            for body in [a, b].map(|body| world.body(body).expect("a body")) {
+                let (speed, spin) = (body.velocity().length(), body.angular_velocity().abs());
+                assert!(speed < 60.0 && spin < 120.0, "{member}, {step}: {speed}, {spin}");
+            }
+        }
     }
 }
 

@@ -148,18 +148,15 @@ impl FourKernel for Velocities<'_> {
     }
 }
 
-/// Cuts what the last relaxation left too fast.
-pub(crate) fn bound(team: &Team, listed: &[u32], bodies: &mut Bodies, max_speed: f32) {
+/// Cuts what the last relaxation of substeps of length `h` left too fast.
+pub(crate) fn bound(team: &Team, listed: &[u32], bodies: &mut Bodies, h: f32, max_speed: f32) {
     let rows = SharedRows::new(&mut bodies.rows);
+    let limits = Limits::new(h, max_speed);
     team.for_each_chunk(listed.len(), CHUNK, |range| {
         for &index in &listed[range] {
             rows.update(index, |row| {
-                let speed_sq = row[Slot::VX] * row[Slot::VX] + row[Slot::VY] * row[Slot::VY];
-                if speed_sq > max_speed * max_speed {
-                    let scale = max_speed / speed_sq.sqrt();
-                    row[Slot::VX] *= scale;
-                    row[Slot::VY] *= scale;
-                }
+                let [x, y, turn, _] = limits.cut([row[Slot::VX], row[Slot::VY], row[Slot::W], 0.0]);
+                (row[Slot::VX], row[Slot::VY], row[Slot::W]) = (x, y, turn);
             });
         }
     });
@@ -175,7 +172,7 @@ pub(crate) fn positions(
     max_speed: f32,
 ) {
     let columns = Columns::new(bodies);
-    let limits = Limits { speed: max_speed, turn_rate: MAX_TURN / h };
+    let limits = Limits::new(h, max_speed);
     team.for_each_chunk(listed.len(), CHUNK, |range| {
         dispatch_fours(level, Positions { listed: &listed[range], columns, h, limits });
     });
@@ -225,8 +222,12 @@ impl FourKernel for Positions<'_> {
 }
 
 impl Limits {
+    /// Those of substeps of length `h`.
+    fn new(h: f32, max_speed: f32) -> Self {
+        Self { speed: max_speed, turn_rate: MAX_TURN / h }
+    }
+
     /// A velocity within them.
-    #[cold]
     fn cut(self, mut v: [f32; 4]) -> [f32; 4] {
         let speed_sq = v[0] * v[0] + v[1] * v[1];
         if speed_sq > self.speed * self.speed {

@@ -296,7 +296,7 @@ impl Solver {
         joints(stores, joint_solver::Pass::Finish);
         tree_contacts.give_back(stores);
         bounces.end(stores.graph);
-        integrate::bound(team, listed, stores.bodies, max_speed);
+        integrate::bound(team, listed, stores.bodies, h, max_speed);
     }
 }
 

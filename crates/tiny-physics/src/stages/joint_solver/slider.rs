@@ -20,6 +20,9 @@ use crate::dynamics::{AxisLanes, SliderBlock, Slot, TreeLink};
 use crate::math::{Pose, Rot, Vec2};
 use crate::simd::{BLOCK, Lanes};
 
+/// So far beside its line what slides is torn, length units.
+const TORN: f32 = 0.5;
+
 /// The Jacobians as they are now.
 struct Rows<L> {
     along: Row<L>,
@@ -62,6 +65,22 @@ impl<L: Lanes> Rows<L> {
 }
 
 impl SliderBlock {
+    /// What lies far beside its line starts anew in each substep: its bodies turn on arms as long as that, and old impulses on arms
+    /// that have turned since make them spin ever faster.
+    #[inline(always)]
+    fn forget_torn<L: Lanes>(&mut self, stride: &Stride<L>, error: L) {
+        let torn = error.abs().gt(stride.unit * stride.splat(TORN));
+        if L::bits(torn) == 0 {
+            return;
+        }
+        let (rigid, AxisLanes { spring, motor, lower_impulse, upper_impulse, .. }) =
+            (&mut self.rigid, &mut self.axis);
+        let [x, y] = [&mut rigid.impulse_x, &mut rigid.impulse_y];
+        for lanes in [x, y, spring, motor, lower_impulse, upper_impulse] {
+            stride.store(L::select(torn, stride.zero, stride.load(lanes)), lanes);
+        }
+    }
+
     /// Change of the impulses of wheels' motors.
     #[inline(always)]
     fn solve_motor<L: Lanes>(&mut self, stride: &Stride<L>, pair: &Pair<L>, wheel: L) -> L {
@@ -132,6 +151,7 @@ impl JointKernel for SliderBlock {
     fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let direction = pair.direction(stride, &self.direction);
         let jacobians = Rows::new(pair, direction);
+        self.forget_torn(stride, dot(pair.gap, jacobians.across.direction));
         let rigid = stride.load2(&self.rigid.impulse_x, &self.rigid.impulse_y);
         jacobians.apply(pair, self.axis.total(stride), rigid);
     }

@@ -18,8 +18,6 @@ const MAX_RATE_FRACTION: f32 = 0.25;
 const ANCHORED_RATE_FRACTION: f32 = 1.5;
 /// The same for a softness that the user asks for.
 const MAX_SOFTNESS_FRACTION: f32 = 10.0;
-/// As many springs may pull at a body and be damped: stiff ones keep more of their damping in the solve pass.
-const MANY: f64 = 8.0;
 /// Damping ratios beyond act as this one: the rest is rounding.
 const MAX_DAMPING_RATIO: f32 = 1.0e4;
 
@@ -145,10 +143,9 @@ pub(super) fn coefficients(spring: Spring, h: f32, rounds: u32) -> Coefficients 
     };
     let change = smaller(1.0 - sum + product, MOST_CHANGE);
     let push = if change > 0.0 { change / f64::from(h) } else { 0.0 };
-    let steady = 1.0 - (change - 2.0 / MANY) / (2.0 - 2.0 / MANY);
     let exact = change / (w * w);
     let crowd = 1.0 - smaller(0.75 * change, 2.5 * (change - 0.4));
-    let kept = smaller(smaller(exact, steady).clamp(product, 1.0), crowd);
+    let kept = smaller(exact.clamp(product, 1.0), crowd);
     let product = smaller(product, kept);
     let eased = (0..rounds.ilog2()).fold(product / kept, |eased, _| eased.sqrt());
     [push as f32, (1.0 - kept) as f32, kept as f32, (1.0 - eased) as f32]
