@@ -1,8 +1,6 @@
 //! What acts along a joint's free coordinate: spring, motor, lower and upper limit, in this order.
 
-use super::parts::{
-    LEAST_COMPLEMENT, MOST_TORN, Soft, Stride, Symmetric, TORN, add, dot, scale, sub,
-};
+use super::parts::{LEAST_COMPLEMENT, Soft, Stride, Symmetric, add, dot, scale, sub};
 use super::spring::Rates;
 use crate::describe::{Limits, Motor, Spring};
 use crate::dynamics::{Axis, AxisLanes, UNLIMITED};
@@ -246,8 +244,6 @@ pub(super) struct Give<L> {
     /// Overrun beyond which it is pushed back more firmly than softly, and that over which it becomes quite firm.
     overrun: L,
     spread: L,
-    /// Inverse of the length unit of ropes, which yield where they are torn, see [`TORN`]; 0 of others.
-    per_unit: L,
 }
 
 impl<L: Lanes> Give<L> {
@@ -260,7 +256,6 @@ impl<L: Lanes> Give<L> {
             fade: stride.splat(1.0 / BENT),
             overrun: stride.splat(SOFT_OVERRUN),
             spread: stride.splat(SPREAD),
-            per_unit: stride.zero,
         }
     }
 
@@ -270,7 +265,7 @@ impl<L: Lanes> Give<L> {
         let [overrun, spread] =
             [SOFT_OVERRUN, SPREAD].map(|length| stride.unit * stride.splat(length));
         let [haste, fade] = [stride.zero; 2];
-        Self { snap: stride.snap, haste, fade, overrun, spread, per_unit: stride.zero }
+        Self { snap: stride.snap, haste, fade, overrun, spread }
     }
 
     /// Ropes, never firm: a net of 900 whips itself to 26 m/s with firm ones. In time they have to follow a net that
@@ -279,8 +274,7 @@ impl<L: Lanes> Give<L> {
     pub(super) fn rope(stride: &Stride<L>) -> Self {
         let snap = stride.snap * stride.splat(4.0);
         let [haste, fade] = [stride.zero; 2];
-        let (overrun, spread, per_unit) = (stride.splat(f32::MAX), stride.one, stride.per_unit);
-        Self { snap, haste, fade, overrun, spread, per_unit }
+        Self { snap, haste, fade, overrun: stride.splat(f32::MAX), spread: stride.one }
     }
 
     /// The impulse of one limit: it pushes only, and stops within the substep what would run over it.
@@ -298,16 +292,13 @@ impl<L: Lanes> Give<L> {
             let (soft_push, firm_push) = (soft.push * room, (room + self.overrun) * stride.inv_h);
             let near = (stride.one + room * self.fade).clamp(stride.zero, stride.one);
             let snap = self.snap + self.haste * near;
-            let torn = (-room * self.per_unit - stride.splat(TORN))
-                .clamp(stride.zero, stride.splat(MOST_TORN));
-            let borne = (stride.one - (torn + torn)) * old;
-            let least = velocity.min(stride.zero) - inv_mass * borne - snap;
+            let least = velocity.min(stride.zero) - inv_mass * old - snap;
             let push = firm_push.min(soft_push).max(least);
             // Only a soft push takes part of the velocity, and of what was pushed before.
             let firm = (soft_push - firm_push) / (self.spread * stride.inv_h);
             let firm = firm.clamp(stride.zero, stride.one);
             let share = soft.mass_scale + firm * (stride.one - soft.mass_scale);
-            let decay = ((stride.one - firm) * soft.impulse_scale).max(torn) * old;
+            let decay = (stride.one - firm) * soft.impulse_scale * old;
             let mass = mass * (stride.one + firm * stride.splat(FIRMNESS - 1.0));
             let bias = L::select(apart, room * stride.inv_h, push);
             let velocity = L::select(apart, velocity, share * velocity);

@@ -101,7 +101,7 @@ impl JointKernel for DistanceBlock {
         }
         let old = stride.load(&self.rod.impulse);
         let error = value - stride.load(&self.length.length);
-        let soft = soft.in_part(soft.part(stride, error, stride.snap)).yielding(stride, error);
+        let soft = soft.in_part(soft.part(stride, error, stride.snap));
         let demand = soft.demand(velocity, error);
         let rod = -(stride.invert(inv_mass) * rigid * demand) - soft.impulse_scale * old;
         stride.store(old + rod, &mut self.rod.impulse);

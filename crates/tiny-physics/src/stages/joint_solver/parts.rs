@@ -42,9 +42,8 @@ pub(super) struct Stride<L: Lanes> {
     /// [`SNAP`] a substep, metres and radians a second.
     pub(super) snap: L,
     pub(super) snap_turn: L,
-    /// Length unit, metres, and its inverse.
+    /// Length unit, metres.
     pub(super) unit: L,
-    pub(super) per_unit: L,
     /// Is the part of the block used that joints of its class rarely have?
     pub(super) extras: bool,
 }
@@ -62,7 +61,6 @@ impl<L: Lanes> Stride<L> {
             snap: L::splat(token, SNAP * unit * inv_h),
             snap_turn: L::splat(token, SNAP * inv_h),
             unit: L::splat(token, unit),
-            per_unit: L::splat(token, 1.0 / unit),
             extras: false,
         }
     }
@@ -333,22 +331,11 @@ impl<L: Lanes, const BIAS: bool> Soft<L, BIAS> {
         Self { push: self.push * part, impulse_scale: self.impulse_scale * part, ..self }
     }
 
-    /// The same where what is torn so far yields; see [`TORN`].
-    #[inline(always)]
-    pub(super) fn yielding(self, stride: &Stride<L>, error: L) -> Self {
-        if !BIAS {
-            return self;
-        }
-        let torn = error.abs() * stride.per_unit - stride.splat(TORN);
-        let torn = torn.min(stride.splat(MOST_TORN));
-        Self { impulse_scale: self.impulse_scale.max(torn * self.held), ..self }
-    }
-
     /// The same for a point that is so far off.
     #[inline(always)]
     pub(super) fn hold2(self, stride: &Stride<L>, error: [L; 2]) -> Self {
         let [x, y] = error.map(|error| self.part(stride, error, stride.snap));
-        self.in_part(x.min(y)).yielding(stride, error[0].abs().max(error[1].abs()))
+        self.in_part(x.min(y))
     }
 
     /// The velocities that a point takes away.
@@ -679,10 +666,3 @@ impl<L: Lanes> Symmetric<L> {
 
 /// Least part of an inverse mass that Schur's complement may leave: below is rounding.
 pub(super) const LEAST_COMPLEMENT: f32 = 1.0e-4;
-/// So far out of place, length units, a joint begins to let go of what it bears, the more the farther. Its bodies are kept apart by
-/// something else, and joints are stiffer than contacts: what a hand dragged against a wall was pulled up to 2.9 m into it and came out
-/// at 170 m/s, at 400 on a rope. At 0.5 it sinks 1 m, at 0.2 0.7, at 0.05 0.3.
-pub(super) const TORN: f32 = 0.05;
-/// The part that it lets go of in a solve at most. With all of it the second of two solves undoes the first, and a rod that was put
-/// 2 m too far stays there.
-pub(super) const MOST_TORN: f32 = 0.5;
