@@ -329,3 +329,44 @@ fn limbs_that_are_hit_stay_within_their_limits() {
     let (most, sum) = worst.fold((0.0_f32, 0.0), |(most, sum), x| (most.max(x), sum + x));
     assert!(most < 0.03 && sum < 0.1, "{most} {sum}");
 }
+
+/// A net of eight by two meshes of half a metre between two posts: joints along all sides.
+fn net(world: &mut World, join: fn(Vec2) -> JointDef) {
+    let columns = 9;
+    let mut knots = Vec::new();
+    for (row, column) in (0..3).flat_map(|row| (0..columns).map(move |column| (row, column))) {
+        let place = Vec2::new(column as f32 - 4.0, -(row as f32)) * 0.5;
+        let post = column == 0 || column == columns - 1;
+        let knot = if post { RigidBody::fixed() } else { RigidBody::dynamic() };
+        let shape = ShapeDef::new(rect(0.1, 0.1)).density(25.0);
+        knots.push(world.add_body(knot.position(place).shape(shape)).unwrap());
+    }
+    for i in 0..knots.len() {
+        if i % columns + 1 < columns {
+            world.add_joint(knots[i], knots[i + 1], join(Vec2::new(0.5, 0.0))).unwrap();
+        }
+        if i + columns < knots.len() {
+            world.add_joint(knots[i], knots[i + columns], join(Vec2::new(0.0, -0.5))).unwrap();
+        }
+    }
+}
+
+/// Loops, which no tree holds, are far out of place under such a load, but bear it.
+#[test]
+fn nets_bear_a_thousand_times_their_knots() {
+    let joins: [fn(Vec2) -> JointDef; 3] = [
+        |side| JointDef::distance(side.length()),
+        |side| JointDef::rope(side.length()),
+        |side| JointDef::revolute().anchors(side * 0.5, side * -0.5),
+    ];
+    for (kind, join) in joins.into_iter().enumerate() {
+        let mut world = world();
+        net(&mut world, join);
+        let load = RigidBody::dynamic().position(Vec2::new(0.0, 0.6)).shape(rect(0.4, 0.4));
+        let load = world.add_body(load.mass(1000.0)).unwrap();
+        (0..600).for_each(|_| world.step(DT));
+        let body = world.body(load).unwrap();
+        let (place, speed) = (body.position(), body.velocity().length());
+        assert!(place.y > -1.4 && speed < 0.01, "kind {kind}: {place:?}, {speed} m/s");
+    }
+}
