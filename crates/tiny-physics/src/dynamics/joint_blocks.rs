@@ -12,6 +12,7 @@ use super::blocks::{LaneBlock, lane_block};
 use crate::codec::{Reader, Sink};
 use crate::describe::JointKind;
 use crate::error::Error;
+use crate::math::Vec2;
 use crate::simd::BLOCK;
 
 /// Most impulses that a joint accumulates.
@@ -163,6 +164,18 @@ joint_lanes! {
         /// From the centre of mass of A to that of B at the start of the step.
         between_x: f32 = 0.0,
         between_y: f32 = 0.0,
+        /// From where the joint would have B to where it is, as far as it may be torn, metres.
+        off_x: f32 = 0.0,
+        off_y: f32 = 0.0,
+        /// The part of its impulses that what is torn lets go of in a solve, see `stages/joint_solver/torn.rs`.
+        yields: f32 = 0.0,
+    }
+}
+
+impl FrameLanes {
+    /// From where a joint would have B to where it is.
+    pub(crate) fn off(&self, lane: usize) -> Vec2 {
+        Vec2::new(self.off_x[lane], self.off_y[lane])
     }
 }
 

@@ -240,6 +240,16 @@ pub(crate) struct JointPlaces {
 }
 
 impl JointPlaces {
+    /// Those that are solved in lanes.
+    pub(crate) fn in_lanes(&self) -> Range<usize> {
+        self.colours.start..self.overflow.end
+    }
+
+    /// Those of trees, if there are any.
+    pub(crate) fn in_trees(&self) -> Option<usize> {
+        self.trees.clone().next()
+    }
+
     /// There is no joint.
     pub(crate) fn is_empty(&self) -> bool {
         self.colours.start == self.trees.end

@@ -244,6 +244,8 @@ pub(super) struct Give<L> {
     /// Overrun beyond which it is pushed back more firmly than softly, and that over which it becomes quite firm.
     overrun: L,
     spread: L,
+    /// The part of its impulse that it lets go of at least.
+    yields: L,
 }
 
 impl<L: Lanes> Give<L> {
@@ -256,25 +258,26 @@ impl<L: Lanes> Give<L> {
             fade: stride.splat(1.0 / BENT),
             overrun: stride.splat(SOFT_OVERRUN),
             spread: stride.splat(SPREAD),
+            yields: stride.zero,
         }
     }
 
     /// Limits of places.
     #[inline(always)]
-    pub(super) fn sliding(stride: &Stride<L>) -> Self {
+    pub(super) fn sliding(stride: &Stride<L>, yields: L) -> Self {
         let [overrun, spread] =
             [SOFT_OVERRUN, SPREAD].map(|length| stride.unit * stride.splat(length));
         let [haste, fade] = [stride.zero; 2];
-        Self { snap: stride.snap, haste, fade, overrun, spread }
+        Self { snap: stride.snap, haste, fade, overrun, spread, yields }
     }
 
     /// Ropes, never firm: a net of 900 whips itself to 26 m/s with firm ones. In time they have to follow a net that
     /// swings: with a snap of once the usual its fastest knot has 0.3 m/s after half a minute, with four times 0.08.
     #[inline(always)]
-    pub(super) fn rope(stride: &Stride<L>) -> Self {
+    pub(super) fn rope(stride: &Stride<L>, yields: L) -> Self {
         let snap = stride.snap * stride.splat(4.0);
         let [haste, fade] = [stride.zero; 2];
-        Self { snap, haste, fade, overrun: stride.splat(f32::MAX), spread: stride.one }
+        Self { snap, haste, fade, overrun: stride.splat(f32::MAX), spread: stride.one, yields }
     }
 
     /// The impulse of one limit: it pushes only, and stops within the substep what would run over it.
@@ -292,13 +295,14 @@ impl<L: Lanes> Give<L> {
             let (soft_push, firm_push) = (soft.push * room, (room + self.overrun) * stride.inv_h);
             let near = (stride.one + room * self.fade).clamp(stride.zero, stride.one);
             let snap = self.snap + self.haste * near;
-            let least = velocity.min(stride.zero) - inv_mass * old - snap;
+            let borne = L::select(self.yields.gt(stride.zero), stride.zero, old);
+            let least = velocity.min(stride.zero) - inv_mass * borne - snap;
             let push = firm_push.min(soft_push).max(least);
             // Only a soft push takes part of the velocity, and of what was pushed before.
             let firm = (soft_push - firm_push) / (self.spread * stride.inv_h);
             let firm = firm.clamp(stride.zero, stride.one);
             let share = soft.mass_scale + firm * (stride.one - soft.mass_scale);
-            let decay = (stride.one - firm) * soft.impulse_scale * old;
+            let decay = ((stride.one - firm) * soft.impulse_scale).max(self.yields) * old;
             let mass = mass * (stride.one + firm * stride.splat(FIRMNESS - 1.0));
             let bias = L::select(apart, room * stride.inv_h, push);
             let velocity = L::select(apart, velocity, share * velocity);

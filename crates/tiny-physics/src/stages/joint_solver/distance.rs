@@ -78,6 +78,15 @@ impl JointKernel for DistanceBlock {
     }
 
     #[inline(always)]
+    fn off<L: Lanes>(&self, stride: &Stride<L>, gap: [L; 2]) -> [L; 2] {
+        let (length, direction) = length_and_direction(stride, gap);
+        let rod = length - stride.load(&self.length.length);
+        let rope = (length - stride.load(&self.axis.upper)).max(stride.zero);
+        let rigid = stride.load(&self.soft.rigid).gt(stride.zero);
+        scale(direction, L::select(rigid, rod, rope))
+    }
+
+    #[inline(always)]
     fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let (_, row) = length_row(stride, pair);
         pair.apply_along(&row, stride.load(&self.rod.impulse) + self.axis.total(stride));
@@ -93,15 +102,17 @@ impl JointKernel for DistanceBlock {
         if BIAS {
             velocity = velocity + outward(stride, pair, value, row.direction);
         }
+        let yields = stride.load(&self.frame.yields);
         let mut change = stride.zero;
         if stride.extras {
             let coordinate = Coordinate { value, velocity, inv_mass };
-            change = self.axis.solve::<L, BIAS>(stride, &soft, Give::rope(stride), coordinate);
+            let give = Give::rope(stride, yields);
+            change = self.axis.solve::<L, BIAS>(stride, &soft, give, coordinate);
             velocity = velocity + inv_mass * change;
         }
         let old = stride.load(&self.rod.impulse);
         let error = value - stride.load(&self.length.length);
-        let soft = soft.in_part(soft.part(stride, error, stride.snap));
+        let soft = soft.in_part(soft.part(stride, error, stride.snap)).yielding(yields);
         let demand = soft.demand(velocity, error);
         let rod = -(stride.invert(inv_mass) * rigid * demand) - soft.impulse_scale * old;
         stride.store(old + rod, &mut self.rod.impulse);

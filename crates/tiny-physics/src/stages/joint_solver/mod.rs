@@ -33,6 +33,7 @@ mod pulley;
 mod revolute;
 mod slider;
 mod spring;
+pub(crate) mod torn;
 pub(crate) mod trees;
 mod weld;
 
@@ -83,6 +84,11 @@ trait JointKernel: JointLanes {
     fn describe(&mut self, lane: usize, def: &JointDef, rates: &Rates);
     /// Writes what follows from the poses. The anchors are there already.
     fn prepare<L: Lanes>(&mut self, _stride: &Stride<L>, _start: &Start<L>, _poses: &[Pose]) {}
+    /// From where the joint would have anchor B to where it is, of what yields where it is torn; see [`torn`].
+    #[inline(always)]
+    fn off<L: Lanes>(&self, stride: &Stride<L>, _gap: [L; 2]) -> [L; 2] {
+        [stride.zero; 2]
+    }
     /// Applies the impulses of the substep before.
     fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>);
     /// Corrects the velocities, with bias or (relax) without.
@@ -185,6 +191,7 @@ impl<B: JointKernel> LaneKernel for Prepare<'_, B> {
                 let stride = Stride::<L>::new(token, at, substep);
                 let start = Start::prepare(&stride, block.frame(), poses);
                 block.prepare(&stride, &start, poses);
+                torn::prepare(&stride, block);
             }
         }
     }

@@ -331,11 +331,17 @@ impl<L: Lanes, const BIAS: bool> Soft<L, BIAS> {
         Self { push: self.push * part, impulse_scale: self.impulse_scale * part, ..self }
     }
 
+    /// The same that lets go of so much, see [`torn`](super::torn).
+    #[inline(always)]
+    pub(super) fn yielding(self, part: L) -> Self {
+        if BIAS { Self { impulse_scale: self.impulse_scale.max(part), ..self } } else { self }
+    }
+
     /// The same for a point that is so far off.
     #[inline(always)]
-    pub(super) fn hold2(self, stride: &Stride<L>, error: [L; 2]) -> Self {
+    pub(super) fn hold2(self, stride: &Stride<L>, error: [L; 2], yields: L) -> Self {
         let [x, y] = error.map(|error| self.part(stride, error, stride.snap));
-        self.in_part(x.min(y))
+        self.in_part(x.min(y)).yielding(yields)
     }
 
     /// The velocities that a point takes away.

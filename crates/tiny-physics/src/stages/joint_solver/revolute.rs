@@ -59,6 +59,11 @@ impl JointKernel for RevoluteBlock {
     }
 
     #[inline(always)]
+    fn off<L: Lanes>(&self, _: &Stride<L>, gap: [L; 2]) -> [L; 2] {
+        gap
+    }
+
+    #[inline(always)]
     fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let impulse = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         pair.apply_at_anchors(impulse, self.axis.total(stride));
@@ -68,7 +73,7 @@ impl JointKernel for RevoluteBlock {
     fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let soft = Soft::<L, BIAS>::load(stride, &self.soft);
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
-        let held = soft.hold2(stride, pair.gap);
+        let held = soft.hold2(stride, pair.gap, stride.load(&self.frame.yields));
         let rows = Held {
             inverse: pair.point_mass(stride),
             demand: held.demand2(pair.anchor_velocity_in::<BIAS>(stride), pair.gap),

@@ -12,7 +12,7 @@
 use super::JointKernel;
 use super::axis::{AxisDef, Coordinate, Give, Held, drive};
 use super::parts::{
-    Pair, Row, Soft, Start, Stride, Symmetric, add, describe_angle, dot, perp, rotate, scale,
+    Pair, Row, Soft, Start, Stride, Symmetric, add, describe_angle, dot, perp, rotate, scale, sub,
 };
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
@@ -148,6 +148,14 @@ impl JointKernel for SliderBlock {
     }
 
     #[inline(always)]
+    fn off<L: Lanes>(&self, stride: &Stride<L>, gap: [L; 2]) -> [L; 2] {
+        let direction = stride.load2(&self.direction.x, &self.direction.y);
+        let along = dot(gap, direction);
+        let within = along.clamp(stride.load(&self.axis.lower), stride.load(&self.axis.upper));
+        sub(gap, scale(direction, within))
+    }
+
+    #[inline(always)]
     fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let direction = pair.direction(stride, &self.direction);
         let jacobians = Rows::new(pair, direction);
@@ -174,8 +182,10 @@ impl JointKernel for SliderBlock {
         let error = dot(pair.gap, jacobians.across.direction);
         let angle = pair.angle(stride, &self.angle);
         let [on_axis, on_angle] = jacobians.coupling(pair);
+        let yields = stride.load(&self.frame.yields);
         let turned = soft.part(stride, held * angle, stride.snap_turn);
-        let rigid = soft.in_part(soft.part(stride, error, stride.snap).min(turned));
+        let beside = soft.part(stride, error, stride.snap);
+        let rigid = soft.in_part(beside.min(turned)).yielding(yields);
         let rows = Held {
             inverse: jacobians.rigid_mass(stride, pair, held),
             demand: [
@@ -191,7 +201,7 @@ impl JointKernel for SliderBlock {
             velocity: pair.velocity_along(&jacobians.along),
             inv_mass: pair.inv_mass_along(&jacobians.along),
         };
-        let give = Give::sliding(stride);
+        let give = Give::sliding(stride, yields);
         let (change, along) = rows.solve(stride, &soft, &mut self.axis, coordinate, give);
         let impulse = add([across, angular], change);
         stride.store2(impulse, &mut self.rigid.impulse_x, &mut self.rigid.impulse_y);

@@ -35,6 +35,11 @@ impl JointKernel for WeldBlock {
     }
 
     #[inline(always)]
+    fn off<L: Lanes>(&self, _: &Stride<L>, gap: [L; 2]) -> [L; 2] {
+        gap
+    }
+
+    #[inline(always)]
     fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let impulse = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         pair.apply_at_anchors(impulse, stride.load(&self.twist.impulse));
@@ -58,7 +63,7 @@ impl JointKernel for WeldBlock {
         let demand_turn = angular.demand(pair.spin(), angle);
 
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
-        let linear = linear.hold2(stride, pair.gap);
+        let linear = linear.hold2(stride, pair.gap, stride.load(&self.frame.yields));
         let demand = linear.demand2(pair.anchor_velocity_in::<BIAS>(stride), pair.gap);
         // A rigid angle decays with what the point does to it.
         let acting = pair.inv_inertia() * old_twist + dot(coupling, old);

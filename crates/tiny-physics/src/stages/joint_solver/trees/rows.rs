@@ -183,9 +183,11 @@ pub(super) fn refresh<S: Simd>(
     }
     for (index, link) in links.iter_mut().enumerate() {
         let stride = Stride::new((), link.slot as usize % BLOCK, substep);
+        let yields;
         with_bucket!(lanes, link.class, bucket => {
             let block = &bucket.blocks[link.slot as usize / BLOCK];
             write(block, &block.frame, &stride, rows, link);
+            yields = f64::from(block.frame.yields[stride.at]).max(COMPLIANCE);
             if !*begun {
                 begin(block, &stride, (index, link), axes);
             }
@@ -193,7 +195,7 @@ pub(super) fn refresh<S: Simd>(
         let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
         for i in 0..link.rigid {
             let response = response(&link.row(i), &link.row(i), a, b);
-            link.compliance[i] = if response > 0.0 { COMPLIANCE * response } else { UNANSWERED };
+            link.compliance[i] = if response > 0.0 { yields * response } else { UNANSWERED };
         }
         stiffen(link, nodes);
     }
