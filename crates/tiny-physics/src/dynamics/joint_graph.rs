@@ -240,19 +240,19 @@ pub(crate) struct JointPlaces {
 }
 
 impl JointPlaces {
-    /// Those that are solved in lanes.
-    pub(crate) fn in_lanes(&self) -> Range<usize> {
-        self.colours.start..self.overflow.end
+    /// All of them.
+    pub(crate) fn all(&self) -> Range<usize> {
+        self.colours.start..self.trees.end
     }
 
-    /// Those of trees, if there are any.
-    pub(crate) fn in_trees(&self) -> Option<usize> {
-        self.trees.clone().next()
+    /// Is a place that of trees?
+    pub(crate) fn of_trees(&self, place: usize) -> bool {
+        self.trees.contains(&place)
     }
 
     /// There is no joint.
     pub(crate) fn is_empty(&self) -> bool {
-        self.colours.start == self.trees.end
+        self.all().is_empty()
     }
 }
 

@@ -184,7 +184,10 @@ impl Solver {
         if stores.bodies.awake.is_empty() {
             return;
         }
-        let squeezed = contacts_of(&predictions.squeezed.hit, stores);
+        let squeezed = predictions.squeezed.hit.iter().flat_map(|&body| {
+            let first = stores.bodies.infos[body as usize].first_contact;
+            stores.contacts.of_body(first).map(|(contact, _)| contact)
+        });
         self.squeezed.list(stores.graph, stores.contacts, squeezed);
         self.hit.list(stores.graph, stores.contacts, predictions.hard.iter().copied());
         self.bounces.waiting.clone_from(&predictions.waiting);
@@ -232,16 +235,15 @@ impl Solver {
         let joint_substep = Substep::new(h, settings.length_unit);
         let parameters = rules.contact_parameters();
         schedule.fill_pace(stores.graph, pace, contact_solver::CHUNK);
-        integrate::prepare(team, listed, stores.bodies, gravity, h);
-        let places = stores.joint_graph.places_of(pace);
-        prepare_joints(team, stores, level, pace, &places, joint_substep);
-        joint_solver::torn::find(stores, pace, &places, joint_substep);
         let rounds = |chosen: &mut Chosen, rounds| {
             if chosen.take(stores.graph, pace, 8 * contact_solver::CHUNK) { rounds } else { 0 }
         };
         let squeezed_rounds = rounds(squeezed, SQUEEZED_ROUNDS);
         let hit_rounds = rounds(hit, HIT_ROUNDS);
         let any_jointed = rounds(jointed, 1) > 0;
+        integrate::prepare(team, listed, stores.bodies, gravity, h);
+        let places = stores.joint_graph.places_of(pace);
+        prepare_joints(team, stores, level, pace, &places, joint_substep);
         passivity.find(pace, listed, stores);
         bounces.begin(stores.graph, pace, &parameters);
         let max_speed = settings.max_speed * settings.length_unit;
@@ -298,14 +300,6 @@ impl Solver {
     }
 }
 
-/// The contacts of some bodies.
-fn contacts_of<'a>(bodies: &'a [u32], stores: &'a Stores<'_>) -> impl Iterator<Item = u32> + 'a {
-    bodies.iter().flat_map(|&body| {
-        let first = stores.bodies.infos[body as usize].first_contact;
-        stores.contacts.of_body(first).map(|(contact, _)| contact)
-    })
-}
-
 /// Brings the joints' lanes in line with the poses.
 fn prepare_joints(
     team: &Team,
@@ -315,6 +309,9 @@ fn prepare_joints(
     places: &JointPlaces,
     substep: Substep,
 ) {
+    if places.is_empty() {
+        return;
+    }
     let Stores { joint_graph, joints, bodies, .. } = stores;
     let poses = &bodies.poses;
     let prepare = |blocks: JointBlocks<'_>, count| {
@@ -326,6 +323,7 @@ fn prepare_joints(
         lanes.for_each_run(team, prepare);
         joint_solver::trees::prepare(team, pace, trees, joints, &bodies.motions);
     }
+    joint_solver::torn::find(stores, pace, places, substep);
 }
 
 /// Runs one pass over all joints: the overflow one by one, then colour by colour, then tree by tree.

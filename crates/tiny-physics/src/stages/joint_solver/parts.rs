@@ -566,18 +566,12 @@ impl<L: Lanes> Pair<L> {
         rotate(self.turn_a, stride.load2(&lanes.x, &lanes.y))
     }
 
-    /// The Jacobian of the gap along a direction, from a point on A (see [`Self::row_on_a`]) to the anchor on B.
+    /// The Jacobian of the gap along a direction, from a point on A to the anchor on B.
     #[inline(always)]
     pub(super) fn row(&self, from_a: [L; 2], direction: [L; 2]) -> Row<L> {
         let (arm_a, arm_b) = (cross(from_a, direction), cross(self.anchor_b, direction));
         let reach = [dot(from_a, direction), dot(self.anchor_b, direction)];
         Row { direction, arm_a, arm_b, reach }
-    }
-
-    /// The same along a direction that turns with A.
-    #[inline(always)]
-    pub(super) fn row_on_a(&self, direction: [L; 2]) -> Row<L> {
-        self.row(add(self.gap, self.anchor_a), direction)
     }
 
     /// The angle now.

@@ -20,7 +20,8 @@ use crate::dynamics::{AxisLanes, SliderBlock, Slot, TreeLink};
 use crate::math::{Pose, Rot, Vec2};
 use crate::simd::{BLOCK, Lanes};
 
-/// So far beside its line what slides is torn, length units.
+/// Farther beside its line than so, or beyond its limits, length units, no arm of what slides grows: on longer ones old impulses turn
+/// bodies that have turned since ever faster, up to any number.
 const TORN: f32 = 0.5;
 
 /// The Jacobians as they are now.
@@ -31,8 +32,13 @@ struct Rows<L> {
 
 impl<L: Lanes> Rows<L> {
     #[inline(always)]
-    fn new(pair: &Pair<L>, direction: [L; 2]) -> Self {
-        Self { along: pair.row_on_a(direction), across: pair.row_on_a(perp(direction)) }
+    fn new(stride: &Stride<L>, pair: &Pair<L>, direction: [L; 2], axis: &AxisLanes) -> Self {
+        let (across, torn) = (perp(direction), stride.unit * stride.splat(TORN));
+        let (lower, upper) = (stride.load(&axis.lower) - torn, stride.load(&axis.upper) + torn);
+        let along = dot(pair.gap, direction).clamp(lower, upper);
+        let beside = dot(pair.gap, across).clamp(-torn, torn);
+        let arm = add(pair.anchor_a, add(scale(direction, along), scale(across, beside)));
+        Self { along: pair.row(arm, direction), across: pair.row(arm, across) }
     }
 
     /// Applies impulses along, across, and angular.
@@ -65,22 +71,6 @@ impl<L: Lanes> Rows<L> {
 }
 
 impl SliderBlock {
-    /// What lies far beside its line starts anew in each substep: its bodies turn on arms as long as that, and old impulses on arms
-    /// that have turned since make them spin ever faster.
-    #[inline(always)]
-    fn forget_torn<L: Lanes>(&mut self, stride: &Stride<L>, error: L) {
-        let torn = error.abs().gt(stride.unit * stride.splat(TORN));
-        if L::bits(torn) == 0 {
-            return;
-        }
-        let (rigid, AxisLanes { spring, motor, lower_impulse, upper_impulse, .. }) =
-            (&mut self.rigid, &mut self.axis);
-        let [x, y] = [&mut rigid.impulse_x, &mut rigid.impulse_y];
-        for lanes in [x, y, spring, motor, lower_impulse, upper_impulse] {
-            stride.store(L::select(torn, stride.zero, stride.load(lanes)), lanes);
-        }
-    }
-
     /// Change of the impulses of wheels' motors.
     #[inline(always)]
     fn solve_motor<L: Lanes>(&mut self, stride: &Stride<L>, pair: &Pair<L>, wheel: L) -> L {
@@ -106,7 +96,8 @@ impl JointKernel for SliderBlock {
     }
 
     fn tie(&self, stride: &Stride<f64>, pair: &Pair<f64>, link: &mut TreeLink) {
-        let Rows { along, across } = Rows::new(pair, pair.direction(stride, &self.direction));
+        let Rows { along, across } =
+            Rows::new(stride, pair, pair.direction(stride, &self.direction), &self.axis);
         link.hold(&across, dot(pair.gap, across.direction));
         if self.wheel.turns[stride.at] == 0.0 {
             link.hold(&Row::ANGLE, pair.angle(stride, &self.angle));
@@ -158,8 +149,7 @@ impl JointKernel for SliderBlock {
     #[inline(always)]
     fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let direction = pair.direction(stride, &self.direction);
-        let jacobians = Rows::new(pair, direction);
-        self.forget_torn(stride, dot(pair.gap, jacobians.across.direction));
+        let jacobians = Rows::new(stride, pair, direction, &self.axis);
         let rigid = stride.load2(&self.rigid.impulse_x, &self.rigid.impulse_y);
         jacobians.apply(pair, self.axis.total(stride), rigid);
     }
@@ -176,7 +166,7 @@ impl JointKernel for SliderBlock {
         let held = turns * (stride.one - wheel);
         let soft = Soft::<L, BIAS>::load(stride, &self.soft);
         let direction = pair.direction(stride, &self.direction);
-        let jacobians = Rows::new(pair, direction);
+        let jacobians = Rows::new(stride, pair, direction, &self.axis);
         let [across, angular] = stride.load2(&self.rigid.impulse_x, &self.rigid.impulse_y);
         let angular = turns * angular;
         let error = dot(pair.gap, jacobians.across.direction);

@@ -7,8 +7,7 @@
 use super::JointKernel;
 use super::parts::{Stride, Substep, add, sub};
 use crate::dynamics::{
-    FrameLanes, JointClass, JointColour, JointPlaces, JointTree, TreeLink, joint_classes,
-    with_bucket,
+    FrameLanes, JointClass, JointColour, JointPlaces, JointTree, joint_classes, with_bucket,
 };
 use crate::math::Vec2;
 use crate::simd::{BLOCK, Lanes};
@@ -62,21 +61,26 @@ pub(crate) fn find(stores: &mut Stores<'_>, pace: usize, places: &JointPlaces, s
     let mut search =
         Search { stores, torn: TORN * substep.unit * substep.h, most, found: Vec::new() };
     let colours = &stores.joint_graph.colours;
-    for colour in places.in_lanes() {
+    let mut in_trees = None;
+    for colour in places.all() {
         macro_rules! find_all {
             (() $($bucket:ident $class:ident $block:ident),*) => {
                 $(for (at, block) in colours.list()[colour].$bucket.blocks.iter().enumerate() {
-                    search.look_at((colour, JointClass::$class, at * BLOCK), &block.frame);
+                    if !search.is_off(&block.frame) {
+                    } else if places.of_trees(colour) {
+                        in_trees = Some(colour);
+                    } else {
+                        search.look_at((colour, JointClass::$class, at * BLOCK), &block.frame);
+                    }
                 })*
             };
         }
         joint_classes!(find_all!());
     }
-    let trees = stores.joint_graph.forest.trees.iter().filter(|tree| tree.pace == pace);
-    places
-        .in_trees()
-        .into_iter()
-        .for_each(|colour| trees.clone().for_each(|tree| search.look_at_tree(tree, colour)));
+    if let Some(colour) = in_trees {
+        let trees = stores.joint_graph.forest.trees.iter().filter(|tree| tree.pace == pace);
+        trees.for_each(|tree| search.look_at_tree(tree, colour));
+    }
     for Found { colour, class, slot, part } in search.found {
         let colour = &mut stores.joint_graph.colours.list_mut()[colour];
         with_bucket!(colour, class, bucket => {
@@ -86,10 +90,13 @@ pub(crate) fn find(stores: &mut Stores<'_>, pace: usize, places: &JointPlaces, s
 }
 
 impl Search<'_> {
+    /// Is any joint of a block out of place?
+    fn is_off(&self, frame: &FrameLanes) -> bool {
+        let far = |any: bool, off: &f32| any | (off.abs() > self.torn);
+        frame.off_y.iter().fold(frame.off_x.iter().fold(false, far), far)
+    }
+
     fn look_at(&mut self, (colour, class, start): (usize, JointClass, usize), frame: &FrameLanes) {
-        if frame.off_x.iter().chain(&frame.off_y).all(|off| off.abs() <= self.torn) {
-            return;
-        }
         for lane in 0..BLOCK {
             let (a, b) = (frame.body_a[lane], frame.body_b[lane]);
             let off = frame.off(lane);
@@ -102,18 +109,13 @@ impl Search<'_> {
 
     fn look_at_tree(&mut self, tree: &JointTree, colour: usize) {
         let mut held = None;
-        for &TreeLink { class, slot, .. } in &tree.links {
-            let part = self.part(off_of(
-                &self.stores.joint_graph.colours.list()[colour],
-                class,
-                slot as usize,
-            ));
-            // Sliders of trees run away along their lines.
-            if part > 0.0
-                && class != JointClass::Slider
-                && *held.get_or_insert_with(|| self.is_tree_held(tree))
-            {
-                self.found.push(Found { colour, class, slot: slot as usize, part });
+        // Sliders of trees run away along their lines.
+        for link in tree.links.iter().filter(|link| link.class != JointClass::Slider) {
+            let (class, slot) = (link.class, link.slot as usize);
+            let lanes = &self.stores.joint_graph.colours.list()[colour];
+            let part = self.part(off_of(lanes, class, slot));
+            if part > 0.0 && *held.get_or_insert_with(|| self.is_tree_held(tree)) {
+                self.found.push(Found { colour, class, slot, part });
             }
         }
     }
