@@ -259,6 +259,17 @@ macro_rules! portable_operations {
         fn bits(mask: Self::Mask) -> u32 {
             mask.to_bitmask() as u32
         }
+        // The instructions of x86 do just what is asked for, of NaN and signed zero, too.
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        #[inline(always)]
+        fn min(self, other: Self) -> Self {
+            SimdBase::min(self, other)
+        }
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        #[inline(always)]
+        fn max(self, other: Self) -> Self {
+            SimdBase::max(self, other)
+        }
     };
 }
 
@@ -378,6 +389,39 @@ mod tests {
             let mut rows = start.clone();
             dispatch(level, GatherScatter { rows: SharedRows::new(&mut rows), indices: &indices });
             assert_eq!(rows, expected, "{level}");
+        }
+    }
+
+    struct Extremes<'a> {
+        a: f32,
+        b: f32,
+        found: &'a mut [[f32; BLOCK]; 4],
+    }
+
+    impl LaneKernel for Extremes<'_> {
+        type Output = ();
+
+        #[inline(always)]
+        fn run<L: Lanes>(self, token: L::Token) {
+            let (a, b) = (L::splat(token, self.a), L::splat(token, self.b));
+            a.min(b).store(&mut self.found[0]);
+            L::select(a.lt(b), a, b).store(&mut self.found[1]);
+            a.max(b).store(&mut self.found[2]);
+            L::select(a.gt(b), a, b).store(&mut self.found[3]);
+        }
+    }
+
+    #[test]
+    fn the_smaller_and_the_larger_are_compared_and_selected_on_every_level() {
+        let values = [0.0, -0.0, 1.5, -2.0, f32::INFINITY, f32::NEG_INFINITY, f32::NAN, -f32::NAN];
+        for (a, b) in values.into_iter().flat_map(|a| values.map(|b| (a, b))) {
+            for level in SimdLevel::available() {
+                let mut found = [[0.0; BLOCK]; 4];
+                dispatch(level, Extremes { a, b, found: &mut found });
+                let [min, selected_min, max, selected_max] =
+                    found.map(|lanes| lanes.map(f32::to_bits));
+                assert_eq!((min, max), (selected_min, selected_max), "{a} and {b}, {level}");
+            }
         }
     }
 }
