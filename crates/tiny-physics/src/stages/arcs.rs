@@ -121,16 +121,16 @@ impl Search<'_> {
         let way = |body: u32| predictions.motion(bodies, dt, body);
         for (index, side) in contacts.of_body(info.first_contact) {
             let contact = &contacts.records[index as usize];
-            let (own, other) = sides(contact, side);
-            let is_left = has_rules(contact, shapes, own) || is_joined(bodies, joints, other);
-            if !contact.touching || is_left {
+            if !contact.touching {
                 continue;
             }
+            let (own, other) = sides(contact, side);
+            let is_left = || has_rules(contact, shapes, own) || is_joined(bodies, joints, other);
             let slide = (way(other) - way(body)).length();
             let is_disk = matches!(shapes.records[own as usize].shape, Shape::Circle { .. });
             let half = bodies.thinner_half([body, other]);
             let off = turn.abs() * (slide + 0.5 * rim);
-            if is_disk || off <= most || off <= HARMLESS * half {
+            if is_disk || off <= most || off <= HARMLESS * half || is_left() {
                 continue;
             }
             let waits = predictions.of(index).is_some() || contact.restitution > 0.0;

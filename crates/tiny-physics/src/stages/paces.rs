@@ -377,9 +377,9 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         below.extend(contacts.of_body(info.first_contact).filter_map(|(index, _)| {
             let contact = &contacts.records[index as usize];
             let other = contact.other(body);
-            let step = LOWER * bodies.thinner_half([body, other]);
-            let lower = !bodies.is_dynamic(other) || top - height(other) > f64::from(step);
-            (contact.touching && lower).then_some(other)
+            let step = || LOWER * bodies.thinner_half([body, other]);
+            let lower = || !bodies.is_dynamic(other) || top - height(other) > f64::from(step());
+            (contact.touching && lower()).then_some(other)
         }));
         let weight = info.mass * info.gravity_scale.abs() * rules.gravity.length();
         let share = (weight + loads[body as usize]) / below.len().max(1) as f32;
