@@ -10,7 +10,7 @@ use crate::simd::BLOCK;
 /// Blocks of contacts that touch which are worked on by themselves.
 #[derive(Debug, Default)]
 pub(crate) struct Chosen {
-    /// Of all paces, in the order in which they are solved, each once.
+    /// Of all paces, each once, ascending but for what was taken.
     blocks: Vec<BlockAddress>,
     /// Those of the pace at hand.
     pub(crate) schedule: Schedule,
@@ -36,7 +36,7 @@ impl Chosen {
                 _ => None,
             }
         }));
-        self.blocks.sort_unstable_by_key(|at| (order(at), at.1, at.2));
+        self.blocks.sort_unstable_by_key(number);
         self.blocks.dedup();
     }
 
@@ -47,19 +47,24 @@ impl Chosen {
             let chosen = (0..).zip(&bucket.heads).filter(|(_, head)| chosen(head));
             self.blocks.extend(chosen.map(|(block, _)| (place as u8, class as u8, block)));
         }
-        self.blocks.sort_by_key(order);
     }
 
     /// Schedules those of a pace in runs of up to `len`; says whether there are any.
     pub(crate) fn take(&mut self, graph: &Graph, pace: usize, len: usize) -> bool {
         let at = |pace| self.blocks.partition_point(|at| pace_at(at.0.into()) < pace);
-        let blocks = &self.blocks[at(pace)..at(pace + 1)];
+        let (start, end) = (at(pace), at(pace + 1));
+        let blocks = &mut self.blocks[start..end];
+        // The overflow comes first, as in [`Schedule::fill_pace`].
+        let is_last = |at: &BlockAddress| is_overflow(at.0.into());
+        if blocks.last().is_some_and(is_last) {
+            blocks.rotate_left(blocks.partition_point(|at| !is_last(at)));
+        }
         self.schedule.fill_with(graph, blocks, len);
         !blocks.is_empty()
     }
 }
 
-/// In a pace the overflow comes first, as in [`Schedule::fill_pace`].
-fn order(&(place, ..): &BlockAddress) -> (usize, bool, u8) {
-    (pace_at(place.into()), !is_overflow(place.into()), place)
+/// A block as a number: that is compared in one go.
+fn number(&(place, class, block): &BlockAddress) -> u64 {
+    u64::from(place) << 40 | u64::from(class) << 32 | u64::from(block)
 }
