@@ -265,8 +265,8 @@ impl<L: Lanes> Give<L> {
     /// Limits of places.
     #[inline(always)]
     pub(super) fn sliding(stride: &Stride<L>, yields: L) -> Self {
-        let [overrun, spread] =
-            [SOFT_OVERRUN, SPREAD].map(|length| stride.unit * stride.splat(length));
+        let overrun = stride.unit * stride.splat(SOFT_OVERRUN);
+        let spread = stride.unit * stride.splat(SPREAD);
         let [haste, fade] = [stride.zero; 2];
         Self { snap: stride.snap, haste, fade, overrun, spread, yields }
     }

@@ -340,8 +340,9 @@ impl<L: Lanes, const BIAS: bool> Soft<L, BIAS> {
     /// The same for a point that is so far off.
     #[inline(always)]
     pub(super) fn hold2(self, stride: &Stride<L>, error: [L; 2], yields: L) -> Self {
-        let [x, y] = error.map(|error| self.part(stride, error, stride.snap));
-        self.in_part(x.min(y)).yielding(yields)
+        let x = self.part(stride, error[0], stride.snap);
+        let part = x.min(self.part(stride, error[1], stride.snap));
+        self.in_part(part).yielding(yields)
     }
 
     /// The velocities that a point takes away.
