@@ -81,7 +81,8 @@ impl JointKernel for DistanceBlock {
     fn off<L: Lanes>(&self, stride: &Stride<L>, gap: [L; 2]) -> [L; 2] {
         let (length, direction) = length_and_direction(stride, gap);
         let rod = length - stride.load(&self.length.length);
-        let rope = (length - stride.load(&self.axis.upper)).max(stride.zero);
+        let limits = stride.load2(&self.axis.lower, &self.axis.upper);
+        let rope = length - length.clamp(limits[0], limits[1]);
         let rigid = stride.load(&self.soft.rigid).gt(stride.zero);
         scale(direction, L::select(rigid, rod, rope))
     }

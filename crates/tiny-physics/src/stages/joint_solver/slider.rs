@@ -16,12 +16,11 @@ use super::parts::{
 };
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
-use crate::dynamics::{AxisLanes, SliderBlock, Slot, TreeLink};
+use crate::dynamics::{AxisLanes, SliderBlock, Slot, TreeLink, UNLIMITED};
 use crate::math::{Pose, Rot, Vec2};
 use crate::simd::{BLOCK, Lanes};
 
-/// Farther beside its line than so, or beyond its limits, length units, no arm of what slides grows: on longer ones old impulses turn
-/// bodies that have turned since ever faster, up to any number.
+/// So far beside its line what slides is torn, length units.
 const TORN: f32 = 0.5;
 
 /// The Jacobians as they are now.
@@ -31,13 +30,20 @@ struct Rows<L> {
 }
 
 impl<L: Lanes> Rows<L> {
+    /// On no longer arms than [`TORN`] beside the line and beyond the limits where something keeps the bodies there: on longer ones
+    /// they come to spin at any speed. Others need their own, which keep momentum.
     #[inline(always)]
-    fn new(stride: &Stride<L>, pair: &Pair<L>, direction: [L; 2], axis: &AxisLanes) -> Self {
-        let (across, torn) = (perp(direction), stride.unit * stride.splat(TORN));
-        let (lower, upper) = (stride.load(&axis.lower) - torn, stride.load(&axis.upper) + torn);
-        let along = dot(pair.gap, direction).clamp(lower, upper);
-        let beside = dot(pair.gap, across).clamp(-torn, torn);
-        let arm = add(pair.anchor_a, add(scale(direction, along), scale(across, beside)));
+    fn new(stride: &Stride<L>, pair: &Pair<L>, block: &SliderBlock) -> Self {
+        let direction = pair.direction(stride, &block.direction);
+        let across = perp(direction);
+        let held = stride.load(&block.frame.yields).gt(stride.zero);
+        let most = L::select(held, stride.unit * stride.splat(TORN), stride.splat(UNLIMITED));
+        let [lower, upper] = stride.load2(&block.axis.lower, &block.axis.upper);
+        let [along, beside] = [dot(pair.gap, direction), dot(pair.gap, across)];
+        let beyond = along - along.clamp(lower - most, upper + most);
+        let astray = beside - beside.clamp(-most, most);
+        let torn = add(scale(direction, beyond), scale(across, astray));
+        let arm = sub(add(pair.gap, pair.anchor_a), torn);
         Self { along: pair.row(arm, direction), across: pair.row(arm, across) }
     }
 
@@ -71,6 +77,24 @@ impl<L: Lanes> Rows<L> {
 }
 
 impl SliderBlock {
+    /// What lies far beside its line by itself starts anew in each substep: its bodies turn on arms as long as that, and old impulses on arms
+    /// that have turned since make them spin ever faster.
+    #[inline(always)]
+    fn forget_torn<L: Lanes>(&mut self, stride: &Stride<L>, error: L) {
+        let far = stride.unit * stride.splat(TORN);
+        let held = stride.load(&self.frame.yields).gt(stride.zero);
+        let torn = L::select(held, stride.zero, error.abs()).gt(far);
+        if L::bits(torn) == 0 {
+            return;
+        }
+        let (rigid, AxisLanes { spring, motor, lower_impulse, upper_impulse, .. }) =
+            (&mut self.rigid, &mut self.axis);
+        let [x, y] = [&mut rigid.impulse_x, &mut rigid.impulse_y];
+        for lanes in [x, y, spring, motor, lower_impulse, upper_impulse] {
+            stride.store(L::select(torn, stride.zero, stride.load(lanes)), lanes);
+        }
+    }
+
     /// Change of the impulses of wheels' motors.
     #[inline(always)]
     fn solve_motor<L: Lanes>(&mut self, stride: &Stride<L>, pair: &Pair<L>, wheel: L) -> L {
@@ -96,8 +120,7 @@ impl JointKernel for SliderBlock {
     }
 
     fn tie(&self, stride: &Stride<f64>, pair: &Pair<f64>, link: &mut TreeLink) {
-        let Rows { along, across } =
-            Rows::new(stride, pair, pair.direction(stride, &self.direction), &self.axis);
+        let Rows { along, across } = Rows::new(stride, pair, self);
         link.hold(&across, dot(pair.gap, across.direction));
         if self.wheel.turns[stride.at] == 0.0 {
             link.hold(&Row::ANGLE, pair.angle(stride, &self.angle));
@@ -148,8 +171,8 @@ impl JointKernel for SliderBlock {
 
     #[inline(always)]
     fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
-        let direction = pair.direction(stride, &self.direction);
-        let jacobians = Rows::new(stride, pair, direction, &self.axis);
+        let jacobians = Rows::new(stride, pair, self);
+        self.forget_torn(stride, dot(pair.gap, jacobians.across.direction));
         let rigid = stride.load2(&self.rigid.impulse_x, &self.rigid.impulse_y);
         jacobians.apply(pair, self.axis.total(stride), rigid);
     }
@@ -165,8 +188,8 @@ impl JointKernel for SliderBlock {
         let turns = L::select(pair.inv_inertia().gt(stride.zero), stride.one, stride.zero);
         let held = turns * (stride.one - wheel);
         let soft = Soft::<L, BIAS>::load(stride, &self.soft);
-        let direction = pair.direction(stride, &self.direction);
-        let jacobians = Rows::new(stride, pair, direction, &self.axis);
+        let jacobians = Rows::new(stride, pair, self);
+        let direction = jacobians.along.direction;
         let [across, angular] = stride.load2(&self.rigid.impulse_x, &self.rigid.impulse_y);
         let angular = turns * angular;
         let error = dot(pair.gap, jacobians.across.direction);

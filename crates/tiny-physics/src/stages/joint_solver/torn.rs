@@ -18,7 +18,8 @@ use crate::stages::islands::Stores;
 const TORN: f32 = 2.4;
 /// Over so many times more it comes to let go of all that it does.
 const SPREAD: f32 = 2.5;
-/// The part that it lets go of in a solve at most, and in a second. With all of it the second of two solves undoes the first.
+/// The part that it lets go of in a solve at most, of fewer than 240 a second in proportion less: with all of it the second of two solves
+/// undoes the first.
 const MOST: f32 = 0.5;
 /// A push is against another by this cosine.
 const AGAINST: f32 = 0.1;
@@ -109,8 +110,7 @@ impl Search<'_> {
 
     fn look_at_tree(&mut self, tree: &JointTree, colour: usize) {
         let mut held = None;
-        // Sliders of trees run away along their lines.
-        for link in tree.links.iter().filter(|link| link.class != JointClass::Slider) {
+        for link in &tree.links {
             let (class, slot) = (link.class, link.slot as usize);
             let lanes = &self.stores.joint_graph.colours.list()[colour];
             let part = self.part(off_of(lanes, class, slot));
@@ -139,7 +139,8 @@ impl Search<'_> {
             let contact = &contacts.records[index as usize];
             let by = contact.other(body);
             let pushed = |normal: Vec2| so(if side == 1 { normal } else { -normal });
-            by != other && !bodies.is_dynamic(by) && graph.normal(contact).is_some_and(pushed)
+            let fixed = by != other && !bodies.is_dynamic(by) && graph.impulse(contact) > 0.0;
+            fixed && graph.normal(contact).is_some_and(pushed)
         })
     }
 

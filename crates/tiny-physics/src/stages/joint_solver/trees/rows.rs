@@ -5,8 +5,8 @@
 
 use super::factor::{dot3, invert};
 use crate::dynamics::{
-    FrameLanes, Impulses, JointColour, JointTree, Joints, Slot, TreeAxis, TreeLink, TreeNode,
-    TreeRow, inverses, is_jointed, with_bucket,
+    FrameLanes, Impulses, JointClass, JointColour, JointTree, Joints, Slot, TreeAxis, TreeLink,
+    TreeNode, TreeRow, inverses, is_jointed, with_bucket,
 };
 use crate::simd::{BLOCK, Simd, Three, add_times, times};
 use crate::stages::joint_solver::JointKernel;
@@ -187,7 +187,9 @@ pub(super) fn refresh<S: Simd>(
         with_bucket!(lanes, link.class, bucket => {
             let block = &bucket.blocks[link.slot as usize / BLOCK];
             write(block, &block.frame, &stride, rows, link);
-            yields = f64::from(block.frame.yields[stride.at]).max(COMPLIANCE);
+            // What slides would run away along its line.
+            let slides = link.class == JointClass::Slider;
+            yields = if slides { 0.0 } else { f64::from(block.frame.yields[stride.at]) };
             if !*begun {
                 begin(block, &stride, (index, link), axes);
             }
@@ -195,7 +197,8 @@ pub(super) fn refresh<S: Simd>(
         let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
         for i in 0..link.rigid {
             let response = response(&link.row(i), &link.row(i), a, b);
-            link.compliance[i] = if response > 0.0 { yields * response } else { UNANSWERED };
+            link.compliance[i] =
+                if response > 0.0 { COMPLIANCE.max(yields) * response } else { UNANSWERED };
         }
         stiffen(link, nodes);
     }
