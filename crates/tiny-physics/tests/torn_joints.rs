@@ -152,10 +152,63 @@ fn what_holds_a_lever_down_is_not_torn() {
         let ledge = RigidBody::fixed().position(Vec2::new(-0.5, -0.2) * unit);
         world.add_body(ledge.shape(rect(0.1 * unit, 0.1 * unit))).expect("a ledge");
         let board = plank(&mut world, ground, unit, &[-1.0], 0.0);
-        load(&mut world, unit, 1.5, weight);
+        let load = load(&mut world, unit, 1.5, weight);
         steps(&mut world, 300);
+        let height = common::position(&world, load).y / unit;
+        assert!(height > 0.45, "{substeps} {unit} {weight}: at {height}");
         let turn = world.body(board).expect("it is there").angle();
         assert!(turn.abs() < 0.01, "{substeps} {unit} {weight}: {turn}");
+    }
+}
+
+/// Of two pins of a cantilever one pushes and one pulls, each against what the other wants.
+#[test]
+fn what_two_pins_hold_up_is_not_torn() {
+    for (substeps, weight) in [(1, 10.0), (1, 1000.0), (4, 100.0), (4, 1000.0)] {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        world.settings.substeps = substeps;
+        let ground = world.add_body(RigidBody::fixed()).expect("the ground");
+        let plank = plank(&mut world, ground, 1.0, &[-1.0, 0.0], 0.0);
+        let load = load(&mut world, 1.0, 1.5, weight);
+        world.body_mut(load).expect("it is there").set_position(Vec2::new(1.5, 2.6));
+        steps(&mut world, 300);
+        let turn = world.body(plank).expect("it is there").angle();
+        assert!(turn.abs() < 0.02, "{substeps} {weight}: {turn}");
+    }
+}
+
+/// A pillar pushes planks up under what they bear; their hinges pull along them.
+#[test]
+fn a_bridge_over_a_pillar_bears_what_falls_on_it() {
+    for (substeps, weight) in [(1, 10.0), (1, 1000.0), (4, 100.0), (4, 1000.0)] {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        world.settings.substeps = substeps;
+        let mut last = world.add_body(RigidBody::fixed()).expect("a bank");
+        let pillar = RigidBody::fixed().position(Vec2::new(4.0, -0.75)).shape(rect(0.2, 0.5));
+        world.add_body(pillar).expect("a pillar");
+        let mut joints = Vec::new();
+        let mut end = Vec2::ZERO;
+        for x in 0..9 {
+            let (next, start) = if x < 8 {
+                let plank = ShapeDef::new(rect(0.5, 0.05)).density(10.0);
+                let at = Vec2::new(x as f32 + 0.5, 0.0);
+                (RigidBody::dynamic().position(at).shape(plank), Vec2::new(-0.5, 0.0))
+            } else {
+                (RigidBody::fixed(), Vec2::new(8.0, 0.0))
+            };
+            let next = world.add_body(next).expect("a plank or a bank");
+            let hinge = JointDef::revolute().anchors(end, start);
+            joints.push(world.add_joint(last, next, hinge).expect("a hinge"));
+            (last, end) = (next, Vec2::new(0.5, 0.0));
+        }
+        let load = load(&mut world, 1.0, 2.3, weight);
+        world.body_mut(load).expect("it is there").set_position(Vec2::new(2.3, 2.0));
+        steps(&mut world, 300);
+        for joint in joints {
+            let (a, b) = world.joint(joint).expect("it is there").anchors();
+            let gap = (b - a).to_vec2().length();
+            assert!(gap < 0.005, "{substeps} {weight}: {gap}");
+        }
     }
 }
 
