@@ -46,7 +46,7 @@ fn drag(random: &mut Random, kind: usize, links: usize, down: bool, substeps: u3
     let off = if links == 1 { Vec2::ZERO } else { Vec2::new(0.8, -0.5) * unit };
     let (mut hand, mut at) = (body, place);
     for link in 1..=links {
-        at = at - off;
+        at -= off;
         let next = if link == links {
             RigidBody::kinematic()
         } else {
