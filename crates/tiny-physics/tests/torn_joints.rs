@@ -83,7 +83,8 @@ fn what_a_hand_drags_against_a_wall_stays_before_it_and_comes_back() {
             let of = format!("kind {kind}, member {member}");
             assert!(speed < 40.0, "{of}: {speed} a second");
             assert!(depth < 0.5, "{of}: {depth} deep");
-            assert!(gap < 0.51, "{of}: {gap} off");
+            let slack = if matches!(kind, 2 | 3) { 0.51 } else { 0.2 };
+            assert!(gap < slack, "{of}: {gap} off");
         }
     }
 }

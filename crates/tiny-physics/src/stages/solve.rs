@@ -148,6 +148,7 @@ pub(crate) struct Solver {
     squeezed: Chosen,
     hit: Chosen,
     jointed: Chosen,
+    torn: Vec<joint_solver::torn::Found>,
     arcs: Arcs,
     tree_contacts: tree_contacts::TreeContacts,
     bounces: Bounces,
@@ -161,6 +162,7 @@ footprint!(Solver {
     squeezed,
     hit,
     jointed,
+    torn,
     arcs,
     tree_contacts,
     bounces,
@@ -230,7 +232,7 @@ impl Solver {
         scope: Scope<'_>,
     ) {
         let Self { schedule, squeezed, hit, tree_contacts, bounces, passivity, broken, .. } = self;
-        let jointed = &mut self.jointed;
+        let (jointed, torn) = (&mut self.jointed, &mut self.torn);
         let Rules { settings, gravity, level, lengths: lengths @ Lengths { h, .. } } = rules;
         let joint_substep = Substep::new(h, settings.length_unit);
         let parameters = rules.contact_parameters();
@@ -244,6 +246,7 @@ impl Solver {
         integrate::prepare(team, listed, stores.bodies, gravity, h);
         let places = stores.joint_graph.places_of(pace);
         prepare_joints(team, stores, level, pace, &places, joint_substep);
+        joint_solver::torn::find(stores, pace, &places, joint_substep, torn);
         passivity.find(pace, listed, stores);
         bounces.begin(stores.graph, pace, &parameters);
         let max_speed = settings.max_speed * settings.length_unit;
@@ -309,9 +312,6 @@ fn prepare_joints(
     places: &JointPlaces,
     substep: Substep,
 ) {
-    if places.is_empty() {
-        return;
-    }
     let Stores { joint_graph, joints, bodies, .. } = stores;
     let poses = &bodies.poses;
     let prepare = |blocks: JointBlocks<'_>, count| {
@@ -323,7 +323,6 @@ fn prepare_joints(
         lanes.for_each_run(team, prepare);
         joint_solver::trees::prepare(team, pace, trees, joints, &bodies.motions);
     }
-    joint_solver::torn::find(stores, pace, places, substep);
 }
 
 /// Runs one pass over all joints: the overflow one by one, then colour by colour, then tree by tree.

@@ -21,7 +21,7 @@ use crate::math::{Pose, Rot, Vec2};
 use crate::simd::{BLOCK, Lanes};
 
 /// So far beside its line what slides is torn, length units.
-const TORN: f32 = 0.5;
+const ASTRAY: f32 = 0.5;
 
 /// The Jacobians as they are now.
 struct Rows<L> {
@@ -30,14 +30,14 @@ struct Rows<L> {
 }
 
 impl<L: Lanes> Rows<L> {
-    /// On no longer arms than [`TORN`] beside the line and beyond the limits where something keeps the bodies there: on longer ones
+    /// On no longer arms than [`ASTRAY`] beside the line and beyond the limits where something keeps the bodies there: on longer ones
     /// they come to spin at any speed. Others need their own, which keep momentum.
     #[inline(always)]
     fn new(stride: &Stride<L>, pair: &Pair<L>, block: &SliderBlock) -> Self {
         let direction = pair.direction(stride, &block.direction);
         let across = perp(direction);
         let held = stride.load(&block.frame.yields).gt(stride.zero);
-        let most = L::select(held, stride.unit * stride.splat(TORN), stride.splat(UNLIMITED));
+        let most = L::select(held, stride.unit * stride.splat(ASTRAY), stride.splat(UNLIMITED));
         let [lower, upper] = stride.load2(&block.axis.lower, &block.axis.upper);
         let [along, beside] = [dot(pair.gap, direction), dot(pair.gap, across)];
         let beyond = along - along.clamp(lower - most, upper + most);
@@ -81,7 +81,7 @@ impl SliderBlock {
     /// that have turned since make them spin ever faster.
     #[inline(always)]
     fn forget_torn<L: Lanes>(&mut self, stride: &Stride<L>, error: L) {
-        let far = stride.unit * stride.splat(TORN);
+        let far = stride.unit * stride.splat(ASTRAY);
         let held = stride.load(&self.frame.yields).gt(stride.zero);
         let torn = L::select(held, stride.zero, error.abs()).gt(far);
         if L::bits(torn) == 0 {

@@ -23,6 +23,8 @@ const SPREAD: f32 = 2.5;
 const MOST: f32 = 0.5;
 /// A push is against another by this cosine.
 const AGAINST: f32 = 0.1;
+/// So many contacts and joints of a body are asked at most, the newest: each joint of a hub asks.
+const MOST_ASKED: usize = 64;
 
 /// Writes how far joints are out of place.
 #[inline(always)]
@@ -39,7 +41,7 @@ pub(super) fn prepare<L: Lanes, B: JointKernel>(stride: &Stride<L>, block: &mut 
 
 /// A joint that is torn, where its lane is, and what it lets go of.
 #[derive(Clone, Copy, Debug)]
-struct Found {
+pub(crate) struct Found {
     colour: usize,
     class: JointClass,
     slot: usize,
@@ -52,15 +54,21 @@ struct Search<'a> {
     /// Out of place by no more than this, metres, none is.
     torn: f32,
     most: f32,
-    found: Vec<Found>,
+    found: &'a mut Vec<Found>,
 }
 
 /// Finds the joints of a pace that are torn, and of trees those that are out of place where the tree hangs on something fixed and
 /// touches something else that is.
-pub(crate) fn find(stores: &mut Stores<'_>, pace: usize, places: &JointPlaces, substep: Substep) {
+pub(crate) fn find(
+    stores: &mut Stores<'_>,
+    pace: usize,
+    places: &JointPlaces,
+    substep: Substep,
+    found: &mut Vec<Found>,
+) {
+    found.clear();
     let most = MOST.min(MOST / (240.0 * substep.h));
-    let mut search =
-        Search { stores, torn: TORN * substep.unit * substep.h, most, found: Vec::new() };
+    let mut search = Search { stores, torn: TORN * substep.unit * substep.h, most, found };
     let colours = &stores.joint_graph.colours;
     let mut in_trees = None;
     for colour in places.all() {
@@ -82,7 +90,7 @@ pub(crate) fn find(stores: &mut Stores<'_>, pace: usize, places: &JointPlaces, s
         let trees = stores.joint_graph.forest.trees.iter().filter(|tree| tree.pace == pace);
         trees.for_each(|tree| search.look_at_tree(tree, colour));
     }
-    for Found { colour, class, slot, part } in search.found {
+    for &Found { colour, class, slot, part } in &*found {
         let colour = &mut stores.joint_graph.colours.list_mut()[colour];
         with_bucket!(colour, class, bucket => {
             bucket.blocks[slot / BLOCK].frame.yields[slot % BLOCK] = part;
@@ -135,7 +143,8 @@ impl Search<'_> {
     /// Does something fixed other than this push a body so?
     fn is_pushed(&self, body: u32, other: u32, so: impl Fn(Vec2) -> bool) -> bool {
         let Stores { bodies, contacts, graph, .. } = self.stores;
-        contacts.of_body(bodies.infos[body as usize].first_contact).any(|(index, side)| {
+        let asked = contacts.of_body(bodies.infos[body as usize].first_contact).take(MOST_ASKED);
+        asked.into_iter().any(|(index, side)| {
             let contact = &contacts.records[index as usize];
             let by = contact.other(body);
             let pushed = |normal: Vec2| so(if side == 1 { normal } else { -normal });
@@ -150,7 +159,8 @@ impl Search<'_> {
         let Stores { bodies, joints, joint_graph, .. } = self.stores;
         let against = |push: Vec2| push.dot(wanted) < -AGAINST * push.length() * wanted.length();
         let hangs = || {
-            joints.of_body(bodies.infos[body as usize].first_joint).any(|(index, side)| {
+            let asked = joints.of_body(bodies.infos[body as usize].first_joint).take(MOST_ASKED);
+            asked.into_iter().any(|(index, side)| {
                 let joint = &joints.records[index as usize];
                 let Some((place, class, slot)) = joint.lanes() else { return false };
                 let off = off_of(&joint_graph.colours[place], class, slot as usize);
