@@ -45,7 +45,7 @@ fn allocations(work: impl FnOnce()) -> usize {
 /// A scene: its name, its world, steps until the frame that is saved, steps from there on.
 type Scene = (&'static str, fn() -> World, usize, usize);
 
-const SCENES: [Scene; 9] = [
+const SCENES: [Scene; 10] = [
     ("pyramid that never sleeps", wakeful_pyramid, 60, 60),
     ("pyramid that falls asleep", || pyramid(10), 5, 120),
     ("pile", || mixed_pile(150, 4), 60, 150),
@@ -55,6 +55,7 @@ const SCENES: [Scene; 9] = [
     ("rotor in a crowd", rotor, 60, 120),
     ("fast bodies and sensors", bullets_and_sensors, 5, 120),
     ("hooks", hooked, 60, 60),
+    ("a hand in a wall", hand_in_a_wall, 60, 60),
 ];
 
 fn wakeful_pyramid() -> World {
@@ -152,6 +153,19 @@ fn hooked() -> World {
             rules.friction = 0.5;
         }
     });
+    world
+}
+
+/// The joint to a hand is torn in every step.
+fn hand_in_a_wall() -> World {
+    let mut world = World::new(Vec2::new(0.0, -10.0));
+    let wall = RigidBody::fixed().position(Vec2::new(2.0, 0.0)).shape(rect(1.0, 5.0));
+    world.add_body(wall).expect("a wall");
+    let body = world.add_body(RigidBody::dynamic().shape(rect(0.3, 0.3))).expect("a body");
+    let hand = RigidBody::kinematic().velocity(Vec2::new(0.5, 0.0));
+    let hand = world.add_body(hand).expect("a hand");
+    world.add_joint(hand, body, JointDef::revolute()).expect("a hinge");
+    steps(&mut world, 120);
     world
 }
 
