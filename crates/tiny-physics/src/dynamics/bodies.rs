@@ -279,10 +279,13 @@ impl Bodies {
         self.refined += usize::from(usize::from(pace) != PLAIN);
     }
 
-    /// The half thickness of the thinner one of two bodies, metres.
+    /// The half thickness of the thinner one of two bodies, metres: of one that nothing moves and that has a line somewhere, the other's.
     #[inline]
     pub(crate) fn thinner_half(&self, pair: [u32; 2]) -> f32 {
-        let [a, b] = pair.map(|body| self.infos[body as usize].min_extent);
+        let [a, b] = pair.map(|body| match self.infos[body as usize].min_extent {
+            0.0 if !self.is_dynamic(body) => f32::MAX,
+            half => half,
+        });
         if b < a { b } else { a }
     }
 
@@ -390,10 +393,15 @@ impl Bodies {
         Pose::new(pose.apply(-self.infos[index as usize].local_center), pose.q)
     }
 
+    /// Where its centre of mass is when its origin is there.
+    pub(crate) fn pose_of_origin(&self, index: u32, position: DVec2, rotation: Rot) -> Pose {
+        let center = self.infos[index as usize].local_center;
+        Pose::new(position + rotation.rotate(center), rotation)
+    }
+
     /// Places the body by its origin.
     pub(crate) fn set_origin_pose(&mut self, index: u32, position: DVec2, rotation: Rot) {
-        let center = self.infos[index as usize].local_center;
-        let pose = Pose::new(position + rotation.rotate(center), rotation);
+        let pose = self.pose_of_origin(index, position, rotation);
         self.poses[index as usize] = pose;
         self.previous[index as usize] = pose;
     }

@@ -77,9 +77,12 @@ impl Rot {
     }
 
     /// Turned on by an angle in radians, and kept at unit length: one Newton step takes out the rounding that
-    /// thousands of steps would gather.
+    /// thousands of steps would gather. What does not turn stays as it is.
     #[inline]
     pub fn integrate(self, delta: f32) -> Self {
+        if delta == 0.0 {
+            return self;
+        }
         let turned = Self::turn(delta).compose(self);
         let scale = 1.5 - 0.5 * (turned.c * turned.c + turned.s * turned.s);
         Self { c: turned.c * scale, s: turned.s * scale }

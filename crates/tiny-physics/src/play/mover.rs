@@ -12,8 +12,8 @@ use crate::codec::described;
 use crate::geometry::{MIN_EXTENT, distance, shape_cast};
 use crate::math::sin_cos;
 use crate::{
-    Aabb, BodyId, BodyKind, DVec2, Filter, Pose, QueryFilter, Rot, Shape, ShapeId, ShapeRef, Vec2,
-    World,
+    Aabb, Body, BodyId, BodyKind, DVec2, Filter, Pose, QueryFilter, Rot, Shape, ShapeId, ShapeRef,
+    Vec2, World,
 };
 
 mod own;
@@ -274,8 +274,13 @@ impl CharacterMover {
     fn ride(&mut self, world: &mut World, frame: Frame) {
         let Some(ground) = self.ground else { return };
         let is_here = self.position.relative_to(ground.point).length() <= self.height;
-        let Some(body) = world.body(ground.body).filter(|_| is_here) else {
-            // That is gone, or it has been taken elsewhere.
+        // As a lift that begins anew below is: further than it goes by itself.
+        let moved = |body: &Body<'_>| body.pose().apply(ground.local).relative_to(ground.point);
+        let leaps = |body: &Body<'_>| {
+            (moved(body) - body.velocity_at(ground.point) * frame.dt).length() > self.height
+        };
+        let Some(body) = world.body(ground.body).filter(|body| is_here && !leaps(body)) else {
+            // That is gone, or one of them has been taken elsewhere.
             (self.velocity, self.drift) = (Vec2::ZERO, 0.0);
             (self.ground, self.told) = (None, Vec2::ZERO);
             return;
@@ -283,7 +288,7 @@ impl CharacterMover {
         let moves = body.kind() != BodyKind::Static;
         let mut carry = self.belt(world) * frame.dt;
         if moves {
-            carry += body.pose().apply(ground.local).relative_to(ground.point);
+            carry += moved(&body);
             let sinks = (ground.velocity - body.velocity_at(ground.point)).dot(frame.up);
             if sinks * frame.dt > self.snap_distance + frame.gravity.length() * frame.dt * frame.dt
             {
@@ -706,8 +711,4 @@ impl CharacterMover {
 fn along(normal: Vec2, right: Vec2, way: f32) -> Vec2 {
     let along = Vec2::new(normal.y, 0.0 - normal.x);
     along * (way / along.dot(right))
-}
-
-fn smaller(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
 }

@@ -130,14 +130,17 @@ impl BodyMut<'_> {
         }
         let (world, index) = (&mut *self.world, self.index);
         let bodies = &mut world.state.bodies;
-        if pose == bodies.origin_pose(index) {
+        let (old, read) = (bodies.poses[index as usize], bodies.origin_pose(index));
+        let q = if pose.q == old.q { pose.q } else { pose.q.normalized() };
+        // As it was set, or as it was read.
+        if bodies.pose_of_origin(index, pose.p, q) == old || (pose.p, q) == (read.p, old.q) {
             bodies.previous[index as usize] = bodies.poses[index as usize];
             return;
         }
         world.wake_index(index);
         world.wake_carried(index);
         world.note_ground_of(index);
-        world.state.bodies.set_origin_pose(index, pose.p, pose.q.normalized());
+        world.state.bodies.set_origin_pose(index, pose.p, q);
         world.state.bodies.infos[index as usize].calm = 0;
         world.state.bodies.disturb(index);
         world.mark_shapes_changed(index);
@@ -147,36 +150,32 @@ impl BodyMut<'_> {
 
     /// Sets the velocity of the centre of mass, metres a second. Nothing happens to a static body.
     pub fn set_velocity(&mut self, velocity: impl Into<Vec2>) {
-        let velocity = velocity.into();
-        let changes = velocity != self.as_ref().velocity();
-        if self.info().kind != BodyKind::Static && changes && self.accept(&[velocity.x, velocity.y])
-        {
-            self.wake_riders(velocity != Vec2::ZERO);
-            self.give_velocity(velocity, self.as_ref().angular_velocity());
-        }
+        let turning = self.as_ref().angular_velocity();
+        self.give_velocity(velocity.into(), turning);
     }
 
     /// Sets the angular velocity, radians a second. Nothing happens to a static body.
     pub fn set_angular_velocity(&mut self, radians_per_second: f32) {
-        let changes = radians_per_second != self.as_ref().angular_velocity();
-        if self.info().kind != BodyKind::Static && changes && self.accept(&[radians_per_second]) {
-            self.wake_riders(radians_per_second != 0.0);
-            self.give_velocity(self.as_ref().velocity(), radians_per_second);
-        }
+        let velocity = self.as_ref().velocity();
+        self.give_velocity(velocity, radians_per_second);
     }
 
-    /// Is it a platform that stands still?
-    fn is_parked(&self) -> bool {
-        let body = self.as_ref();
-        let still = body.velocity() == Vec2::ZERO && body.angular_velocity() == 0.0;
-        still && body.kind() == BodyKind::Kinematic
-    }
-
-    /// Wakes what touches a platform that begins to move.
-    fn wake_riders(&mut self, moves: bool) {
-        if moves && self.is_parked() {
-            self.world.wake_neighbours(self.index);
+    /// Gives it velocities. Where they are as they were, nothing wakes; a platform that begins to move wakes what touches it.
+    fn give_velocity(&mut self, velocity: Vec2, turning: f32) {
+        let (body, index) = (self.as_ref(), self.index);
+        let before = (body.velocity(), body.angular_velocity());
+        let (kind, changes) = (body.kind(), (velocity, turning) != before);
+        let numbers = [velocity.x, velocity.y, turning];
+        if kind == BodyKind::Static || !changes || !self.accept(&numbers) {
+            return;
         }
+        if kind == BodyKind::Kinematic && before == (Vec2::ZERO, 0.0) {
+            self.world.wake_neighbours(index);
+        }
+        let bodies = &mut self.world.state.bodies;
+        bodies.set_velocity(index, velocity);
+        bodies.set_angular_velocity(index, turning);
+        bodies.disturb(index);
     }
 
     /// Applies a force in newtons at a world point, during the next step.
@@ -241,17 +240,8 @@ impl BodyMut<'_> {
         let [x, y, inv_inertia] = bodies.inverses(index);
         let velocity = bodies.velocity(index) + Vec2::new(linear.x * x, linear.y * y);
         let turning = bodies.angular_velocity(index) + angular * inv_inertia;
-        if self.is_dynamic() && self.accept(&[velocity.x, velocity.y, turning]) {
+        if self.is_dynamic() {
             self.give_velocity(velocity, turning);
-        }
-    }
-
-    fn give_velocity(&mut self, velocity: Vec2, turning: f32) {
-        let (index, bodies) = (self.index, &mut self.world.state.bodies);
-        if (velocity, turning) != (bodies.velocity(index), bodies.angular_velocity(index)) {
-            bodies.set_velocity(index, velocity);
-            bodies.set_angular_velocity(index, turning);
-            bodies.disturb(index);
         }
     }
 

@@ -479,10 +479,10 @@ impl World {
     /// Now and then takes away what swings on something firm.
     fn calm_sway(&mut self, lengths: Lengths) {
         if sway::is_due(self.state.step_count) {
-            let State { bodies, contacts, graph, .. } = &mut self.state;
+            let State { bodies, contacts, graph, joints, .. } = &mut self.state;
             let scale = (lengths.dt, self.settings.length_unit);
             sway::calm(bodies, graph, scale, &mut self.scratch.sway);
-            rocking::resist(bodies, contacts, graph, scale);
+            rocking::resist(bodies, (contacts, joints), graph, scale);
         }
     }
 

@@ -163,8 +163,10 @@ impl ShapeMut<'_> {
     /// what it was until it ends.
     pub fn set_events(&mut self, contact: bool, hit: bool) {
         let record = &mut self.world.state.shapes.records[self.index as usize];
-        (record.contact_events, record.hit_events) = (contact, hit);
-        self.world.refresh_contacts_of(self.index);
+        if (record.contact_events, record.hit_events) != (contact, hit) {
+            (record.contact_events, record.hit_events) = (contact, hit);
+            self.world.refresh_contacts_of(self.index);
+        }
     }
 
     /// Sets the user's number.

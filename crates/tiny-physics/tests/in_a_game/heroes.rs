@@ -542,3 +542,52 @@ fn a_hero_gets_out_from_between_a_slope_and_a_wall() {
         assert!(hero.position.y > rests + 1.0, "{side}: {} from {rests}", hero.position.y);
     }
 }
+
+/// A lift that wraps round, a vehicle that is put back: as a crate does, he stays and falls.
+#[test]
+fn a_hero_stays_where_his_platform_is_taken_away() {
+    for (x, y) in [(50.0, 0.0), (0.0, 30.0), (-7.0, -5.0)] {
+        let mut world = World::new((0.0, -10.0));
+        let lift = RigidBody::kinematic().shape(Shape::rect(2.0, 0.5).unwrap());
+        let lift = world.add_body(lift.velocity((0.0, 1.0))).unwrap();
+        let mut hero = hero(&mut world, (0.0, 1.42));
+        go(&mut world, &mut hero, walk(0.0), 60);
+        assert!(hero.ground().is_some(), "he stands on the lift");
+        let before = hero.position;
+        world.body_mut(lift).unwrap().set_position((x, y));
+        go(&mut world, &mut hero, walk(0.0), 1);
+        let way = hero.position.relative_to(before).length();
+        assert!(way < 0.05 && hero.ground().is_none(), "taken along by {way} m to {x}, {y}");
+        go(&mut world, &mut hero, walk(0.0), 20);
+        assert!(hero.velocity.y < -1.0, "he does not fall");
+    }
+    // What is as fast takes him along.
+    let mut world = World::new((0.0, -10.0));
+    let lift = RigidBody::kinematic().shape(Shape::rect(2.0, 0.5).unwrap());
+    let lift = world.add_body(lift).unwrap();
+    let mut hero = hero(&mut world, (0.0, 1.42));
+    go(&mut world, &mut hero, walk(0.0), 10);
+    world.body_mut(lift).unwrap().set_velocity((150.0, 0.0));
+    go(&mut world, &mut hero, walk(0.0), 30);
+    let ahead = world.body(lift).unwrap().position().x - hero.position.x as f32;
+    assert!(ahead.abs() < 1.0, "left behind by {ahead} m");
+}
+
+/// A chain is solid from outside alone: under it he stands as he walks.
+#[test]
+fn a_hero_gets_up_under_the_back_of_a_chain() {
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let house = world.add_body(RigidBody::fixed()).unwrap();
+    let roof = ChainDef::open(&[(9.0, 1.4), (-9.0, 1.4)].map(Vec2::from));
+    world.add_chain(house, &roof).unwrap();
+    let mut hero = hero(&mut world, (0.0, 0.92));
+    go(&mut world, &mut hero, walk(2.0), 30);
+    assert!(hero.position.x > 0.5 && hero.fits(&world));
+    assert!(hero.resize(&world, 1.0, 0.3) && hero.resize(&world, 1.8, 0.3));
+    // Seen from outside it is in the way.
+    let back = ChainDef::open(&[(-9.0, 1.4), (9.0, 1.4)].map(Vec2::from));
+    world.add_chain(house, &back).unwrap();
+    assert!(!hero.fits(&world) && hero.resize(&world, 1.0, 0.3));
+    assert!(!hero.resize(&world, 1.8, 0.3));
+}

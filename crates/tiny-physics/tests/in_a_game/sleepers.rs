@@ -1,7 +1,7 @@
 //! What is called in every frame neither wakes what it does not change nor lets sleep what it acts on.
 
 use super::{DT, circle, ground, square, steps};
-use tiny_physics::prelude::*;
+use tiny_physics::{Locks, Polygon, prelude::*};
 
 /// A crate that lies on the ground, and how often it fell asleep in ten seconds of a call in each step.
 fn naps(call: impl Fn(&mut BodyMut<'_>)) -> usize {
@@ -25,6 +25,67 @@ fn what_a_call_leaves_as_it_is_sleeps_on() {
     assert_eq!(naps(|body| body.set_velocity(body.as_ref().velocity())), 1);
     assert_eq!(naps(|body| body.set_angular_velocity(body.as_ref().angular_velocity())), 1);
     assert_eq!(naps(|body| body.set_pose(body.as_ref().pose())), 1);
+    assert_eq!(naps(|body| body.apply_impulse_to_center((0.0, 0.0))), 1);
+    assert_eq!(naps(|body| body.apply_impulse((0.0, 0.0), (0.0, 1.0))), 1);
+    assert_eq!(naps(|body| body.apply_angular_impulse(0.0)), 1);
+}
+
+/// Of an impulse that its locks take up nothing is left.
+#[test]
+fn what_cannot_give_way_to_an_impulse_sleeps_on() {
+    let locked = |body: &mut BodyMut<'_>| {
+        body.set_locks(Locks { rotation: true, ..Locks::default() });
+        body.apply_angular_impulse(3.0);
+    };
+    assert_eq!(naps(locked), 1);
+}
+
+#[test]
+fn what_is_pushed_by_nothing_finite_is_refused() {
+    let mut world = World::new((0.0, -10.0));
+    let (_, body) = sleeper(&mut world);
+    world.body_mut(body).unwrap().apply_impulse_to_center((f32::NAN, 0.0));
+    assert_eq!(world.stats().refused_numbers, 1);
+    assert!(!world.body(body).unwrap().is_awake());
+}
+
+#[test]
+fn events_that_are_asked_for_already_wake_nobody() {
+    let mut world = World::new((0.0, -10.0));
+    let (ground, body) = sleeper(&mut world);
+    let ground = world.body(ground).unwrap().shapes().next().unwrap();
+    world.shape_mut(ground).unwrap().set_events(true, true);
+    steps(&mut world, 120);
+    assert!(!world.body(body).unwrap().is_awake());
+    world.shape_mut(ground).unwrap().set_events(true, true);
+    assert!(!world.body(body).unwrap().is_awake());
+    world.shape_mut(ground).unwrap().set_events(true, false);
+    assert!(world.body(body).unwrap().is_awake());
+}
+
+/// Whatever its angle, and wherever its centre of mass.
+#[test]
+fn a_platform_that_is_turned_to_where_it_is_wakes_nobody() {
+    for degree in 0..90 {
+        let mut world = World::new((0.0, -10.0));
+        let angle = (degree as f32).to_radians();
+        let form = [(-0.5, -0.6), (1.2, -0.5), (0.9, 0.7)].map(Vec2::from);
+        let form = Shape::from(Polygon::convex(&form).unwrap());
+        let platform = RigidBody::kinematic().position((3.3, 1.7)).shape(form);
+        let platform = world.add_body(platform).unwrap();
+        world.body_mut(platform).unwrap().set_angle(angle);
+        let load = RigidBody::dynamic().position((3.3, 9.9)).shape(square(0.5)).gravity_scale(0.0);
+        let load = world.add_body(load).unwrap();
+        world.add_joint(platform, load, JointDef::rope(20.0)).unwrap();
+        for step in 0..120 {
+            let mut platform = world.body_mut(platform).unwrap();
+            platform.set_angle(angle);
+            platform.set_position((3.3, 1.7));
+            world.step(DT);
+            let sleeps = !world.body(load).unwrap().is_awake();
+            assert!(step < 100 || sleeps, "{degree} degrees, step {step}");
+        }
+    }
 }
 
 #[test]

@@ -105,14 +105,14 @@ impl CharacterMover {
         self.position.relative_to(start)
     }
 
-    /// Is it free of everything that it collides with? One-way platforms do not count.
+    /// Is it free of everything that it collides with? One-way platforms do not count, nor chains seen from behind.
     pub fn fits(&self, world: &World) -> bool {
-        let (capsule, pose) =
-            (self.capsule(Frame::of(world).up, 0.0), Pose::new(self.position, Rot::IDENTITY));
+        let (frame, pose) = (Frame::of(world), Pose::new(self.position, Rot::IDENTITY));
+        let capsule = self.capsule(frame.up, 0.0);
         self.obstacles(world, capsule.world_aabb(pose)).into_iter().all(|obstacle| {
             let start = pose.relative_to(obstacle.pose());
             let apart = || distance(obstacle.shape(), &capsule, start).separation >= 0.0;
-            obstacle.one_way().is_some() || apart()
+            !self.is_solid(frame, &obstacle, obstacle.pose(), Vec2::ZERO) || apart()
         })
     }
 

@@ -1,6 +1,6 @@
 //! What a character does to bodies: pushes before it, weight under it.
 
-use super::{CharacterMover, Frame, MoverGround, Obstacle, along, smaller};
+use super::{CharacterMover, Frame, MoverGround, Obstacle, along};
 use crate::codec::described;
 use crate::{BodyId, BodyKind, DVec2, World};
 
@@ -73,11 +73,10 @@ impl CharacterMover {
         }
         let lacking = mass * (speed - view.velocity_at(point).dot(way));
         let held_back = |push: Push| push.resistance + mass * (push.expected - now) / dt;
-        let resistance = pushed.filter(|push| push.body == id).map_or(0.0, held_back);
-        let force = smaller(self.push_force, MAX_PUSH);
-        let resistance = smaller(if resistance > 0.0 { resistance } else { 0.0 }, force);
+        let (force, held) = (self.push_force.min(MAX_PUSH), pushed.filter(|push| push.body == id));
+        let resistance = held.map_or(0.0, held_back).max(0.0).min(force);
         let (wanted, most) = (lacking + resistance * dt, force * part * dt);
-        let total = smaller(wanted, most);
+        let total = wanted.min(most);
         if total <= 0.0 {
             return;
         }
@@ -109,7 +108,7 @@ impl CharacterMover {
         let (low, high) = if a < b { (a, b) } else { (b, a) };
         let wanted = center.relative_to(hit.point).dot(along);
         let above = if wanted > low { wanted } else { low };
-        hit.point + along * smaller(above, high)
+        hit.point + along * above.min(high)
     }
 
     /// Weighs on a dynamic body that it stands on.

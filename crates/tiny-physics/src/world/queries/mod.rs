@@ -215,8 +215,7 @@ impl World {
         translation: impl Into<Vec2>,
         filter: &QueryFilter<'_>,
     ) -> Option<ShapeCastHit> {
-        let way = Way { shape, pose: pose.into(), translation: translation.into(), turn: 0.0 };
-        Finder { world: self, filter }.first_on_way(way)
+        self.cast_shape_turning(shape, pose, translation, 0.0, filter)
     }
 
     /// All shapes that a moved shape touches, nearest first: see [`World::cast_shape`].
