@@ -139,3 +139,30 @@ fn a_pile_drops_on_a_fast_plate_as_on_one_at_rest() {
         }
     }
 }
+
+/// A hook's restitution is handed on as a material's is: the last ball of a row leaves as fast as the first came.
+#[test]
+fn what_a_hook_lets_bounce_hands_on() {
+    let last = |restitution: f32, hook: bool| {
+        let mut world = World::new((0.0, 0.0));
+        let shape = ShapeDef::new(Shape::circle(0.5).expect("a ball"));
+        let shape = shape.friction(0.0).restitution(restitution);
+        let row: Vec<BodyId> = (0..6)
+            .map(|k| {
+                let x = f64::from(k) * 1.0005 - if k == 0 { 1.0 } else { 0.0 };
+                let ball = RigidBody::dynamic().position((x, 0.0)).shape(shape.clone());
+                let speed = if k == 0 { 5.0 } else { 0.0 };
+                world.add_body(ball.velocity((speed, 0.0))).expect("a ball")
+            })
+            .collect();
+        if hook {
+            world.set_pre_solve(|_, _, rules| rules.restitution = 1.0);
+        }
+        steps(&mut world, 30);
+        let speed = |id: &BodyId| world.body(*id).expect("a ball").velocity().x;
+        row.iter().map(speed).collect::<Vec<f32>>()
+    };
+    let (material, hook) = (last(1.0, false), last(0.0, true));
+    assert!(material[5] > 4.9, "of materials: {material:?}");
+    assert!(hook[5] > 4.9, "of a hook: {hook:?}");
+}

@@ -129,6 +129,12 @@ impl Joints {
         self.free.push(index);
     }
 
+    /// Does any joint of an awake body, whose first edge that is, do something?
+    pub(crate) fn act_on(&self, first_edge: u32) -> bool {
+        let mut all = self.of_body(first_edge).map(|(index, _)| &self.records[index as usize]);
+        all.any(|record| record.place != Place::Asleep)
+    }
+
     /// Joints of a body as (joint, side) from the head of its list: the newest first.
     pub(crate) fn of_body(&self, first_edge: u32) -> impl Iterator<Item = (u32, u32)> + '_ {
         edges::walk(&self.records, first_edge)

@@ -8,8 +8,8 @@
 use super::ahead::{HEAVIER, Predictions};
 use super::islands::Stores;
 use crate::dynamics::{
-    Bodies, Bucket, ConstraintBlock, Contact, Contacts, Graph, Joints, ManifoldBlock, Shapes, Slot,
-    inverses,
+    Bodies, Bucket, ConstraintBlock, Contact, Contacts, Graph, Joints, ManifoldBlock, Place,
+    Shapes, Slot, inverses,
 };
 use crate::footprint::footprint;
 use crate::geometry::Shape;
@@ -146,7 +146,7 @@ fn is_joined(bodies: &Bodies, joints: &Joints, body: u32) -> bool {
     let to_free = |(joint, _): (u32, u32)| {
         let record = &joints.records[joint as usize];
         let [own, other] = [body, record.other(body)].map(|body| bodies.inverse_masses(body).0);
-        record.def.enabled && HEAVIER * other > own
+        record.place != Place::Asleep && HEAVIER * other > own
     };
     bodies.is_dynamic(body) && joints.of_body(bodies.infos[body as usize].first_joint).any(to_free)
 }

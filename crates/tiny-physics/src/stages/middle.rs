@@ -50,9 +50,11 @@ impl<L: Lanes> Lead<L> {
     /// The rotation of A (0) or B (1) then.
     #[inline(always)]
     pub(super) fn turned(&self, token: L::Token, [c, s]: [L; 2], body: usize) -> [L; 2] {
-        let turn = self.turns[body];
-        let cos = L::splat(token, 1.0) - L::splat(token, 0.5) * turn * turn;
-        [cos * c - turn * s, turn * c + cos * s]
+        let (one, half) = (L::splat(token, 1.0), L::splat(token, 0.5) * self.turns[body]);
+        // With the tangent of half of it: of length 1, however far that is. One that is not stretches what is seen from there.
+        let scale = one / (one + half * half);
+        let (cos, sin) = ((one - half * half) * scale, (half + half) * scale);
+        [cos * c - sin * s, sin * c + cos * s]
     }
 
     /// Puts the separations of the first points back to the start. The manifold is in the world's axes, from the centre of mass

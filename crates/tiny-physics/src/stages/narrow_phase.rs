@@ -156,7 +156,7 @@ impl<K: PairKernel> LaneKernel for Update<'_, K> {
                 let mut load = L::splat(token, 0.0);
                 if constrained {
                     for point in &blocks.constraints[index].points {
-                        load = load + L::load(token, &point.normal_impulse[at..]);
+                        load = load + L::load(token, &point.load[at..]);
                     }
                 }
                 let manifolds = &blocks.manifolds[index];

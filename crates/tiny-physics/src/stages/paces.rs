@@ -296,8 +296,7 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         island.pace = island.pace.max(info.pace);
         island.stirred |= info.stirred > 0.0;
         island.struck |= info.stirred > STIRRED_TIME;
-        let acts = |(joint, _)| joints.records[joint as usize].place != Place::Asleep;
-        island.joined += usize::from(joints.of_body(info.first_joint).any(acts));
+        island.joined += usize::from(joints.act_on(info.first_joint));
     }
     for record in joints.tying().filter(|record| !may_drive(&record.def)) {
         if bodies.is_solved(record.body_a) && bodies.is_solved(record.body_b) {

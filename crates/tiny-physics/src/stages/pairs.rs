@@ -422,12 +422,8 @@ pub(crate) fn mix_materials(contact: &mut Contact, settings: &Settings, shapes: 
     let (a_mix, b_mix) = (material_a.restitution_mix, material_b.restitution_mix);
     let mix = Mix::of(a_mix, b_mix, settings.restitution_mix);
     contact.restitution = mix.apply(material_a.restitution, material_b.restitution);
-    contact.rolling_resistance = larger(rolling(a), rolling(b)).clamp(0.0, f32::MAX);
+    contact.rolling_resistance = rolling(a).max(rolling(b)).clamp(0.0, f32::MAX);
     // The solver's tangent points along the surface of A; a belt goes the other way round B.
     let speed = material_a.tangent_speed + material_b.tangent_speed;
     contact.tangent_speed = -speed.clamp(f32::MIN, f32::MAX);
-}
-
-fn larger(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
 }

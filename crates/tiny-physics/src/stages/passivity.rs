@@ -20,7 +20,7 @@
 //! Islands that something may work on are left alone: motors that run, springs, belts, machines that turn.
 
 use super::islands::Stores;
-use crate::describe::{JointDef, JointKind, Motor};
+use crate::describe::{JointDef, JointKind};
 use crate::dynamics::{Bodies, DisjointSets, JOINTED, NULL, Slot, inverses};
 use crate::math::DVec2;
 use crate::simd::BLOCK;
@@ -289,15 +289,6 @@ fn find_whole(bodies: &Bodies, islands: &mut [Island], free: &[(u32, u32)]) {
 
 /// May a joint do work, or give back what it has stored?
 pub(crate) fn may_drive(def: &JointDef) -> bool {
-    let runs = |motor: Option<Motor>| motor.is_some_and(|motor| motor.speed != 0.0);
-    def.softness.is_some()
-        || match def.kind {
-            JointKind::Distance { spring, motor, .. }
-            | JointKind::Revolute { spring, motor, .. }
-            | JointKind::Prismatic { spring, motor, .. }
-            | JointKind::Wheel { spring, motor, .. } => spring.is_some() || runs(motor),
-            JointKind::Weld { linear, angular } => linear.is_some() || angular.is_some(),
-            JointKind::Motor { .. } | JointKind::Mouse { .. } => true,
-            JointKind::Filter | JointKind::Pulley { .. } | JointKind::Gear { .. } => false,
-        }
+    let pulls = matches!(def.kind, JointKind::Motor { .. } | JointKind::Mouse { .. });
+    def.softness.is_some() || pulls || def.kind.drives()
 }

@@ -7,7 +7,7 @@
 
 use super::rests::is_calm;
 use super::sway;
-use crate::dynamics::{Bodies, Bucket, Contacts, Graph, NULL};
+use crate::dynamics::{Bodies, Bucket, Contacts, Graph, Joints};
 use crate::math::Vec2;
 use crate::simd::BLOCK;
 
@@ -21,14 +21,14 @@ const FASTEST: f32 = 0.5;
 /// Slows what turns against something that rocks.
 pub(crate) fn resist(
     bodies: &mut Bodies,
-    contacts: &Contacts,
+    (contacts, joints): (&Contacts, &Joints),
     graph: &Graph,
     (dt, length_unit): (f32, f32),
 ) {
     let mut most = 0;
     for i in 0..bodies.awake.len() {
         let body = bodies.awake[i];
-        let swings = swings(bodies, body, length_unit);
+        let swings = swings(bodies, joints, body, length_unit);
         bodies.swings[body as usize] = swings;
         most = most.max(swings);
     }
@@ -40,7 +40,8 @@ pub(crate) fn resist(
         for slot in (0..bucket.contacts.len()).filter(|&slot| bears(bucket, slot)) {
             let (a, b) = bucket.bodies(slot);
             let rocks = |body: u32| bodies.swings[body as usize] > ENOUGH;
-            let free = |body: u32| is_led(bodies, body) || is_ball_alone(bodies, contacts, body);
+            let free =
+                |body: u32| is_led(bodies, body) || is_ball_alone(bodies, contacts, joints, body);
             if (rocks(a) || rocks(b)) && !free(a) && !free(b) {
                 slow(bodies, a, b, lost);
             }
@@ -49,9 +50,9 @@ pub(crate) fn resist(
 }
 
 /// How often a body has turned back by now. The last bit is the direction.
-fn swings(bodies: &Bodies, body: u32, length_unit: f32) -> u8 {
+fn swings(bodies: &Bodies, joints: &Joints, body: u32, length_unit: f32) -> u8 {
     let info = &bodies.infos[body as usize];
-    if is_calm(bodies, body) || info.first_joint != NULL {
+    if is_calm(bodies, body) || joints.act_on(info.first_joint) {
         return 0;
     }
     let (swings, spin) = (bodies.swings[body as usize], bodies.angular_velocity(body));
@@ -65,14 +66,14 @@ fn swings(bodies: &Bodies, body: u32, length_unit: f32) -> u8 {
 }
 
 /// Is a body a ball about its centre of mass that touches one other alone?
-fn is_ball_alone(bodies: &Bodies, contacts: &Contacts, body: u32) -> bool {
+fn is_ball_alone(bodies: &Bodies, contacts: &Contacts, joints: &Joints, body: u32) -> bool {
     let info = &bodies.infos[body as usize];
     let all = contacts.of_body(info.first_contact);
     let touching = all.map(|(index, _)| &contacts.records[index as usize]);
     let mut others = touching.filter(|contact| contact.touching).map(|contact| contact.other(body));
     let round = info.max_extent - info.min_extent <= ROUND * info.min_extent;
     let first = others.next();
-    let free = bodies.is_dynamic(body) && info.first_joint == NULL;
+    let free = bodies.is_dynamic(body) && !joints.act_on(info.first_joint);
     free && round && others.all(|other| Some(other) == first)
 }
 

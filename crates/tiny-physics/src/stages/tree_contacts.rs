@@ -171,7 +171,8 @@ impl TreeContacts {
         }
         let answers = &mut self.answers[self.used];
         answers.begin(index, tree);
-        let braked = kinds(tree, stores.joints).any(|def| def.kind.motor().is_some());
+        let braked = kinds(tree, stores.joints)
+            .any(|def| def.kind.motor().is_some_and(|motor| motor.max > 0.0));
         for (node, &body) in answers.bodies.iter().enumerate() {
             let touched = answers.touched.len() as u32;
             let of_tree = OfTree { answers: tree_answers, node: node as u32, touched, braked };

@@ -247,3 +247,60 @@ fn sliders_of_what_cannot_turn_have_no_torque() {
         assert!((joint.force().y - 10.0).abs() < 0.1, "{}", joint.force());
     }
 }
+
+/// A plank that rocks on a ball comes to rest, whatever joints it has that do nothing.
+#[test]
+fn joints_that_do_nothing_do_not_count() {
+    for idle in [JointDef::filter(), JointDef { enabled: false, ..JointDef::weld() }] {
+        let rest = |joined: bool| {
+            let mut world = World::new((0.0, -10.0));
+            let ground = super::ground(&mut world);
+            let ball = RigidBody::dynamic().position((0.0, 0.5)).shape(super::circle(0.5));
+            let ball = world.add_body(ball.lock_rotation()).unwrap();
+            let plank = RigidBody::dynamic().position((0.0, 1.1)).angle(0.1);
+            let plank = plank.shape(Shape::rect(1.0, 0.1).unwrap());
+            let plank = world.add_body(plank).unwrap();
+            if joined {
+                let far = world.add_body(RigidBody::fixed().position((30.0, 0.0))).unwrap();
+                world.add_joint(far, plank, idle).unwrap();
+                world.add_joint(far, ball, idle).unwrap();
+            }
+            let _ = ground;
+            let mut slept = 0;
+            while world.body(plank).unwrap().is_awake() && slept < 3600 {
+                world.step(DT);
+                slept += 1;
+            }
+            slept
+        };
+        let (alone, joined) = (rest(false), rest(true));
+        assert!(alone < 3600, "does not rest at all");
+        assert_eq!(alone, joined, "{:?}", idle.kind);
+    }
+}
+
+/// What hangs on the end stop of a slider or a hinge sags as its joint's softness says: by g / w^2. With sleep it would stop on its way:
+/// soft is where things are, not how fast.
+#[test]
+fn limits_are_as_soft_as_their_joint() {
+    for hertz in [1.0_f32, 2.0, 4.0] {
+        let mut world = World::new((0.0, -10.0));
+        world.settings.sleep = false;
+        let hook = world.add_body(RigidBody::fixed()).unwrap();
+        let load = RigidBody::dynamic().shape(square(0.25)).mass(1.0);
+        let load = world.add_body(load).unwrap();
+        let slider = JointDef::prismatic((0.0, 1.0)).limits(0.0, 1.0).softness(hertz, 1.0);
+        world.add_joint(hook, load, slider).unwrap();
+        // An arm of 1 m on a pin that locks at level.
+        let arm = RigidBody::dynamic().position((6.0, 0.0)).shape(square(0.1)).mass(1.0);
+        let arm = world.add_body(arm).unwrap();
+        let pin = JointDef::revolute().anchor_at((5.0, 0.0)).limits(0.0, 1.0);
+        world.add_joint(hook, arm, pin.softness(hertz, 1.0)).unwrap();
+        steps(&mut world, 2400);
+        let expected = 10.0 / (std::f32::consts::TAU * hertz).powi(2);
+        let sag = -world.body(load).unwrap().position().y;
+        assert!((sag / expected - 1.0).abs() < 0.05, "{hertz} Hz: {sag} m for {expected}");
+        let angle = -world.body(arm).unwrap().angle();
+        assert!(angle > 0.5 * expected.min(1.0), "{hertz} Hz: {angle} rad for some {expected}");
+    }
+}

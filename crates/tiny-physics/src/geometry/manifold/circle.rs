@@ -16,12 +16,8 @@ pub(crate) fn circle_circle<L: Lanes>(
 ) -> LaneManifold<L> {
     let zero = L::splat(token, 0.0);
     let up = [zero, L::splat(token, 1.0)];
-    near_point(
-        token,
-        pair,
-        Nearest { point: [zero, zero], normal: up, distance: zero },
-        max_separation,
-    )
+    let point = [zero; 2];
+    near_point(token, pair, Nearest { point, normal: up, distance: zero }, max_separation)
 }
 
 /// Capsule (A, along x) against circle. A centre on the core gives A's y axis.

@@ -66,12 +66,6 @@ impl Courses {
         known.unwrap_or_else(|| Course::of(bodies, dt, body))
     }
 
-    /// How far a body goes in it, metres.
-    #[inline]
-    pub(super) fn motion(&self, bodies: &Bodies, dt: f32, body: u32) -> Vec2 {
-        self.known(body).map_or_else(|| bodies.velocity(body) * dt, |course| course.motion)
-    }
-
     /// Is a body known to be hit in this step?
     pub(super) fn is_struck(&self, body: u32) -> bool {
         self.known(body).is_some()

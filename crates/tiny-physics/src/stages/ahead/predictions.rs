@@ -3,7 +3,7 @@
 use super::again::{Again, Around, Struck};
 use super::courses::{Course, Courses, Impact};
 use super::driven::{self, Held};
-use super::hits::{Arms, Hit, Prediction};
+use super::hits::{Hit, Prediction};
 use super::meeting::Meeting;
 use super::squeezed::{self, Pressed, Squeezed};
 use crate::broad_phase::BroadPhase;
@@ -134,7 +134,7 @@ impl Predictions {
     /// How far it goes, metres.
     #[inline]
     pub(crate) fn motion(&self, bodies: &Bodies, dt: f32, body: u32) -> Vec2 {
-        self.courses.motion(bodies, dt, body)
+        self.courses.of(bodies, dt, body).motion
     }
 
     /// Has what hits something else first bounce after that at the earliest.
@@ -350,13 +350,8 @@ impl Predictions {
         }
         // Another hit may have stopped the heavy one already, on its way beyond the light one.
         let first = [0, 1].map(|k| Course::of(scene.bodies, scene.dt, courses[k].body));
-        let approach = |courses: &[Course; 2], arms: Arms| {
-            let [a, b] = [0, 1].map(|k| courses[k].speed_at(arms.normal[k], hit.normal));
-            b - a
-        };
-        let approaches =
-            hit.arms.into_iter().flat_map(|arms| [approach(courses, arms), approach(&first, arms)]);
-        let coming = approaches.fold(0.0, f32::min);
+        let approaches = [hit.parting(courses), hit.parting(&first)];
+        let coming = approaches.into_iter().flatten().fold(0.0, f32::min);
         let light = usize::from(b > a);
         let Context { speculative_distance, ground, .. } = scene.narrow_phase;
         let pressed = Pressed {

@@ -251,12 +251,12 @@ pub(super) struct Give<L> {
 impl<L: Lanes> Give<L> {
     /// Limits of angles.
     #[inline(always)]
-    pub(super) fn turning(stride: &Stride<L>) -> Self {
+    pub(super) fn turning<const BIAS: bool>(stride: &Stride<L>, soft: &Soft<L, BIAS>) -> Self {
         Self {
             snap: stride.snap_turn,
             haste: stride.snap_turn * stride.splat(TURN_BACK - 1.0),
             fade: stride.splat(1.0 / BENT),
-            overrun: stride.splat(SOFT_OVERRUN),
+            overrun: soft.overrun(stride, stride.splat(SOFT_OVERRUN)),
             spread: stride.splat(SPREAD),
             yields: stride.zero,
         }
@@ -264,8 +264,12 @@ impl<L: Lanes> Give<L> {
 
     /// Limits of places.
     #[inline(always)]
-    pub(super) fn sliding(stride: &Stride<L>, yields: L) -> Self {
-        let overrun = stride.unit * stride.splat(SOFT_OVERRUN);
+    pub(super) fn sliding<const BIAS: bool>(
+        stride: &Stride<L>,
+        soft: &Soft<L, BIAS>,
+        yields: L,
+    ) -> Self {
+        let overrun = soft.overrun(stride, stride.unit * stride.splat(SOFT_OVERRUN));
         let spread = stride.unit * stride.splat(SPREAD);
         let [haste, fade] = [stride.zero; 2];
         Self { snap: stride.snap, haste, fade, overrun, spread, yields }

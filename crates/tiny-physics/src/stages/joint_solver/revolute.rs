@@ -86,7 +86,7 @@ impl JointKernel for RevoluteBlock {
             velocity: pair.spin(),
             inv_mass: pair.inv_inertia(),
         };
-        let give = Give::turning(stride);
+        let give = Give::turning(stride, &soft);
         let (change, angular) = rows.solve(stride, &soft, &mut self.axis, coordinate, give);
         let impulse = add(old, change);
         stride.store2(impulse, &mut self.point.impulse_x, &mut self.point.impulse_y);

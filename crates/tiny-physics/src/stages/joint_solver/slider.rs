@@ -214,7 +214,7 @@ impl JointKernel for SliderBlock {
             velocity: pair.velocity_along(&jacobians.along),
             inv_mass: pair.inv_mass_along(&jacobians.along),
         };
-        let give = Give::sliding(stride, yields);
+        let give = Give::sliding(stride, &soft, yields);
         let (change, along) = rows.solve(stride, &soft, &mut self.axis, coordinate, give);
         let impulse = add([across, angular], change);
         stride.store2(impulse, &mut self.rigid.impulse_x, &mut self.rigid.impulse_y);

@@ -18,6 +18,8 @@ const MAX_RATE_FRACTION: f32 = 0.25;
 const ANCHORED_RATE_FRACTION: f32 = 1.5;
 /// The same for a softness that the user asks for.
 const MAX_SOFTNESS_FRACTION: f32 = 10.0;
+/// In [`SoftLanes::rigid`], what is held as softly as the user asks.
+pub(super) const ASKED: f32 = 2.0;
 /// Damping ratios beyond act as this one: the rest is rounding.
 const MAX_DAMPING_RATIO: f32 = 1.0e4;
 
@@ -35,7 +37,7 @@ pub(super) struct Rates {
 impl Rates {
     pub(super) fn new(h: f32, rounds: u32) -> Self {
         let spring = Spring {
-            hertz: least(RIGID_HERTZ, MAX_RATE_FRACTION / h),
+            hertz: RIGID_HERTZ.min(MAX_RATE_FRACTION / h),
             damping_ratio: RIGID_DAMPING_RATIO,
         };
         Self { h, rounds, rigid: softness(spring, h), last: Cell::new(None) }
@@ -52,7 +54,7 @@ impl Rates {
     /// Of what a joint holds rigid.
     pub(super) fn rigid(&self, def: &JointDef) -> Coefficients {
         def.softness.map_or(self.rigid, |spring| {
-            let hertz = least(spring.hertz, MAX_SOFTNESS_FRACTION / self.h);
+            let hertz = spring.hertz.min(MAX_SOFTNESS_FRACTION / self.h);
             softness(Spring { hertz, ..spring }, self.h)
         })
     }
@@ -79,7 +81,8 @@ impl Rates {
         lane: usize,
     ) {
         soft.write(lane, if spring.is_some() { self.spring(spring) } else { self.rigid(def) });
-        soft.rigid[lane] = if spring.is_some() { 0.0 } else { 1.0 };
+        let held = if def.softness.is_some() { ASKED } else { 1.0 };
+        soft.rigid[lane] = if spring.is_some() { 0.0 } else { held };
     }
 }
 
@@ -96,13 +99,9 @@ impl SoftLanes {
     }
 }
 
-fn least(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
-}
-
 /// By implicit Euler: it damps more than asked, which suits a constraint that should not swing.
 fn softness(spring: Spring, h: f32) -> Coefficients {
-    let soft = Softness::new(spring.hertz, least(spring.damping_ratio, MAX_DAMPING_RATIO), h);
+    let soft = Softness::new(spring.hertz, spring.damping_ratio.min(MAX_DAMPING_RATIO), h);
     [soft.bias_rate * soft.mass_scale, soft.mass_scale, soft.impulse_scale, 1.0]
 }
 
@@ -130,8 +129,8 @@ const MOST_CHANGE: f64 = 0.7;
 /// Beyond [`MOST_CHANGE`] they swing up all the same. A single spring of an eighth of the rate so loses a quarter of its speed in a
 /// substep; by implicit Euler it would lose a fifth.
 pub(super) fn coefficients(spring: Spring, h: f32, rounds: u32) -> Coefficients {
-    let hertz = least(spring.hertz, MAX_RATE_FRACTION / h);
-    let zeta = f64::from(least(spring.damping_ratio, MAX_DAMPING_RATIO));
+    let hertz = spring.hertz.min(MAX_RATE_FRACTION / h);
+    let zeta = f64::from(spring.damping_ratio.min(MAX_DAMPING_RATIO));
     let w = core::f64::consts::TAU * f64::from(hertz) * f64::from(h);
     let product = exp_minus(2.0 * zeta * w);
     let sum = if zeta < 1.0 {
@@ -141,18 +140,14 @@ pub(super) fn coefficients(spring: Spring, h: f32, rounds: u32) -> Coefficients 
         // zeta - root without cancellation.
         exp_minus(w / (zeta + root)) + exp_minus(w * (zeta + root))
     };
-    let change = smaller(1.0 - sum + product, MOST_CHANGE);
+    let change = (1.0 - sum + product).min(MOST_CHANGE);
     let push = if change > 0.0 { change / f64::from(h) } else { 0.0 };
     let exact = change / (w * w);
-    let crowd = 1.0 - smaller(0.75 * change, 2.5 * (change - 0.4));
-    let kept = smaller(exact.clamp(product, 1.0), crowd);
-    let product = smaller(product, kept);
+    let crowd = 1.0 - (0.75 * change).min(2.5 * (change - 0.4));
+    let kept = exact.clamp(product, 1.0).min(crowd);
+    let product = product.min(kept);
     let eased = (0..rounds.ilog2()).fold(product / kept, |eased, _| eased.sqrt());
     [push as f32, (1.0 - kept) as f32, kept as f32, (1.0 - eased) as f32]
-}
-
-fn smaller(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
 }
 
 /// exp(-x) for x >= 0, by a series after halving; the same bits everywhere.

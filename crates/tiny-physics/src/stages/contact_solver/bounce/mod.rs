@@ -116,7 +116,7 @@ impl Bounces {
                 let waiting = self.waiting.iter().filter(|&&body| bodies.is_dynamic(body));
                 self.changes.extend(waiting.map(|&body| (body, [f32::INFINITY; 3])));
             }
-            self.list_near((bodies, contacts), pace, parameters.restitution_threshold);
+            self.list_near((bodies, contacts, graph), pace, parameters.restitution_threshold);
         }
     }
 
@@ -130,7 +130,12 @@ impl Bounces {
     }
 
     /// Lists the contacts of changed bodies that are bouncy enough for the change to be handed on.
-    fn list_near(&mut self, (bodies, contacts): (&Bodies, &Contacts), pace: usize, threshold: f32) {
+    fn list_near(
+        &mut self,
+        (bodies, contacts, graph): (&Bodies, &Contacts, &Graph),
+        pace: usize,
+        threshold: f32,
+    ) {
         self.list.clear();
         let changed = self.changes.drain(..).filter(|&(_, change)| change != [0.0; 3]);
         for (body, [x, y, turn]) in changed {
@@ -139,9 +144,9 @@ impl Bounces {
             let most = Vec2::new(x, y).length() + turn.abs() * info.max_extent + threshold;
             if leaves(self.bounciest, -most, threshold) {
                 let all = contacts.of_body(info.first_contact);
-                let all = all.map(|(index, _)| &contacts.records[index as usize]);
-                let bouncy = all.filter(|contact| leaves(contact.restitution, -most, threshold));
-                self.list.extend(bouncy.filter_map(|contact| At::of(contact, pace)));
+                let here = |(index, _)| At::of(&contacts.records[index as usize], pace);
+                let bouncy = |at: &At| leaves(at.restitution(graph), -most, threshold);
+                self.list.extend(all.filter_map(here).filter(bouncy));
             }
         }
     }

@@ -30,6 +30,12 @@ impl At {
         is_here.then_some(at)
     }
 
+    /// That of this step: hooks may change it.
+    pub(super) fn restitution(self, graph: &Graph) -> f32 {
+        let surfaces = &graph.bucket(self.place, self.class).surfaces;
+        surfaces[self.slot / BLOCK].restitution[self.slot % BLOCK]
+    }
+
     fn key(self) -> u64 {
         (self.place as u64) << 40 | (self.class as u64) << 32 | self.slot as u64
     }
