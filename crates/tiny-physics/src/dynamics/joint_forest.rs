@@ -73,6 +73,8 @@ pub(crate) struct TreeNode {
     pub(crate) g: Three,
     /// Change of velocity.
     pub(crate) dv: Three,
+    /// Those for impulses of one along x, y and about on some node.
+    pub(crate) answers: [Three; 3],
 }
 
 /// A joint of a tree, and what the solver keeps of it.
@@ -211,7 +213,8 @@ footprint!(JointTree { nodes, links, axes } none {
 impl JointTree {
     /// How many of its links are no cuts.
     pub(crate) fn uncut(&self) -> usize {
-        self.links.partition_point(|link| (link.child, link.parent) != (NULL, NULL))
+        let is_cut = |link: &&TreeLink| (link.child, link.parent) == (NULL, NULL);
+        self.links.len() - self.links.iter().rev().take_while(is_cut).count()
     }
 
     /// Notes whether all its contacts go through it, and so leave its joints as they are.

@@ -92,7 +92,9 @@ pub(super) fn factor<S: Simd>(simd: S, tree: &mut JointTree) {
     if core::mem::replace(factored, true) {
         return;
     }
-    let heavy = heavy(&nodes[..*dynamic]);
+    let free = |node: &TreeNode| node.inv[0] > 0.0 && node.inv[1] > 0.0 && node.inv[2] > 0.0;
+    let moving = &nodes[..*dynamic];
+    let heavy = if moving.iter().all(free) { 0.0 } else { heavy(moving) };
     for node in &mut nodes[..*dynamic] {
         node.hat = mass(node, heavy);
     }
@@ -202,23 +204,40 @@ fn gather_and_scatter<S: Simd>(simd: S, tree: &mut JointTree) {
     }
 }
 
-/// Changes of velocities of all nodes for an impulse of one on a node: along x, y, or about.
+/// Works out the answers of all nodes to impulses of one on a node.
 #[inline(always)]
-pub(super) fn answer<S: Simd>(simd: S, tree: &mut JointTree, node: u32, k: usize) {
-    let moving = &mut tree.nodes[..tree.dynamic];
-    moving.iter_mut().for_each(|node| (node.g, node.dv) = ([0.0; 4], [0.0; 4]));
-    moving[node as usize].g[k] = 1.0;
+pub(super) fn answer<S: Simd>(simd: S, tree: &mut JointTree, node: u32) {
+    let uncut = tree.uncut();
+    let JointTree { nodes, dynamic, links, .. } = tree;
+    nodes[..*dynamic].iter_mut().for_each(|node| node.answers = [[0.0; 4]; 3]);
+    let mut felt: [Three; 3] = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
     // Nothing is felt but on the way to the root. Links are in the order of their children; the root has one if it has an anchor.
     let mut at = node as usize;
-    let first = usize::from(!is_rooted(&tree.links));
-    while let Some(link) = at.checked_sub(first).and_then(|at| tree.links.get_mut(at)) {
-        link.rhs = [0.0; 4];
-        gather(simd, &mut tree.nodes, link);
+    let first = usize::from(!is_rooted(links));
+    while let Some(link) = at.checked_sub(first).and_then(|at| links.get(at)) {
+        let columns = &link.jacobians[usize::from(link.child == link.b)].columns;
+        let TreeNode { hat, answers, .. } = &mut nodes[at];
+        for (felt, dv) in felt.iter_mut().zip(answers) {
+            let (mut push, mut rhs) = ([0.0; 4], [0.0; 4]);
+            *dv = times(simd, hat, felt);
+            take_product(simd, &mut rhs, columns, dv);
+            add_product(simd, dv, &link.given, &times(simd, &link.inverse, &rhs));
+            take_product(simd, &mut push, &link.follow.rows, felt);
+            *felt = push;
+        }
         at = link.parent as usize;
     }
-    move_root(simd, tree);
-    for link in &tree.links[..tree.uncut()] {
-        follow(simd, &mut tree.nodes, link);
+    if first == 1 {
+        let TreeNode { hat, answers, .. } = &mut nodes[0];
+        for (felt, dv) in felt.iter().zip(answers) {
+            *dv = times(simd, hat, felt);
+        }
+    }
+    for link in links[..uncut].iter().filter(|link| link.parent != NULL && link.child != NULL) {
+        let before = nodes[link.parent as usize].answers;
+        for (before, dv) in before.iter().zip(&mut nodes[link.child as usize].answers) {
+            take_product(simd, dv, &link.follow.columns, before);
+        }
     }
 }
 

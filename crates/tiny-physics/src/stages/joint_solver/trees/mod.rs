@@ -123,11 +123,13 @@ impl FourKernel for Answer<'_> {
         let Self(tree, touched, columns) = self;
         factor::factor(simd, tree);
         let length = columns.len() / (3 * touched.len());
-        for (i, column) in columns.chunks_exact_mut(length).enumerate() {
-            factor::answer(simd, tree, touched[i / 3], i % 3);
-            for (column, node) in column.chunks_exact_mut(3).zip(&tree.nodes[..tree.dynamic]) {
-                (column[0], column[1], column[2]) =
-                    (node.dv[0] as f32, node.dv[1] as f32, node.dv[2] as f32);
+        for (columns, &node) in columns.chunks_exact_mut(3 * length).zip(touched) {
+            factor::answer(simd, tree, node);
+            for (k, column) in columns.chunks_exact_mut(length).enumerate() {
+                for (column, node) in column.chunks_exact_mut(3).zip(&tree.nodes[..tree.dynamic]) {
+                    let [x, y, turn, _] = node.answers[k];
+                    (column[0], column[1], column[2]) = (x as f32, y as f32, turn as f32);
+                }
             }
         }
     }

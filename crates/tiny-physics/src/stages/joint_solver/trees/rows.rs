@@ -154,10 +154,8 @@ pub(super) fn load(tree: &mut JointTree, rows: SharedRows<'_>) {
 pub(super) fn store(tree: &JointTree, rows: SharedRows<'_>) {
     for node in &tree.nodes[..tree.dynamic] {
         rows.update(node.body, |row| {
-            for (k, inverse) in inverses::<f32>((), row).into_iter().enumerate() {
-                if inverse > 0.0 {
-                    row[k] = node.v[k] as f32;
-                }
+            for k in (0..3).filter(|&k| node.inv[k] > 0.0) {
+                row[k] = node.v[k] as f32;
             }
         });
     }
