@@ -93,8 +93,7 @@ pub(super) fn factor<S: Simd>(simd: S, tree: &mut JointTree) {
         return;
     }
     let free = |node: &TreeNode| node.inv[0] > 0.0 && node.inv[1] > 0.0 && node.inv[2] > 0.0;
-    let moving = &nodes[..*dynamic];
-    let heavy = if moving.iter().all(free) { 0.0 } else { heavy(moving) };
+    let heavy = if nodes[..*dynamic].iter().all(free) { 0.0 } else { heavy(&nodes[..*dynamic]) };
     for node in &mut nodes[..*dynamic] {
         node.hat = mass(node, heavy);
     }
@@ -207,33 +206,26 @@ fn gather_and_scatter<S: Simd>(simd: S, tree: &mut JointTree) {
 /// Works out the answers of all nodes to impulses of one on a node.
 #[inline(always)]
 pub(super) fn answer<S: Simd>(simd: S, tree: &mut JointTree, node: u32) {
-    let uncut = tree.uncut();
     let JointTree { nodes, dynamic, links, .. } = tree;
     nodes[..*dynamic].iter_mut().for_each(|node| node.answers = [[0.0; 4]; 3]);
     let mut felt: [Three; 3] = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
     // Nothing is felt but on the way to the root. Links are in the order of their children; the root has one if it has an anchor.
-    let mut at = node as usize;
-    let first = usize::from(!is_rooted(links));
-    while let Some(link) = at.checked_sub(first).and_then(|at| links.get(at)) {
-        let columns = &link.jacobians[usize::from(link.child == link.b)].columns;
-        let TreeNode { hat, answers, .. } = &mut nodes[at];
+    let (mut at, first) = (node as usize, usize::from(!is_rooted(links)));
+    while let Some(TreeNode { hat, answers, .. }) = nodes.get_mut(at) {
+        let link = at.checked_sub(first).and_then(|at| links.get(at));
         for (felt, dv) in felt.iter_mut().zip(answers) {
-            let (mut push, mut rhs) = ([0.0; 4], [0.0; 4]);
             *dv = times(simd, hat, felt);
+            let Some(link) = link else { continue };
+            let columns = &link.jacobians[usize::from(link.child == link.b)].columns;
+            let (mut push, mut rhs) = ([0.0; 4], [0.0; 4]);
             take_product(simd, &mut rhs, columns, dv);
             add_product(simd, dv, &link.given, &times(simd, &link.inverse, &rhs));
             take_product(simd, &mut push, &link.follow.rows, felt);
             *felt = push;
         }
-        at = link.parent as usize;
+        at = link.map_or(NULL, |link| link.parent) as usize;
     }
-    if first == 1 {
-        let TreeNode { hat, answers, .. } = &mut nodes[0];
-        for (felt, dv) in felt.iter().zip(answers) {
-            *dv = times(simd, hat, felt);
-        }
-    }
-    for link in links[..uncut].iter().filter(|link| link.parent != NULL && link.child != NULL) {
+    for link in links.iter().filter(|link| link.parent != NULL && link.child != NULL) {
         let before = nodes[link.parent as usize].answers;
         for (before, dv) in before.iter().zip(&mut nodes[link.child as usize].answers) {
             take_product(simd, dv, &link.follow.columns, before);
@@ -290,23 +282,16 @@ fn gather<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
     }
 }
 
-/// Away from the root: changes of the child's velocity.
-#[inline(always)]
-fn follow<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &TreeLink) {
-    if link.parent != NULL && link.child != NULL {
-        let dv = nodes[link.parent as usize].dv;
-        take_product(simd, &mut nodes[link.child as usize].dv, &link.follow.columns, &dv);
-    }
-}
-
-/// And of the impulses.
+/// Away from the root: changes of the child's velocity, and of the impulses.
 #[inline(always)]
 fn scatter<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
-    follow(simd, nodes, link);
     if link.parent != NULL {
         let dv = nodes[link.parent as usize].dv;
         let columns = &link.jacobians[usize::from(link.parent == link.b)].columns;
         take_product(simd, &mut link.rhs, columns, &dv);
+        if link.child != NULL {
+            take_product(simd, &mut nodes[link.child as usize].dv, &link.follow.columns, &dv);
+        }
     }
     link.change = times(simd, &link.inverse, &link.rhs);
 }

@@ -5,8 +5,8 @@
 
 use super::factor::{dot3, invert};
 use crate::dynamics::{
-    FrameLanes, Impulses, JointClass, JointColour, JointTree, Joints, Slot, TreeAxis, TreeLink,
-    TreeNode, TreeRow, inverses, is_jointed, with_bucket,
+    Impulses, JointClass, JointColour, JointTree, Joints, Slot, TreeAxis, TreeLink, TreeNode,
+    TreeRow, inverses, is_jointed, with_bucket,
 };
 use crate::simd::{BLOCK, Simd, Three, add_times, times};
 use crate::stages::joint_solver::JointKernel;
@@ -184,7 +184,8 @@ pub(super) fn refresh<S: Simd>(
         let yields;
         with_bucket!(lanes, link.class, bucket => {
             let block = &bucket.blocks[link.slot as usize / BLOCK];
-            write(block, &block.frame, &stride, rows, link);
+            link.rigid = 0;
+            block.tie(&stride, &Pair::load(&stride, rows, &block.frame), link);
             // What slides would run away along its line.
             let slides = link.class == JointClass::Slider;
             yields = if slides { 0.0 } else { f64::from(block.frame.yields[stride.at]) };
@@ -255,23 +256,12 @@ fn stiffen(link: &TreeLink, nodes: &mut [TreeNode]) {
     }
 }
 
-fn write<B: JointKernel>(
-    block: &B,
-    frame: &FrameLanes,
-    stride: &Stride<f64>,
-    rows: SharedRows<'_>,
-    link: &mut TreeLink,
-) {
-    link.rigid = 0;
-    block.tie(stride, &Pair::load(stride, rows, frame), link);
-}
-
 /// Works out how the two bodies of a link answer an impulse along its free coordinate, as its rigid rows tie them.
 #[inline(always)]
 fn tie<S: Simd>(simd: S, link: &mut TreeLink, axis: &mut TreeAxis, a: &TreeNode, b: &TreeNode) {
     let own = link.coordinate.on;
-    axis.free = response(&own, &own, a, b);
-    link.coordinate.compliance = COMPLIANCE * axis.free;
+    let free = response(&own, &own, a, b);
+    link.coordinate.compliance = COMPLIANCE * free;
     let (mut coupling, mut mass) = ([0.0; 4], [[0.0; 4]; 3]);
     for i in 0..link.rigid {
         coupling[i] = response(&link.row(i), &own, a, b);
@@ -280,8 +270,7 @@ fn tie<S: Simd>(simd: S, link: &mut TreeLink, axis: &mut TreeAxis, a: &TreeNode,
         }
     }
     let per = times(simd, &invert(&mass, link.rigid), &coupling);
-    let (tied, least) =
-        (axis.free - dot3(&coupling, &per), f64::from(LEAST_COMPLEMENT) * axis.free);
+    let (tied, least) = (free - dot3(&coupling, &per), f64::from(LEAST_COMPLEMENT) * free);
     axis.tied = if tied > least { tied } else { least };
     axis.given = per.map(|x| -x);
     axis.on = own;
@@ -302,12 +291,6 @@ fn response(first: &[Three; 2], second: &[Three; 2], a: &TreeNode, b: &TreeNode)
         linear + turn * first[2] * second[2]
     };
     of(0, a) + of(1, b)
-}
-
-/// Velocity along a row.
-#[inline(always)]
-pub(super) fn velocity(on: &[Three; 2], a: &TreeNode, b: &TreeNode) -> f64 {
-    dot3(&on[1], &b.v) + dot3(&on[0], &a.v)
 }
 
 /// Applies an impulse along a row to both bodies of a link.
