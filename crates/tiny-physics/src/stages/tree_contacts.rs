@@ -23,7 +23,7 @@ use super::islands::Stores;
 use super::joint_solver::trees;
 use super::passivity::may_drive;
 use crate::describe::JointDef;
-use crate::dynamics::{Bodies, Bucket, JointTree, Joints, NULL, Slot, flags, give_along, inverses};
+use crate::dynamics::{Bucket, JointTree, Joints, NULL, Slot, flags, give_along, inverses};
 use crate::simd::{BLOCK, FourKernel, Lanes, Row, Simd, SimdLevel, dispatch_fours};
 
 /// Numbers that the answers of a tree may have: touched bodies times bodies. Others stay with the lanes.
@@ -62,11 +62,12 @@ struct Answers {
 /// Where numbers begin, and how many.
 type Span = (u32, u32);
 
-/// Which answers are of a body's tree, and its place among the nodes and the touched ones.
+/// Which answers are of a body's tree, and its place among the touched nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct OfTree {
     answers: u32,
-    node: u32,
+    /// Where its velocity is among those of the tree.
+    at: u32,
     touched: u32,
     /// Velocities of the tree.
     span: Span,
@@ -132,8 +133,6 @@ struct Touch {
     about: Line,
     rolling_impulse: f32,
     hit: bool,
-    /// Nothing moves one of the bodies.
-    fixed: bool,
     points: [Point; 2],
 }
 
@@ -180,7 +179,11 @@ impl TreeContacts {
             let at = sides_of_trees[0].at;
             let bucket = &mut graph.buckets.list_mut()[at.0];
             let both = bucket.bodies(at.1);
-            let mut sides = [both.0, both.1].map(|body| Side::alone(bodies, body));
+            let mut sides = [both.0, both.1].map(|body| {
+                let jointed = bodies.infos[body as usize].first_joint != NULL;
+                let fixed = bodies.inverse_masses(body).0 == 0.0;
+                Side { body, of_tree: None, jointed, fixed, inverse: [0.0; 3] }
+            });
             for found in sides_of_trees {
                 sides[found.side] = Side { of_tree: Some(found.of_tree), ..sides[found.side] };
             }
@@ -199,8 +202,8 @@ impl TreeContacts {
         let braked = kinds(tree, stores.joints).any(|def| def.kind.motor().is_some());
         for (node, &body) in answers.bodies.iter().enumerate() {
             let touched = answers.touched.len() as u32;
-            let (node, span) = (node as u32, answers.span);
-            let of_tree = OfTree { answers: tree_answers, node, touched, span, braked };
+            let (at, span) = (3 * node as u32, answers.span);
+            let of_tree = OfTree { answers: tree_answers, at, touched, span, braked };
             let before = self.found.len();
             let first_contact = stores.bodies.infos[body as usize].first_contact;
             for (contact, side) in stores.contacts.of_body(first_contact) {
@@ -209,7 +212,7 @@ impl TreeContacts {
                 self.found.extend(at.map(|at| Found { at, side: side as usize, of_tree }));
             }
             if self.found.len() > before {
-                answers.touched.push(node);
+                answers.touched.push(node as u32);
             }
         }
         let fits = answers.touched.len() * answers.bodies.len() <= MOST_ANSWERS;
@@ -236,8 +239,9 @@ impl TreeContacts {
         for answers in &mut self.answers[..self.used] {
             let tree = &mut forest[answers.tree as usize];
             let limits = || tree.links.iter().map(|link| link.limit as i8);
-            let known = !answers.limits.is_empty() && answers.limits.iter().copied().eq(limits());
-            if answers.touched.is_empty() || known {
+            let same = || tree.axes.is_empty() || answers.limits.iter().copied().eq(limits());
+            let known = !answers.limits.is_empty() && same();
+            if known {
                 continue;
             }
             answers.limits.clear();
@@ -332,13 +336,12 @@ impl Touch {
             *point = Point {
                 there: lanes.normal_mass[lane] > 0.0,
                 separation: lanes.separation[lane],
-                now: 0.0,
                 normal: Line::new([x, y], arms, lanes.normal_mass[lane]),
                 tangent: Line::new([y, -x], tangent_arms, lanes.tangent_mass[lane]),
                 impulse: lanes.normal_impulse[lane],
                 rub: lanes.tangent_impulse[lane],
                 load: lanes.load[lane],
-                total: 0.0,
+                ..Point::default()
             };
         }
         let asked = |flag: u8, value: f32| if flags & flag != 0 { value } else { 0.0 };
@@ -351,7 +354,6 @@ impl Touch {
             about: Line { on: ABOUT, ..Line::default() },
             rolling_impulse: asked(flags::ROLLING, surface.rolling_impulse[lane]),
             hit: flags & flags::SUMMED != 0,
-            fixed: sides[0].fixed || sides[1].fixed,
             points,
         }
     }
@@ -379,12 +381,12 @@ impl Touch {
         let heaviest = if braked { 1.0 } else { HEAVIEST };
         let points = self.points.iter_mut().filter(|point| point.there);
         for line in points.flat_map(|point| [&mut point.normal, &mut point.tangent]) {
-            line.respond(&sides, answers, responses);
-            let (give, most) = (line.give(&sides, responses, rows), heaviest * line.alone);
+            let give = line.respond(&sides, answers, responses, rows);
+            let most = heaviest * line.alone;
             line.mass = if give * most > 1.0 { 1.0 / give } else { most };
         }
         if self.rolling > 0.0 {
-            self.about.respond(&sides, answers, responses);
+            self.about.respond(&sides, answers, responses, rows);
         }
     }
 
@@ -421,8 +423,9 @@ impl Touch {
         constants: &Constants<f32>,
         velocities: &mut Velocities<'_>,
     ) {
-        let Self { sides, points, fixed, .. } = self;
-        let soft = if *fixed { constants.static_soft } else { constants.soft };
+        let Self { sides, points, .. } = self;
+        let fixed = sides[0].fixed || sides[1].fixed;
+        let soft = if fixed { constants.static_soft } else { constants.soft };
         for point in points {
             if !point.there {
                 continue;
@@ -449,9 +452,9 @@ impl Touch {
         }
         if self.rolling > 0.0 {
             let limit = self.rolling * (self.points[0].load + self.points[1].load);
-            let inverse =
-                |k: usize| velocities.rows[self.sides[k].body as usize][Slot::INV_INERTIA].abs();
-            let (give, old) = (inverse(0) + inverse(1), self.rolling_impulse);
+            let rows = self.sides.each_ref().map(|side| &velocities.rows[side.body as usize]);
+            let give = rows[0][Slot::INV_INERTIA].abs() + rows[1][Slot::INV_INERTIA].abs();
+            let old = self.rolling_impulse;
             let mass = if give > 0.0 { 1.0 / give } else { 0.0 };
             let wanted = old - mass * velocities.along(&self.sides, &self.about);
             self.rolling_impulse = Lanes::clamp(wanted, -limit, limit);
@@ -471,7 +474,7 @@ impl Velocities<'_> {
     #[inline(always)]
     fn of(&self, side: &Side) -> Planar {
         match side.of_tree {
-            Some(at) => planar(&self.of_trees[at.place()..]),
+            Some(of) => planar(&self.of_trees[(of.span.0 + of.at) as usize..]),
             None => planar(&self.rows[side.body as usize]),
         }
     }
@@ -520,14 +523,6 @@ fn planar(numbers: &[f32]) -> Planar {
     [numbers[0], numbers[1], numbers[2]]
 }
 
-impl OfTree {
-    /// Where the velocity of its node is.
-    #[inline(always)]
-    fn place(&self) -> usize {
-        (self.span.0 + 3 * self.node) as usize
-    }
-}
-
 impl Line {
     /// In a direction, at arms that are its cross products with the anchors on A and on B.
     fn new([x, y]: [f32; 2], arms: [f32; 2], mass: f32) -> Self {
@@ -535,39 +530,34 @@ impl Line {
         Self { on, alone: mass, mass, ..Self::default() }
     }
 
-    /// Works out how the trees answer an impulse of one.
-    fn respond(&mut self, sides: &[Side; 2], answers: &[Answers], responses: &mut Vec<f32>) {
+    /// Works out how the trees answer an impulse of one; gives the velocity along it.
+    fn respond(
+        &mut self,
+        sides: &[Side; 2],
+        answers: &[Answers],
+        responses: &mut Vec<f32>,
+        rows: &[Row],
+    ) -> f32 {
+        let mut give = 0.0;
         for (k, side) in sides.iter().enumerate() {
-            let Some(OfTree { answers: of, touched, span: (_, count), .. }) = side.of_tree else {
+            let (first, [x, y, turn]) = (responses.len(), self.on[k]);
+            self.answers[k] = first as u32;
+            let Some(of) = side.of_tree else {
+                let [mass_x, mass_y, inertia] = inverses::<f32>((), &rows[side.body as usize]);
+                give += give_along([x, y], [mass_x, mass_y]) + inertia * turn * turn;
                 continue;
             };
-            let (count, [x, y, turn]) = (count as usize, self.on[k]);
-            self.answers[k] = responses.len() as u32;
-            let columns = &answers[of as usize].columns[3 * touched as usize * count..][..3 * count];
-            let (along_x, rest) = columns.split_at(count);
-            let (along_y, about) = rest.split_at(count);
-            let all = along_x.iter().zip(along_y).zip(about);
+            let count = of.span.1 as usize;
+            let columns = &answers[of.answers as usize].columns[3 * of.touched as usize * count..];
+            let (along_y, about) = (&columns[count..2 * count], &columns[2 * count..3 * count]);
+            let all = columns[..count].iter().zip(along_y).zip(about);
             responses.extend(all.map(|((a, b), c)| a * x + b * y + c * turn));
+            let change = |of: OfTree| planar(&responses[first + of.at as usize..]);
+            give += dot(self.on[k], change(of));
+            let other = sides[0].of_tree.filter(|other| k == 1 && other.answers == of.answers);
+            give += other.map_or(0.0, |other| 2.0 * dot(self.on[0], change(other)));
         }
-    }
-
-    /// Velocity along it per impulse.
-    fn give(&self, sides: &[Side; 2], responses: &[f32], rows: &[Row]) -> f32 {
-        let at = |k: usize, node: u32| planar(&responses[(self.answers[k] + 3 * node) as usize..]);
-        let own = [0, 1].map(|k: usize| match sides[k].of_tree {
-            None => {
-                let row = &rows[sides[k].body as usize];
-                let [x, y, turn] = self.on[k];
-                let [mass_x, mass_y, inv_inertia] = inverses::<f32>((), row);
-                give_along([x, y], [mass_x, mass_y]) + inv_inertia * turn * turn
-            }
-            Some(of_tree) => dot(self.on[k], at(k, of_tree.node)),
-        });
-        let both = match [sides[0].of_tree, sides[1].of_tree] {
-            [Some(a), Some(b)] if a.answers == b.answers => 2.0 * dot(self.on[0], at(1, a.node)),
-            _ => 0.0,
-        };
-        own[0] + own[1] + both
+        give
     }
 }
 
@@ -580,15 +570,6 @@ fn dot(a: Planar, b: Planar) -> f32 {
 fn push_body(row: &mut Row, inverse: Planar, on: Planar, impulse: f32) {
     for (k, inverse) in inverse.into_iter().enumerate() {
         row[k] += inverse * (on[k] * impulse);
-    }
-}
-
-impl Side {
-    /// A body by itself.
-    fn alone(bodies: &Bodies, body: u32) -> Self {
-        let jointed = bodies.infos[body as usize].first_joint != NULL;
-        let fixed = bodies.inverse_masses(body).0 == 0.0;
-        Self { body, of_tree: None, jointed, fixed, inverse: [0.0; 3] }
     }
 }
 
