@@ -275,8 +275,7 @@ impl TreeContacts {
         }
         let Self { answers, touches, used, velocities, responses, moved, .. } = self;
         if let Pass::WarmStart | Pass::WarmStartJointed = pass {
-            let first = pass == Pass::WarmStart;
-            touches.iter_mut().for_each(|touch| touch.warm_start(rows, first));
+            touches.iter_mut().for_each(|touch| touch.warm_start(rows, pass == Pass::WarmStart));
             return;
         }
         if core::mem::replace(moved, pass == Pass::Solve) && pass != Pass::Solve {
@@ -324,8 +323,7 @@ impl Touch {
         let flags = bucket.heads[block].flags;
         let (constraint, surface) = (&mut bucket.constraints[block], &bucket.surfaces[block]);
         (constraint.body_a[lane], constraint.body_b[lane]) = (0, 0);
-        let used = BLOCK.min(bucket.contacts.len() - block * BLOCK);
-        if constraint.body_a[..used] == constraint.body_b[..used] {
+        if constraint.body_a == constraint.body_b {
             bucket.heads[block].flags |= flags::TAKEN;
         }
         let mut points = [Point::default(); 2];
@@ -549,9 +547,12 @@ impl Line {
             };
             let count = of.span.1 as usize;
             let columns = &answers[of.answers as usize].columns[3 * of.touched as usize * count..];
-            let (along_y, about) = (&columns[count..2 * count], &columns[2 * count..3 * count]);
-            let all = columns[..count].iter().zip(along_y).zip(about);
-            responses.extend(all.map(|((a, b), c)| a * x + b * y + c * turn));
+            let column = |i: usize| columns[i * count..(i + 1) * count].as_chunks::<CHUNK>().0;
+            for ((a, b), c) in column(0).iter().zip(column(1)).zip(column(2)) {
+                let changes: [_; CHUNK] =
+                    core::array::from_fn(|k| a[k] * x + b[k] * y + c[k] * turn);
+                responses.extend_from_slice(&changes);
+            }
             let change = |of: OfTree| planar(&responses[first + of.at as usize..]);
             give += dot(self.on[k], change(of));
             let other = sides[0].of_tree.filter(|other| k == 1 && other.answers == of.answers);

@@ -217,11 +217,9 @@ pub(super) fn answer<S: Simd>(simd: S, tree: &mut JointTree, node: u32) {
             *dv = times(simd, hat, felt);
             let Some(link) = link else { continue };
             let columns = &link.jacobians[usize::from(link.child == link.b)].columns;
-            let (mut push, mut rhs) = ([0.0; 4], [0.0; 4]);
-            take_product(simd, &mut rhs, columns, dv);
-            add_product(simd, dv, &link.given, &times(simd, &link.inverse, &rhs));
-            take_product(simd, &mut push, &link.follow.rows, felt);
-            *felt = push;
+            let held = times(simd, &link.inverse, &times(simd, columns, dv));
+            take_product(simd, dv, &link.given, &held);
+            *felt = times(simd, &link.follow.rows, felt).map(|x| -x);
         }
         at = link.map_or(NULL, |link| link.parent) as usize;
     }

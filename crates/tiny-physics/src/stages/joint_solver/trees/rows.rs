@@ -275,10 +275,9 @@ fn tie<S: Simd>(simd: S, link: &mut TreeLink, axis: &mut TreeAxis, a: &TreeNode,
     axis.given = per.map(|x| -x);
     axis.on = own;
     for i in 0..link.rigid {
-        axis.on
-            .iter_mut()
-            .zip(&link.row(i))
-            .for_each(|(sum, on)| add_times(simd, sum, on, axis.given[i]));
+        for (sum, on) in axis.on.iter_mut().zip(&link.row(i)) {
+            add_times(simd, sum, on, axis.given[i]);
+        }
     }
 }
 
