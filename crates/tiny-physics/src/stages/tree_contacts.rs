@@ -452,8 +452,7 @@ impl Touch {
             let limit = self.rolling * (self.points[0].load + self.points[1].load);
             let rows = self.sides.each_ref().map(|side| &velocities.rows[side.body as usize]);
             let give = rows[0][Slot::INV_INERTIA].abs() + rows[1][Slot::INV_INERTIA].abs();
-            let old = self.rolling_impulse;
-            let mass = if give > 0.0 { 1.0 / give } else { 0.0 };
+            let (old, mass) = (self.rolling_impulse, if give > 0.0 { 1.0 / give } else { 0.0 });
             let wanted = old - mass * velocities.along(&self.sides, &self.about);
             self.rolling_impulse = Lanes::clamp(wanted, -limit, limit);
             velocities.push(&self.sides, &self.about, self.rolling_impulse - old);
