@@ -72,7 +72,7 @@ impl Whole {
 }
 
 /// A body of an island that is watched, and what stays the same for a step.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Member {
     body: u32,
     island: u32,
@@ -84,16 +84,19 @@ struct Member {
 }
 
 impl Member {
-    /// A body of the island of that number, to whose noise it adds.
-    fn new(bodies: &Bodies, body: u32, number: u32, island: &mut Island) -> Self {
-        let (at, own) = (body as usize, |inverse, mass| if inverse > 0.0 { mass } else { 0.0 });
-        let (info, p) = (&bodies.infos[at], bodies.poses[at].p);
-        let [x, y, turn] = inverses::<f32>((), &bodies.rows[at]);
-        let masses = three(&[own(x, info.mass), own(y, info.mass), own(turn, info.inertia)]);
-        let g = three(&bodies.motions[at].gain);
-        (0..3).for_each(|k| island.noise += 0.5 * masses[k] * g[k] * g[k]);
-        let place = [p.x - island.origin.x, p.y - island.origin.y];
-        Self { body, island: number, masses, g, place }
+    /// Works out what stays the same, unless something works on its island: is it watched?
+    fn begin(&mut self, bodies: &Bodies, islands: &mut [Island]) -> bool {
+        let (at, island) = (self.body as usize, &mut islands[self.island as usize]);
+        if !island.driven {
+            let own = |inverse, mass| if inverse > 0.0 { mass } else { 0.0 };
+            let (info, p) = (&bodies.infos[at], bodies.poses[at].p);
+            let [x, y, turn] = inverses::<f32>((), &bodies.rows[at]);
+            let masses = [own(x, info.mass), own(y, info.mass), own(turn, info.inertia)];
+            (self.masses, self.g) = (three(&masses), three(&bodies.motions[at].gain));
+            (0..3).for_each(|k| island.noise += 0.5 * self.masses[k] * self.g[k] * self.g[k]);
+            self.place = [p.x - island.origin.x, p.y - island.origin.y];
+        }
+        !island.driven
     }
 
     /// Where it is now.
@@ -166,10 +169,9 @@ impl Memory {
                 let origin = bodies.poses[body as usize].p;
                 islands.push(Island { origin, ..Island::default() });
             }
-            let island = &mut islands[*number as usize];
-            members.push(Member::new(bodies, body, *number, island));
+            members.push(Member { body, island: *number, ..Member::default() });
             if bodies.inverse_masses(body) == (0.0, 0.0) {
-                island.lean_on([0.0, 0.0]);
+                islands[*number as usize].lean_on([0.0, 0.0]);
             }
         }
         touching().chain(joined()).for_each(|((a, b), drives)| {
@@ -197,7 +199,7 @@ impl Memory {
                 }
             }
         }
-        members.retain(|member| !islands[member.island as usize].driven);
+        members.retain_mut(|member| member.begin(bodies, islands));
         let is_free = |member: &&Member| islands[member.island as usize].ground.is_none();
         free.extend(members.iter().filter(is_free));
     }

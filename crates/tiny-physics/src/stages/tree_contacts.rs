@@ -240,8 +240,7 @@ impl TreeContacts {
             let tree = &mut forest[answers.tree as usize];
             let limits = || tree.links.iter().map(|link| link.limit as i8);
             let same = || tree.axes.is_empty() || answers.limits.iter().copied().eq(limits());
-            let known = !answers.limits.is_empty() && same();
-            if known {
+            if !answers.limits.is_empty() && same() {
                 continue;
             }
             answers.limits.clear();
@@ -367,8 +366,7 @@ impl Touch {
             lanes.load[lane] = point.load;
         }
         surface.rolling_impulse[lane] = self.rolling_impulse;
-        (surface.total_1[lane], surface.total_2[lane]) =
-            (self.points[0].total, self.points[1].total);
+        [surface.total_1[lane], surface.total_2[lane]] = self.points.map(|point| point.total);
         bucket.heads[block].flags &= !flags::TAKEN;
     }
 
