@@ -4,7 +4,8 @@ mod common;
 
 use common::{Random, circle, rect, steps};
 use tiny_physics::{
-    BodyId, JointDef, JointId, Limits, Locks, RigidBody, Shape, SimdLevel, Vec2, World,
+    BodyId, JointDef, JointId, JointKind, Limits, Locks, RigidBody, Shape, SimdLevel, Spring, Vec2,
+    World,
 };
 
 fn space() -> World {
@@ -392,5 +393,59 @@ fn ropes_take_a_new_length() {
         steps(&mut world, 400);
         let y = world.body(load).expect("a load").position().y;
         assert!((y + length).abs() < 0.02, "{y} of {length}");
+    }
+}
+
+/// Softness makes a weld give way a little; it sags by what its stiffness says, and hurls nothing.
+#[test]
+fn soft_welds_hold_a_beam_by_its_end() {
+    let spring = Some(Spring { hertz: 20.0, damping_ratio: 1.0 });
+    for (linear, angular) in [(None, None), (spring, None), (None, spring)] {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let wall = wall(&mut world);
+        let beam = add(&mut world, rect(0.5, 0.1), 1.0, Vec2::new(0.5, 0.0));
+        let mut weld = JointDef::weld().anchor_at(Vec2::ZERO).softness(20.0, 1.0);
+        weld.kind = JointKind::Weld { linear, angular };
+        world.add_joint(wall, beam, weld).expect("a weld");
+        for step in 0..600 {
+            steps(&mut world, 1);
+            let beam = world.body(beam).expect("a beam");
+            let (spin, low) = (beam.angular_velocity(), -beam.position().y);
+            assert!(spin.abs() < 1.0 && low < 0.01, "{linear:?} {angular:?} {step}: {spin}, {low}");
+        }
+    }
+}
+
+/// A spring that pulls with all that it may pulls with that, and says so.
+#[test]
+fn a_spring_at_its_most_pulls_with_it() {
+    for (force, hertz, damping_ratio, far) in [(50.0, 5.0, 0.7, 10.0), (100.0, 10.0, 5.0, 300.0)] {
+        for drive in [false, true] {
+            let mut world = space();
+            let wall = wall(&mut world);
+            let spring = Spring { hertz, damping_ratio };
+            let crate_ = add(&mut world, rect(0.2, 0.2), 1.0, Vec2::ZERO);
+            let mut def = JointDef::mouse(Vec2::new(far, 0.0), force);
+            if drive {
+                def = JointDef::drive().anchors((far, 0.0), (0.0, 0.0));
+            }
+            match &mut def.kind {
+                JointKind::Mouse { spring: own, .. } => *own = spring,
+                JointKind::Motor { linear_spring, max_spring_force, .. } => {
+                    (*linear_spring, *max_spring_force) = (Some(spring), force);
+                }
+                _ => {}
+            }
+            let joint = world.add_joint(wall, crate_, def).expect("a joint");
+            steps(&mut world, 30);
+            let (way, speed) = (0.125 * force, 0.5 * force);
+            let body = world.body(crate_).expect("a crate");
+            let (x, v) = (body.position().x, body.velocity().x);
+            let told = world.joint(joint).expect("a joint").force().length();
+            // Some of it is the damper's.
+            assert!((x / way - 1.0).abs() < 0.06, "{force} N, {drive}: {x} m, not {way}");
+            assert!((v / speed - 1.0).abs() < 0.06, "{force} N, {drive}: {v} m/s, not {speed}");
+            assert!((told / force - 1.0).abs() < 0.01, "{force} N, {drive}: {told} N");
+        }
     }
 }

@@ -402,8 +402,7 @@ impl Bodies {
     /// Places the body by its origin.
     pub(crate) fn set_origin_pose(&mut self, index: u32, position: DVec2, rotation: Rot) {
         let pose = self.pose_of_origin(index, position, rotation);
-        self.poses[index as usize] = pose;
-        self.previous[index as usize] = pose;
+        (self.poses[index as usize], self.previous[index as usize]) = (pose, pose);
     }
 
     /// Writes the inverse masses that the solver works with.

@@ -346,6 +346,10 @@ joint_lanes! {
         angular_velocity: f32 = 0.0,
         angular_max: f32 = 0.0,
         twist_max: f32 = 0.0,
+        /// What the springs would push without their maxima, as of the last pass.
+        uncut_x: f32 = 0.0,
+        uncut_y: f32 = 0.0,
+        uncut_twist: f32 = 0.0,
         ; impulses
         velocity_impulse_x,
         velocity_impulse_y,

@@ -73,6 +73,8 @@ pub(crate) struct TreeNode {
     pub(crate) g: Three,
     /// Change of velocity.
     pub(crate) dv: Three,
+    /// Those for impulses of one along x, y and about on some node.
+    pub(crate) answers: [Three; 3],
 }
 
 /// A joint of a tree, and what the solver keeps of it.
@@ -114,17 +116,6 @@ pub(crate) struct TreeLink {
 }
 
 impl TreeLink {
-    /// A link between the nodes of bodies A and B that holds nothing yet.
-    pub(crate) fn new(
-        joint: u32,
-        class: JointClass,
-        [a, b]: [u32; 2],
-        child: u32,
-        parent: u32,
-    ) -> Self {
-        Self { joint, class, a, b, child, parent, ..Self::default() }
-    }
-
     /// Writes row `i`.
     #[inline(always)]
     pub(crate) fn set_row(&mut self, i: usize, row: &TreeRow) {
@@ -148,8 +139,7 @@ pub(crate) struct TreeAxis {
     pub(crate) axis: Axis<f64>,
     /// Speed, greatest impulse, impulse.
     pub(crate) motor: Option<[f64; 3]>,
-    /// Velocity per impulse, of the two bodies alone, and as the rigid rows tie them.
-    pub(crate) free: f64,
+    /// Velocity per impulse of the two bodies, as the rigid rows tie them.
     pub(crate) tied: f64,
     /// Of all that hangs on them, by the motor along the coordinate and by that which turns; 0 where it is not known yet.
     pub(crate) whole: [f64; 2],
@@ -211,7 +201,7 @@ footprint!(JointTree { nodes, links, axes } none {
 impl JointTree {
     /// How many of its links are no cuts.
     pub(crate) fn uncut(&self) -> usize {
-        self.links.partition_point(|link| (link.child, link.parent) != (NULL, NULL))
+        self.links.iter().rposition(|link| link.child & link.parent != NULL).map_or(0, |at| at + 1)
     }
 
     /// Notes whether all its contacts go through it, and so leave its joints as they are.
@@ -582,9 +572,10 @@ impl Planter<'_> {
     fn add_link(&mut self, joint: u32, [one, other]: [u32; 2], child: u32, parent: u32) {
         let record = &self.joints.records[joint as usize];
         let is_a = record.body_a == self.tree.nodes[one as usize].body;
-        let ends = if is_a { [one, other] } else { [other, one] };
+        let (a, b) = if is_a { (one, other) } else { (other, one) };
         if let Some(class) = record.class() {
-            self.tree.links.push(TreeLink::new(joint, class, ends, child, parent));
+            let link = TreeLink { joint, class, a, b, child, parent, ..TreeLink::default() };
+            self.tree.links.push(link);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Who works on which blocks of the graph, and when.
 
+use super::blocks::{BlockHead, flags};
 use super::coloured::{COLOURS, is_overflow, place_of};
 use super::graph::{BlockAddress, Blocks, Bucket, Graph, Shared, key};
 use crate::geometry::manifold::PairClass;
@@ -70,7 +71,7 @@ impl Schedule {
         }
     }
 
-    /// Lists places by their buckets.
+    /// Lists places by their buckets; not what is solved elsewhere for now.
     ///
     /// The runs of a colour go by where in their buckets they are, so that a member, which starts from its own part
     /// of the list, comes by the same parts of all buckets. What that saves has not been measured by itself.
@@ -79,13 +80,16 @@ impl Schedule {
         let mut all = graph.all().enumerate().skip(start).take(buckets.len()).peekable();
         while let Some((index, (place, class, bucket))) = all.next() {
             let count = bucket.manifolds.len();
-            self.runs.extend((0..count).step_by(len).map(|start| Run {
+            let runs = (0..count).step_by(len).map(|start| Run {
                 place,
                 bucket: index,
                 class,
                 blocks: start..count.min(start + len),
                 at: start as f32 / count as f32,
-            }));
+            });
+            let is_open = |head: &BlockHead| head.flags & flags::TAKEN == 0;
+            self.runs
+                .extend(runs.filter(|run| bucket.heads[run.blocks.clone()].iter().any(is_open)));
             if all.peek().is_none_or(|&(_, (next, ..))| next != place) {
                 if !is_overflow(place) && self.runs.len() > first + 1 {
                     self.runs[first..].sort_unstable_by(|a, b| {

@@ -250,8 +250,12 @@ impl World {
             turned += part.spread * water.angular_drag * per_inertia + by_arm;
         }
         let (slowed, turned) = (1.0 / (1.0 + dt * slowed), 1.0 / (1.0 + dt * turned));
+        // What is light rises as fast as the drag lets it, not first by a whole step.
+        let displaced: f32 = parts.iter().map(|part| part.displaced).sum();
+        let rising =
+            gravity * (dt * (body.as_ref().info().gravity_scale - displaced / mass).min(0.0));
         for part in parts {
-            let slip = water.flow - body.as_ref().velocity_at(part.center);
+            let slip = water.flow - body.as_ref().velocity_at(part.center) - rising;
             let drag = slip * (part.displaced * water.linear_drag * slowed);
             body.apply_force(drag - gravity * part.displaced, part.center);
             let spin = body.as_ref().angular_velocity();

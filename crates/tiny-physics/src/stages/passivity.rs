@@ -23,7 +23,7 @@ use super::islands::Stores;
 use crate::describe::{JointDef, JointKind};
 use crate::dynamics::{Bodies, DisjointSets, JOINTED, NULL, Slot, inverses};
 use crate::math::DVec2;
-use crate::simd::BLOCK;
+use crate::simd::{BLOCK, Row};
 
 /// Least share where W is noise.
 const GENTLE: f64 = 0.95;
@@ -38,9 +38,11 @@ struct Island {
     /// Where it is, roughly.
     origin: DVec2,
     whole: Whole,
+    /// Does a lock hold a member along x, along y? The world pushes there.
+    locked: [bool; 2],
     /// a, b and c of the work.
     work: [f64; 3],
-    /// Energy that forces give to what rests, joules.
+    /// Energy that forces give to what rests in a substep, joules.
     noise: f64,
     /// Work that its constraints have taken in this step.
     taken: f64,
@@ -60,40 +62,54 @@ struct Whole {
 }
 
 impl Whole {
-    /// Its velocity where a body is.
-    fn at(&self, [x, y]: [f64; 2]) -> [f64; 3] {
+    /// Its velocity where a member is.
+    fn at(&self, member: &Member, row: &Row) -> [f64; 3] {
+        if self.spin == 0.0 {
+            return [self.velocity[0], self.velocity[1], 0.0];
+        }
+        let [x, y] = member.place(row);
         let arm = [x - self.center[0], y - self.center[1]];
         [self.velocity[0] - self.spin * arm[1], self.velocity[1] + self.spin * arm[0], self.spin]
     }
 }
 
-/// A body in a substep: masses; velocities at the end, at the start, and what forces added; its place.
-struct State {
+/// A body of an island that is watched, and what stays the same for a step.
+#[derive(Clone, Copy, Debug, Default)]
+struct Member {
+    body: u32,
+    island: u32,
     masses: [f64; 3],
-    v: [f64; 3],
-    u: [f64; 3],
+    /// What forces add to its velocity in a substep.
     g: [f64; 3],
+    /// Its place at the start of the step, from the island's origin.
     place: [f64; 2],
 }
 
-impl State {
-    fn new(bodies: &Bodies, body: u32, origin: DVec2) -> Self {
-        let (row, start) = (&bodies.rows[body as usize], &bodies.starts[body as usize]);
-        let (info, pose) = (&bodies.infos[body as usize], &bodies.poses[body as usize]);
-        let own = |inverse: f32, mass: f32| if inverse > 0.0 { f64::from(mass) } else { 0.0 };
-        let [x, y, turn] = inverses::<f32>((), row);
-        let g = core::array::from_fn(|k| f64::from(bodies.motions[body as usize].gain[k]));
-        Self {
-            masses: [own(x, info.mass), own(y, info.mass), own(turn, info.inertia)],
-            v: core::array::from_fn(|k| f64::from(row[k])),
-            u: core::array::from_fn(|k| f64::from(start[k]) - g[k]),
-            g,
-            place: [
-                pose.p.x - origin.x + f64::from(row[Slot::DX]),
-                pose.p.y - origin.y + f64::from(row[Slot::DY]),
-            ],
+impl Member {
+    /// Works out what stays the same, unless something works on its island: is it watched?
+    fn begin(&mut self, bodies: &Bodies, islands: &mut [Island]) -> bool {
+        let (at, island) = (self.body as usize, &mut islands[self.island as usize]);
+        if !island.driven {
+            let own = |inverse, mass| if inverse > 0.0 { mass } else { 0.0 };
+            let (info, p) = (&bodies.infos[at], bodies.poses[at].p);
+            let [x, y, turn] = inverses::<f32>((), &bodies.rows[at]);
+            let masses = [own(x, info.mass), own(y, info.mass), own(turn, info.inertia)];
+            (self.masses, self.g) = (three(&masses), three(&bodies.motions[at].gain));
+            (0..3).for_each(|k| island.noise += 0.5 * self.masses[k] * self.g[k] * self.g[k]);
+            self.place = [p.x - island.origin.x, p.y - island.origin.y];
         }
+        !island.driven
     }
+
+    /// Where it is now.
+    fn place(&self, row: &Row) -> [f64; 2] {
+        [self.place[0] + f64::from(row[Slot::DX]), self.place[1] + f64::from(row[Slot::DY])]
+    }
+}
+
+/// The first three numbers.
+fn three(row: &[f32]) -> [f64; 3] {
+    [f64::from(row[0]), f64::from(row[1]), f64::from(row[2])]
 }
 
 /// The islands of a pace. Found anew each step; kept for its memory.
@@ -103,10 +119,9 @@ pub(crate) struct Memory {
     /// Of each root its island, or NULL.
     numbers: Vec<u32>,
     islands: Vec<Island>,
-    /// Bodies of islands that are watched, and which.
-    members: Vec<(u32, u32)>,
+    members: Vec<Member>,
     /// Those of islands that lean on nothing.
-    free: Vec<(u32, u32)>,
+    free: Vec<Member>,
     /// Energy that constraints would have added in this step, joules.
     pub(crate) withheld: f64,
 }
@@ -156,9 +171,11 @@ impl Memory {
                 let origin = bodies.poses[body as usize].p;
                 islands.push(Island { origin, ..Island::default() });
             }
-            members.push((body, *number));
+            members.push(Member { body, island: *number, ..Member::default() });
+            let (island, inverses) = (&mut islands[*number as usize], bodies.inverses(body));
+            (0..2).for_each(|k| island.locked[k] |= inverses[k] == 0.0);
             if bodies.inverse_masses(body) == (0.0, 0.0) {
-                islands[*number as usize].lean_on([0.0, 0.0]);
+                island.lean_on([0.0, 0.0]);
             }
         }
         touching().chain(joined()).for_each(|((a, b), drives)| {
@@ -186,8 +203,8 @@ impl Memory {
                 }
             }
         }
-        members.retain(|&(_, island)| !islands[island as usize].driven);
-        let is_free = |&&(_, island): &&(u32, u32)| islands[island as usize].ground.is_none();
+        members.retain_mut(|member| member.begin(bodies, islands));
+        let is_free = |member: &&Member| islands[member.island as usize].ground.is_none();
         free.extend(members.iter().filter(is_free));
     }
 
@@ -195,30 +212,32 @@ impl Memory {
     pub(crate) fn run(&mut self, bodies: &mut Bodies) {
         let Self { islands, members, free, withheld, .. } = self;
         find_whole(bodies, islands, free);
-        for &(body, island) in &*members {
-            let island = &mut islands[island as usize];
-            let State { masses, v, u, g, place } = State::new(bodies, body, island.origin);
-            let whole = island.whole.at(place);
+        for member in &*members {
+            let Member { body, island, masses, g, .. } = member;
+            let island = &mut islands[*island as usize];
+            let (row, start) = (&bodies.rows[*body as usize], &bodies.starts[*body as usize]);
+            let (v, start, whole) = (three(row), three(start), island.whole.at(member, row));
             for k in 0..3 {
                 let frame = if k < 2 { island.whole.velocity[k] } else { 0.0 };
-                let (own, rest, u) = (v[k] - whole[k], whole[k] - frame, u[k] - frame);
+                let u = start[k] - g[k] - frame;
+                let (own, rest) = (v[k] - whole[k], whole[k] - frame);
                 let half = 0.5 * masses[k];
                 island.work[0] += half * own * own;
                 island.work[1] += half * own * (2.0 * rest - g[k]);
                 island.work[2] += half * (rest * (rest - g[k]) - u * (u + g[k]));
-                island.noise += half * g[k] * g[k];
             }
         }
         *withheld += islands.iter_mut().map(Island::give_way).sum::<f64>();
-        let all = members.iter().map(|&(body, island)| (body, &islands[island as usize]));
-        for (body, island) in all.filter(|(_, island)| island.share < 1.0) {
-            let State { masses, v, place, .. } = State::new(bodies, body, island.origin);
-            let whole = island.whole.at(place);
-            for k in (0..3).filter(|&k| masses[k] > 0.0) {
+        let all = members.iter().map(|member| (member, &islands[member.island as usize]));
+        for (member, island) in all.filter(|(_, island)| island.share < 1.0) {
+            let body = member.body as usize;
+            let (row, start) = (&mut bodies.rows[body], &mut bodies.starts[body]);
+            let (v, whole) = (three(row), island.whole.at(member, row));
+            for k in (0..3).filter(|&k| member.masses[k] > 0.0) {
                 let less = (1.0 - island.share) * (v[k] - whole[k]);
-                bodies.rows[body as usize][k] = (v[k] - less) as f32;
+                row[k] = (v[k] - less) as f32;
                 // What the difference of the two says, the impulses of the substep, is carried on.
-                bodies.starts[body as usize][k] -= less as f32;
+                start[k] -= less as f32;
             }
         }
     }
@@ -234,10 +253,9 @@ impl Island {
     /// Chooses its share. Gives the energy that this withholds.
     fn give_way(&mut self) -> f64 {
         let [a, b, c] = core::mem::take(&mut self.work);
-        let noise = core::mem::take(&mut self.noise);
         let credit = self.taken;
         let work = a + b + c;
-        let least = if work - credit > noise { 0.0 } else { GENTLE };
+        let least = if work - credit > self.noise { 0.0 } else { GENTLE };
         self.share = 1.0;
         if work > credit && a > 0.0 {
             // The greater root.
@@ -252,14 +270,15 @@ impl Island {
 }
 
 /// Motions of all islands as a whole. `free` are the bodies of those that lean on nothing.
-fn find_whole(bodies: &Bodies, islands: &mut [Island], free: &[(u32, u32)]) {
+fn find_whole(bodies: &Bodies, islands: &mut [Island], free: &[Member]) {
     for island in &mut *islands {
         let velocity = island.ground.unwrap_or_default().map(f64::from);
         island.whole = Whole { velocity, ..Whole::default() };
     }
-    for &(body, island) in free {
-        let Island { whole, origin, .. } = &mut islands[island as usize];
-        let State { masses, v, place, .. } = State::new(bodies, body, *origin);
+    for member in free {
+        let whole = &mut islands[member.island as usize].whole;
+        let row = &bodies.rows[member.body as usize];
+        let (masses, v, place) = (member.masses, three(row), member.place(row));
         for k in 0..2 {
             whole.mass[k] += masses[k];
             whole.center[k] += masses[k] * place[k];
@@ -272,9 +291,10 @@ fn find_whole(bodies: &Bodies, islands: &mut [Island], free: &[(u32, u32)]) {
             whole.velocity[k] /= whole.mass[k];
         }
     }
-    for &(body, island) in free {
-        let Island { whole, origin, .. } = &mut islands[island as usize];
-        let State { masses: [x, y, inertia], v, place, .. } = State::new(bodies, body, *origin);
+    for member in free {
+        let whole = &mut islands[member.island as usize].whole;
+        let row = &bodies.rows[member.body as usize];
+        let ([x, y, inertia], v, place) = (member.masses, three(row), member.place(row));
         let arm = [place[0] - whole.center[0], place[1] - whole.center[1]];
         let own = [v[0] - whole.velocity[0], v[1] - whole.velocity[1]];
         let mass = if x > y { x } else { y };
@@ -282,8 +302,9 @@ fn find_whole(bodies: &Bodies, islands: &mut [Island], free: &[(u32, u32)]) {
         // Angular momentum, until it is divided.
         whole.spin += mass * (arm[0] * own[1] - arm[1] * own[0]) + inertia * v[2];
     }
-    for Island { whole, .. } in islands.iter_mut().filter(|island| island.whole.inertia > 0.0) {
-        whole.spin /= whole.inertia;
+    for Island { whole, locked, .. } in islands.iter_mut().filter(|it| it.whole.inertia > 0.0) {
+        whole.spin = if *locked == [false; 2] { whole.spin / whole.inertia } else { 0.0 };
+        (0..2).filter(|&k| locked[k]).for_each(|k| whole.velocity[k] = 0.0);
     }
 }
 

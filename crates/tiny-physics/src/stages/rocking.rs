@@ -17,6 +17,8 @@ const ENOUGH: u8 = 4;
 const ROUND: f32 = 1.0e-4;
 /// What is faster than this does not rock but goes somewhere, length units a second.
 const FASTEST: f32 = 0.5;
+/// Nor what turns faster than this at its rim: a seesaw that is pushed goes on.
+const RIM: f32 = 2.0;
 
 /// Slows what turns against something that rocks.
 pub(crate) fn resist(
@@ -59,13 +61,14 @@ fn swings(bodies: &Bodies, joints: &Joints, body: u32, length_unit: f32) -> u8 {
     let way = if swings & 1 == 0 { spin } else { -spin } * info.max_extent;
     match swings {
         _ if bodies.velocity(body).length() > FASTEST * length_unit => 0,
+        _ if way.abs() > RIM * length_unit => 0,
         _ if way <= info.sleep_speed * length_unit => swings,
         u8::MAX => u8::MAX - 1,
         _ => swings + 1,
     }
 }
 
-/// Is a body a ball about its centre of mass that touches one other alone?
+/// Is a body a ball about its centre of mass that touches one other alone, or a wheel?
 fn is_ball_alone(bodies: &Bodies, contacts: &Contacts, joints: &Joints, body: u32) -> bool {
     let info = &bodies.infos[body as usize];
     let all = contacts.of_body(info.first_contact);
@@ -73,8 +76,8 @@ fn is_ball_alone(bodies: &Bodies, contacts: &Contacts, joints: &Joints, body: u3
     let mut others = touching.filter(|contact| contact.touching).map(|contact| contact.other(body));
     let round = info.max_extent - info.min_extent <= ROUND * info.min_extent;
     let first = others.next();
-    let free = bodies.is_dynamic(body) && !joints.act_on(info.first_joint);
-    free && round && others.all(|other| Some(other) == first)
+    let is_wheel = joints.act_on(info.first_joint);
+    bodies.is_dynamic(body) && round && (is_wheel || others.all(|other| Some(other) == first))
 }
 
 /// Does the user alone move a body? What that takes to and fro does not rock.

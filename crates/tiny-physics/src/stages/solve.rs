@@ -236,7 +236,6 @@ impl Solver {
         let Rules { settings, gravity, level, lengths: lengths @ Lengths { h, .. } } = rules;
         let joint_substep = Substep::new(h, settings.length_unit);
         let parameters = rules.contact_parameters();
-        schedule.fill_pace(stores.graph, pace, contact_solver::CHUNK);
         let rounds = |chosen: &mut Chosen, rounds| {
             if chosen.take(stores.graph, pace, 8 * contact_solver::CHUNK) { rounds } else { 0 }
         };
@@ -256,6 +255,7 @@ impl Solver {
             run_joints(team, stores, level, pace, &places, pass, joint_substep)
         };
         tree_contacts.take(pace, stores);
+        schedule.fill_pace(stores.graph, pace, contact_solver::CHUNK);
         let in_lanes = |stores: &mut Stores<'_>, pass, schedule: &Schedule| {
             let rows = SharedRows::new(&mut stores.bodies.rows);
             contact_solver::run(team, level, pass, &parameters, rows, stores.graph, schedule);

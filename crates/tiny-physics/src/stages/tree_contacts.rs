@@ -23,7 +23,7 @@ use super::islands::Stores;
 use super::joint_solver::trees;
 use super::passivity::may_drive;
 use crate::describe::JointDef;
-use crate::dynamics::{Bodies, Bucket, JointTree, Joints, NULL, Slot, flags, give_along, inverses};
+use crate::dynamics::{Bucket, JointTree, Joints, NULL, Slot, flags, give_along, inverses};
 use crate::simd::{BLOCK, FourKernel, Lanes, Row, Simd, SimdLevel, dispatch_fours};
 
 /// Numbers that the answers of a tree may have: touched bodies times bodies. Others stay with the lanes.
@@ -53,18 +53,24 @@ struct Answers {
     touched: Vec<u32>,
     /// For each of them a column per impulse along x, y and about the middle: changes of velocity body by body.
     columns: Vec<f32>,
-    /// Velocities of the bodies during a pass, as long as a column.
-    velocities: Vec<f32>,
+    /// Where the velocities of the bodies are, which are as long as a column.
+    span: Span,
     /// The limits that held then.
     limits: Vec<i8>,
 }
 
-/// Which answers are of a body's tree, and its place among the nodes and the touched ones.
+/// Where numbers begin, and how many.
+type Span = (u32, u32);
+
+/// Which answers are of a body's tree, and its place among the touched nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct OfTree {
     answers: u32,
-    node: u32,
+    /// Where its velocity is among those of the tree.
+    at: u32,
     touched: u32,
+    /// Velocities of the tree.
+    span: Span,
     /// It has brakes; see [`HEAVIEST`].
     braked: bool,
 }
@@ -86,19 +92,30 @@ struct Side {
     jointed: bool,
     /// Nothing moves it.
     fixed: bool,
+    /// Inverse masses in this pass, where it is by itself.
+    inverse: Planar,
+}
+
+/// Along which a contact pushes.
+#[derive(Clone, Copy, Debug, Default)]
+struct Line {
+    /// On A and on B.
+    on: [Planar; 2],
+    /// Effective mass of the two bodies alone, and with all that hangs on them.
+    alone: f32,
+    mass: f32,
+    /// Where the answers of their trees to an impulse of one on A, and on B, begin.
+    answers: [u32; 2],
 }
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Point {
     there: bool,
+    /// At the start of the step, and now.
     separation: f32,
-    /// Cross products of anchors with normal and tangent, on A and on B.
-    arms: [f32; 2],
-    tangent_arms: [f32; 2],
-    /// Of the two bodies alone, and with all that hangs on them.
-    alone: [f32; 2],
-    mass: f32,
-    tangent_mass: f32,
+    now: f32,
+    normal: Line,
+    tangent: Line,
     impulse: f32,
     rub: f32,
     load: f32,
@@ -110,14 +127,12 @@ struct Point {
 struct Touch {
     at: (usize, usize),
     sides: [Side; 2],
-    normal: [f32; 2],
     friction: f32,
     belt: f32,
     rolling: f32,
+    about: Line,
     rolling_impulse: f32,
     hit: bool,
-    /// Nothing moves one of the bodies.
-    fixed: bool,
     points: [Point; 2],
 }
 
@@ -128,16 +143,25 @@ pub(crate) struct TreeContacts {
     used: usize,
     found: Vec<Found>,
     touches: Vec<Touch>,
+    /// Velocities of the bodies of the trees during a pass.
+    velocities: Vec<f32>,
+    /// What an impulse of one along each line adds to them.
+    responses: Vec<f32>,
+    /// The bodies have moved since the separations were worked out.
+    moved: bool,
 }
 
-crate::footprint::footprint!(Answers { bodies, touched, columns, velocities, limits } none { tree });
-crate::footprint::footprint!(TreeContacts { found, touches } each { answers } none { used });
+crate::footprint::footprint!(Answers { bodies, touched, columns, limits } none { tree, span });
+crate::footprint::footprint!(
+    TreeContacts { found, touches, velocities, responses } each { answers } none { used, moved }
+);
 
 impl TreeContacts {
     /// Takes the contacts of trees out of the lanes of a pace.
     pub(crate) fn take(&mut self, pace: usize, stores: &mut Stores<'_>) {
         self.touches.clear();
         self.found.clear();
+        self.velocities.clear();
         self.used = 0;
         for index in 0..stores.joint_graph.forest.trees.len() {
             let tree = &stores.joint_graph.forest.trees[index];
@@ -155,7 +179,11 @@ impl TreeContacts {
             let at = sides_of_trees[0].at;
             let bucket = &mut graph.buckets.list_mut()[at.0];
             let both = bucket.bodies(at.1);
-            let mut sides = [both.0, both.1].map(|body| Side::alone(bodies, body));
+            let mut sides = [both.0, both.1].map(|body| {
+                let jointed = bodies.infos[body as usize].first_joint != NULL;
+                let fixed = bodies.inverse_masses(body).0 == 0.0;
+                Side { body, of_tree: None, jointed, fixed, inverse: [0.0; 3] }
+            });
             for found in sides_of_trees {
                 sides[found.side] = Side { of_tree: Some(found.of_tree), ..sides[found.side] };
             }
@@ -170,12 +198,13 @@ impl TreeContacts {
             self.answers.push(Answers::default());
         }
         let answers = &mut self.answers[self.used];
-        answers.begin(index, tree);
-        let braked = kinds(tree, stores.joints)
-            .any(|def| def.kind.motor().is_some_and(|motor| motor.max > 0.0));
+        answers.begin(index, tree, self.velocities.len());
+        let runs = |def: &JointDef| def.kind.motor().is_some_and(|motor| motor.max > 0.0);
+        let braked = kinds(tree, stores.joints).any(runs);
         for (node, &body) in answers.bodies.iter().enumerate() {
             let touched = answers.touched.len() as u32;
-            let of_tree = OfTree { answers: tree_answers, node: node as u32, touched, braked };
+            let (at, span) = (3 * node as u32, answers.span);
+            let of_tree = OfTree { answers: tree_answers, at, touched, span, braked };
             let before = self.found.len();
             let first_contact = stores.bodies.infos[body as usize].first_contact;
             for (contact, side) in stores.contacts.of_body(first_contact) {
@@ -191,7 +220,10 @@ impl TreeContacts {
         if !fits {
             self.found.truncate(first);
         }
-        self.used += usize::from(self.found.len() > first);
+        if self.found.len() > first {
+            self.used += 1;
+            self.velocities.resize(self.velocities.len() + answers.span.1 as usize, 0.0);
+        }
         fits
     }
 
@@ -208,20 +240,21 @@ impl TreeContacts {
         for answers in &mut self.answers[..self.used] {
             let tree = &mut forest[answers.tree as usize];
             let limits = || tree.links.iter().map(|link| link.limit as i8);
-            let known = !answers.limits.is_empty() && answers.limits.iter().copied().eq(limits());
-            if answers.touched.is_empty() || known {
+            let same = || tree.axes.is_empty() || answers.limits.iter().copied().eq(limits());
+            if !answers.limits.is_empty() && same() {
                 continue;
             }
             answers.limits.clear();
             answers.limits.extend(limits());
             answers.columns.clear();
-            answers.columns.resize(3 * answers.touched.len() * answers.velocities.len(), 0.0);
+            answers.columns.resize(3 * answers.touched.len() * answers.span.1 as usize, 0.0);
             trees::answer(level, tree, &answers.touched, &mut answers.columns);
             any = true;
         }
         if any {
-            let Self { answers, touches, .. } = self;
-            touches.iter_mut().for_each(|touch| touch.weigh(answers, rows));
+            let Self { answers, touches, responses, .. } = self;
+            responses.clear();
+            touches.iter_mut().for_each(|touch| touch.weigh(answers, responses, rows));
         }
     }
 
@@ -240,17 +273,19 @@ impl TreeContacts {
         if pass == Pass::Solve {
             self.update(level, rows, forest);
         }
-        let Self { answers, touches, used, .. } = self;
+        let Self { answers, touches, used, velocities, responses, moved, .. } = self;
         if let Pass::WarmStart | Pass::WarmStartJointed = pass {
-            let first = pass == Pass::WarmStart;
-            touches.iter_mut().for_each(|touch| touch.warm_start(rows, first));
+            touches.iter_mut().for_each(|touch| touch.warm_start(rows, pass == Pass::WarmStart));
             return;
         }
-        let (answers, constants) = (&mut answers[..*used], Constants::new((), parameters));
-        answers.iter_mut().for_each(|answers| answers.load(rows));
-        let mut velocities = Velocities { answers, rows };
-        dispatch_fours(level, RunPass(pass, &constants, touches, &mut velocities));
-        velocities.answers.iter().for_each(|answers| answers.store(velocities.rows));
+        if core::mem::replace(moved, pass == Pass::Solve) && pass != Pass::Solve {
+            touches.iter_mut().for_each(|touch| touch.part(rows));
+        }
+        let (answers, constants) = (&answers[..*used], Constants::new((), parameters));
+        answers.iter().for_each(|answers| answers.load(velocities, rows));
+        let mut all = Velocities { of_trees: velocities, responses, rows };
+        dispatch_fours(level, RunPass(pass, &constants, touches, &mut all));
+        answers.iter().for_each(|answers| answers.store(velocities, rows));
     }
 }
 
@@ -262,6 +297,9 @@ impl FourKernel for RunPass<'_, '_> {
     fn run<S: Simd>(self, _: S) {
         let Self(pass, constants, touches, velocities) = self;
         for touch in touches {
+            for side in touch.sides.iter_mut().filter(|side| side.of_tree.is_none()) {
+                side.inverse = inverses::<f32>((), &velocities.rows[side.body as usize]);
+            }
             if pass == Pass::Solve {
                 touch.solve::<true>(constants, velocities);
                 continue;
@@ -285,37 +323,35 @@ impl Touch {
         let flags = bucket.heads[block].flags;
         let (constraint, surface) = (&mut bucket.constraints[block], &bucket.surfaces[block]);
         (constraint.body_a[lane], constraint.body_b[lane]) = (0, 0);
-        let used = BLOCK.min(bucket.contacts.len() - block * BLOCK);
-        if constraint.body_a[..used] == constraint.body_b[..used] {
+        if constraint.body_a == constraint.body_b {
             bucket.heads[block].flags |= flags::TAKEN;
         }
         let mut points = [Point::default(); 2];
+        let (x, y) = (constraint.normal_x[lane], constraint.normal_y[lane]);
         for (point, lanes) in points.iter_mut().zip(&constraint.points) {
+            let arms = [lanes.normal_arm_a[lane], lanes.normal_arm_b[lane]];
+            let tangent_arms = [lanes.tangent_arm_a[lane], lanes.tangent_arm_b[lane]];
             *point = Point {
                 there: lanes.normal_mass[lane] > 0.0,
                 separation: lanes.separation[lane],
-                arms: [lanes.normal_arm_a[lane], lanes.normal_arm_b[lane]],
-                tangent_arms: [lanes.tangent_arm_a[lane], lanes.tangent_arm_b[lane]],
-                alone: [lanes.normal_mass[lane], lanes.tangent_mass[lane]],
-                mass: lanes.normal_mass[lane],
-                tangent_mass: lanes.tangent_mass[lane],
+                normal: Line::new([x, y], arms, lanes.normal_mass[lane]),
+                tangent: Line::new([y, -x], tangent_arms, lanes.tangent_mass[lane]),
                 impulse: lanes.normal_impulse[lane],
                 rub: lanes.tangent_impulse[lane],
                 load: lanes.load[lane],
-                total: 0.0,
+                ..Point::default()
             };
         }
         let asked = |flag: u8, value: f32| if flags & flag != 0 { value } else { 0.0 };
         Self {
             at,
             sides,
-            normal: [constraint.normal_x[lane], constraint.normal_y[lane]],
             friction: constraint.friction[lane],
             belt: asked(flags::TANGENT_SPEED, surface.tangent_speed[lane]),
             rolling: asked(flags::ROLLING, surface.rolling_resistance[lane]),
+            about: Line { on: ABOUT, ..Line::default() },
             rolling_impulse: asked(flags::ROLLING, surface.rolling_impulse[lane]),
             hit: flags & flags::SUMMED != 0,
-            fixed: sides[0].fixed || sides[1].fixed,
             points,
         }
     }
@@ -331,51 +367,49 @@ impl Touch {
             lanes.load[lane] = point.load;
         }
         surface.rolling_impulse[lane] = self.rolling_impulse;
-        (surface.total_1[lane], surface.total_2[lane]) =
-            (self.points[0].total, self.points[1].total);
+        [surface.total_1[lane], surface.total_2[lane]] = self.points.map(|point| point.total);
         bucket.heads[block].flags &= !flags::TAKEN;
     }
 
-    /// Directions of impulses along the normal, the tangent or about: on A and on B.
-    #[inline(always)]
-    fn along(direction: [f32; 2], arms: [f32; 2]) -> [Planar; 2] {
-        let [x, y] = direction;
-        [[-x, -y, -arms[0]], [x, y, arms[1]]]
-    }
-
-    fn tangent(&self) -> [f32; 2] {
-        [self.normal[1], -self.normal[0]]
-    }
-
-    /// Works out the effective masses.
-    fn weigh(&mut self, answers: &[Answers], rows: &[Row]) {
-        let (normal, tangent) = (self.normal, self.tangent());
+    /// Works out the answers to impulses, and the effective masses.
+    fn weigh(&mut self, answers: &[Answers], responses: &mut Vec<f32>, rows: &[Row]) {
         let sides = self.sides;
         let braked = sides.iter().any(|side| side.of_tree.is_some_and(|at| at.braked));
         let heaviest = if braked { 1.0 } else { HEAVIEST };
-        let mass = |on: [Planar; 2], alone: f32| {
-            let (give, most) = (give(&sides, on, answers, rows), heaviest * alone);
-            if give * most > 1.0 { 1.0 / give } else { most }
-        };
-        for point in self.points.iter_mut().filter(|point| point.there) {
-            point.mass = mass(Self::along(normal, point.arms), point.alone[0]);
-            point.tangent_mass = mass(Self::along(tangent, point.tangent_arms), point.alone[1]);
+        let points = self.points.iter_mut().filter(|point| point.there);
+        for line in points.flat_map(|point| [&mut point.normal, &mut point.tangent]) {
+            let give = line.respond(&sides, answers, responses, rows);
+            let most = heaviest * line.alone;
+            line.mass = if give * most > 1.0 { 1.0 / give } else { most };
+        }
+        if self.rolling > 0.0 {
+            self.about.respond(&sides, answers, responses, rows);
         }
     }
 
     /// Applies the impulses of the substep before to the two bodies alone: the tree is solved next.
     fn warm_start(&mut self, rows: &mut [Row], first: bool) {
-        let (normal, tangent) = (self.normal, self.tangent());
         for (k, side) in self.sides.iter().enumerate().filter(|(_, side)| first || side.jointed) {
             let row = &mut rows[side.body as usize];
+            let inverse = inverses::<f32>((), row);
             for point in &self.points {
-                push_body(row, Self::along(normal, point.arms)[k], point.impulse);
-                push_body(row, Self::along(tangent, point.tangent_arms)[k], point.rub);
+                push_body(row, inverse, point.normal.on[k], point.impulse);
+                push_body(row, inverse, point.tangent.on[k], point.rub);
             }
-            push_body(row, ABOUT[k], self.rolling_impulse);
+            push_body(row, inverse, ABOUT[k], self.rolling_impulse);
         }
         if first {
+            self.part(rows);
             self.points.iter_mut().for_each(|point| point.load = point.impulse);
+        }
+    }
+
+    /// Works out how far apart the points are now.
+    fn part(&mut self, rows: &[Row]) {
+        let [a, b] = self.sides.map(|side| planar(&rows[side.body as usize][Slot::DX..]));
+        for point in &mut self.points {
+            let on = point.normal.on;
+            point.now = point.separation + (dot(on[0], a) + dot(on[1], b));
         }
     }
 
@@ -386,52 +420,49 @@ impl Touch {
         constants: &Constants<f32>,
         velocities: &mut Velocities<'_>,
     ) {
-        let Self { sides, normal, points, fixed, .. } = self;
-        let soft = if *fixed { constants.static_soft } else { constants.soft };
+        let Self { sides, points, .. } = self;
+        let fixed = sides[0].fixed || sides[1].fixed;
+        let soft = if fixed { constants.static_soft } else { constants.soft };
         for point in points {
             if !point.there {
                 continue;
             }
-            let on = Self::along(*normal, point.arms);
-            let s = point.separation + velocities.ways(sides, on);
-            let (velocity, old) = (velocities.along(sides, on), point.impulse);
-            point.impulse =
-                normal_impulse::<f32, BIAS>(constants, soft, [s, velocity, 0.0], point.mass, old);
-            velocities.push(sides, on, point.impulse - old);
+            let (line, old) = (&point.normal, point.impulse);
+            let at = [point.now, velocities.along(sides, line), 0.0];
+            point.impulse = normal_impulse::<f32, BIAS>(constants, soft, at, line.mass, old);
+            velocities.push(sides, line, point.impulse - old);
         }
     }
 
     /// Friction and rolling resistance.
     #[inline(always)]
     fn rub(&mut self, velocities: &mut Velocities<'_>) {
-        let tangent = self.tangent();
         for point in &mut self.points {
             if !point.there {
                 continue;
             }
-            let on = Self::along(tangent, point.tangent_arms);
-            let velocity = velocities.along(&self.sides, on) + self.belt;
+            let (line, old) = (&point.tangent, point.rub);
+            let velocity = velocities.along(&self.sides, line) + self.belt;
             let limit = self.friction * point.load;
-            let old = point.rub;
-            point.rub = Lanes::clamp(old - point.tangent_mass * velocity, -limit, limit);
-            velocities.push(&self.sides, on, point.rub - old);
+            point.rub = Lanes::clamp(old - line.mass * velocity, -limit, limit);
+            velocities.push(&self.sides, line, point.rub - old);
         }
         if self.rolling > 0.0 {
             let limit = self.rolling * (self.points[0].load + self.points[1].load);
-            let inverse =
-                |k: usize| velocities.rows[self.sides[k].body as usize][Slot::INV_INERTIA].abs();
-            let (give, old) = (inverse(0) + inverse(1), self.rolling_impulse);
-            let mass = if give > 0.0 { 1.0 / give } else { 0.0 };
-            let wanted = old - mass * velocities.along(&self.sides, ABOUT);
+            let rows = self.sides.each_ref().map(|side| &velocities.rows[side.body as usize]);
+            let give = rows[0][Slot::INV_INERTIA].abs() + rows[1][Slot::INV_INERTIA].abs();
+            let (old, mass) = (self.rolling_impulse, if give > 0.0 { 1.0 / give } else { 0.0 });
+            let wanted = old - mass * velocities.along(&self.sides, &self.about);
             self.rolling_impulse = Lanes::clamp(wanted, -limit, limit);
-            velocities.push(&self.sides, ABOUT, self.rolling_impulse - old);
+            velocities.push(&self.sides, &self.about, self.rolling_impulse - old);
         }
     }
 }
 
 /// The velocities of all bodies during a pass: those of trees with their answers.
 struct Velocities<'a> {
-    answers: &'a mut [Answers],
+    of_trees: &'a mut [f32],
+    responses: &'a [f32],
     rows: &'a mut [Row],
 }
 
@@ -439,36 +470,39 @@ impl Velocities<'_> {
     #[inline(always)]
     fn of(&self, side: &Side) -> Planar {
         match side.of_tree {
-            Some(at) => {
-                self.answers[at.answers as usize].velocities.as_chunks().0[at.node as usize]
-            }
-            None => planar(&self.rows[side.body as usize], Slot::VX),
+            Some(of) => planar(&self.of_trees[(of.span.0 + of.at) as usize..]),
+            None => planar(&self.rows[side.body as usize]),
         }
     }
 
-    /// Along a direction on both bodies.
+    /// Along a line.
     #[inline(always)]
-    fn along(&self, [a, b]: &[Side; 2], on: [Planar; 2]) -> f32 {
+    fn along(&self, [a, b]: &[Side; 2], Line { on, .. }: &Line) -> f32 {
         dot(on[0], self.of(a)) + dot(on[1], self.of(b))
-    }
-
-    /// The ways since the start of the step, along a direction on both bodies.
-    #[inline(always)]
-    fn ways(&self, [a, b]: &[Side; 2], on: [Planar; 2]) -> f32 {
-        let way = |side: &Side| planar(&self.rows[side.body as usize], Slot::DX);
-        dot(on[0], way(a)) + dot(on[1], way(b))
     }
 
     /// Applies an impulse to both bodies, and to the trees that they are of.
     #[inline(always)]
-    fn push(&mut self, [a, b]: &[Side; 2], on: [Planar; 2], impulse: f32) {
+    fn push(&mut self, sides: &[Side; 2], line: &Line, impulse: f32) {
         if impulse == 0.0 {
             return;
         }
-        for (side, on) in [(a, on[0]), (b, on[1])] {
-            match side.of_tree {
-                None => push_body(&mut self.rows[side.body as usize], on, impulse),
-                Some(at) => self.answers[at.answers as usize].push(at.touched, on, impulse),
+        for (k, side) in sides.iter().enumerate() {
+            let Some(OfTree { span: (first, count), .. }) = side.of_tree else {
+                let row = &mut self.rows[side.body as usize];
+                push_body(row, side.inverse, line.on[k], impulse);
+                continue;
+            };
+            let velocities = &mut self.of_trees[first as usize..][..count as usize];
+            let response = &self.responses[line.answers[k] as usize..][..count as usize];
+            let chunks = velocities.as_chunks_mut::<CHUNK>().0.iter_mut();
+            for (velocities, response) in chunks.zip(response.as_chunks::<CHUNK>().0) {
+                // Of a copy, so that the compiler sees that nothing overlaps and takes all at once.
+                let mut changed = *velocities;
+                for k in 0..CHUNK {
+                    changed[k] += response[k] * impulse;
+                }
+                *velocities = changed;
             }
         }
     }
@@ -479,31 +513,51 @@ fn kinds<'a>(tree: &'a JointTree, joints: &'a Joints) -> impl Iterator<Item = &'
     tree.links.iter().map(|link| &joints.records[link.joint as usize].def)
 }
 
-/// Three numbers of a row.
+/// The first three numbers.
 #[inline(always)]
-fn planar(row: &Row, first: usize) -> Planar {
-    [row[first], row[first + 1], row[first + 2]]
+fn planar(numbers: &[f32]) -> Planar {
+    [numbers[0], numbers[1], numbers[2]]
 }
 
-/// Velocity along a direction per impulse along it.
-fn give(sides: &[Side; 2], on: [Planar; 2], answers: &[Answers], rows: &[Row]) -> f32 {
-    let own = [0, 1].map(|k: usize| match sides[k].of_tree {
-        None => {
-            let row = &rows[sides[k].body as usize];
-            let [x, y, turn] = on[k];
-            let [mass_x, mass_y, inv_inertia] = inverses::<f32>((), row);
-            give_along([x, y], [mass_x, mass_y]) + inv_inertia * turn * turn
+impl Line {
+    /// In a direction, at arms that are its cross products with the anchors on A and on B.
+    fn new([x, y]: [f32; 2], arms: [f32; 2], mass: f32) -> Self {
+        let on = [[-x, -y, -arms[0]], [x, y, arms[1]]];
+        Self { on, alone: mass, mass, ..Self::default() }
+    }
+
+    /// Works out how the trees answer an impulse of one; gives the velocity along it.
+    fn respond(
+        &mut self,
+        sides: &[Side; 2],
+        answers: &[Answers],
+        responses: &mut Vec<f32>,
+        rows: &[Row],
+    ) -> f32 {
+        let mut give = 0.0;
+        for (k, side) in sides.iter().enumerate() {
+            let (first, [x, y, turn]) = (responses.len(), self.on[k]);
+            self.answers[k] = first as u32;
+            let Some(of) = side.of_tree else {
+                let [mass_x, mass_y, inertia] = inverses::<f32>((), &rows[side.body as usize]);
+                give += give_along([x, y], [mass_x, mass_y]) + inertia * turn * turn;
+                continue;
+            };
+            let count = of.span.1 as usize;
+            let columns = &answers[of.answers as usize].columns[3 * of.touched as usize * count..];
+            let column = |i: usize| columns[i * count..(i + 1) * count].as_chunks::<CHUNK>().0;
+            for ((a, b), c) in column(0).iter().zip(column(1)).zip(column(2)) {
+                let changes: [_; CHUNK] =
+                    core::array::from_fn(|k| a[k] * x + b[k] * y + c[k] * turn);
+                responses.extend_from_slice(&changes);
+            }
+            let change = |of: OfTree| planar(&responses[first + of.at as usize..]);
+            give += dot(self.on[k], change(of));
+            let other = sides[0].of_tree.filter(|other| k == 1 && other.answers == of.answers);
+            give += other.map_or(0.0, |other| 2.0 * dot(self.on[0], change(other)));
         }
-        Some(at) => dot(on[k], answers[at.answers as usize].change(at.touched, at.node, on[k])),
-    });
-    let both = match [sides[0].of_tree, sides[1].of_tree] {
-        [Some(a), Some(b)] if a.answers == b.answers => {
-            let answers = &answers[a.answers as usize];
-            2.0 * dot(on[0], answers.change(b.touched, a.node, on[1]))
-        }
-        _ => 0.0,
-    };
-    own[0] + own[1] + both
+        give
+    }
 }
 
 #[inline(always)]
@@ -512,72 +566,35 @@ fn dot(a: Planar, b: Planar) -> f32 {
 }
 
 #[inline(always)]
-fn push_body(row: &mut Row, on: Planar, impulse: f32) {
-    for (k, inverse) in inverses::<f32>((), row).into_iter().enumerate() {
+fn push_body(row: &mut Row, inverse: Planar, on: Planar, impulse: f32) {
+    for (k, inverse) in inverse.into_iter().enumerate() {
         row[k] += inverse * (on[k] * impulse);
     }
 }
 
-impl Side {
-    /// A body by itself.
-    fn alone(bodies: &Bodies, body: u32) -> Self {
-        let jointed = bodies.infos[body as usize].first_joint != NULL;
-        let fixed = bodies.inverse_masses(body).0 == 0.0;
-        Self { body, of_tree: None, jointed, fixed }
-    }
-}
-
 impl Answers {
-    /// Begins anew for a tree that nothing touches yet.
-    fn begin(&mut self, index: u32, tree: &JointTree) {
+    /// Begins anew for a tree that nothing touches yet, with velocities from a place on.
+    fn begin(&mut self, index: u32, tree: &JointTree, first: usize) {
         self.tree = index;
         self.touched.clear();
         self.limits.clear();
         self.bodies.clear();
         self.bodies.extend(tree.nodes[..tree.dynamic].iter().map(|node| node.body));
-        self.velocities.clear();
-        self.velocities.resize((3 * tree.dynamic).next_multiple_of(CHUNK), 0.0);
+        self.span = (first as u32, (3 * tree.dynamic).next_multiple_of(CHUNK) as u32);
     }
 
     /// Gathers the velocities of the bodies.
-    fn load(&mut self, rows: &[Row]) {
-        for (velocity, &body) in self.velocities.as_chunks_mut().0.iter_mut().zip(&self.bodies) {
-            *velocity = planar(&rows[body as usize], Slot::VX);
+    fn load(&self, velocities: &mut [f32], rows: &[Row]) {
+        let own = velocities[self.span.0 as usize..].as_chunks_mut().0;
+        for (velocity, &body) in own.iter_mut().zip(&self.bodies) {
+            *velocity = planar(&rows[body as usize]);
         }
     }
 
-    fn store(&self, rows: &mut [Row]) {
-        for (velocity, &body) in self.velocities.as_chunks::<3>().0.iter().zip(&self.bodies) {
+    fn store(&self, velocities: &[f32], rows: &mut [Row]) {
+        let own = velocities[self.span.0 as usize..].as_chunks::<3>().0;
+        for (velocity, &body) in own.iter().zip(&self.bodies) {
             rows[body as usize][Slot::VX..Slot::VX + 3].copy_from_slice(velocity);
-        }
-    }
-
-    /// Change of a node's velocity where an impulse acts on a touched one.
-    fn change(&self, touched: u32, node: u32, [x, y, turn]: Planar) -> Planar {
-        let length = self.velocities.len();
-        let at = 3 * (touched as usize * length + node as usize);
-        core::array::from_fn(|k| {
-            let column = |i: usize| self.columns[at + i * length + k];
-            column(0) * x + column(1) * y + column(2) * turn
-        })
-    }
-
-    /// Changes the velocities where an impulse acts on a touched node.
-    #[inline(always)]
-    fn push(&mut self, touched: u32, [x, y, turn]: Planar, impulse: f32) {
-        let force = [x * impulse, y * impulse, turn * impulse];
-        let length = self.velocities.len();
-        let columns = &self.columns[3 * touched as usize * length..];
-        let along = |i: usize| columns[i * length..(i + 1) * length].as_chunks::<CHUNK>().0;
-        let columns = along(0).iter().zip(along(1)).zip(along(2));
-        let velocities = self.velocities.as_chunks_mut::<CHUNK>().0;
-        for (velocities, ((x, y), turn)) in velocities.iter_mut().zip(columns) {
-            // Of a copy, so that the compiler sees that nothing overlaps and takes all at once.
-            let mut changed = *velocities;
-            for k in 0..CHUNK {
-                changed[k] += x[k] * force[0] + y[k] * force[1] + turn[k] * force[2];
-            }
-            *velocities = changed;
         }
     }
 }

@@ -55,8 +55,11 @@ impl DriveBlock {
         let old = stride.load(&self.twist.impulse);
         let max = stride.load(&self.drive.twist_max);
         let error = pair.angle(stride, &self.angle);
-        let change = -(mass * soft.demand(velocity, error)) - soft.impulse_scale * old;
-        let impulse = (old + change).clamp(-max, max);
+        // What a spring at its most has beyond it takes up the relax pass's share of the damping.
+        let kept = if BIAS { old } else { stride.load(&self.drive.uncut_twist) };
+        let uncut = kept - soft.impulse_scale * kept - mass * soft.demand(velocity, error);
+        stride.store(uncut, &mut self.drive.uncut_twist);
+        let impulse = uncut.clamp(-max, max);
         stride.store(impulse, &mut self.twist.impulse);
         let total = impulse - old;
         velocity = velocity + inv_mass * total;
@@ -79,9 +82,11 @@ impl DriveBlock {
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         let (velocity, gap) = (pair.anchor_velocity(), pair.gap);
         let demand = [soft.demand(velocity[0], gap[0]), soft.demand(velocity[1], gap[1])];
-        let kept = sub(old, scale(old, soft.impulse_scale));
-        let impulse = sub(kept, inverse.apply(demand));
-        let impulse = shorten(stride, impulse, stride.load(&self.drive.spring_max));
+        let drive = &mut self.drive;
+        let kept = if BIAS { old } else { stride.load2(&drive.uncut_x, &drive.uncut_y) };
+        let uncut = sub(sub(kept, scale(kept, soft.impulse_scale)), inverse.apply(demand));
+        stride.store2(uncut, &mut drive.uncut_x, &mut drive.uncut_y);
+        let impulse = shorten(stride, uncut, stride.load(&drive.spring_max));
         stride.store2(impulse, &mut self.point.impulse_x, &mut self.point.impulse_y);
         sub(impulse, old)
     }

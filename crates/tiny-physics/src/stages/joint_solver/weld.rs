@@ -12,7 +12,7 @@ use super::axis::complement;
 use super::parts::{Pair, Row, Soft, Start, Stride, add, describe_angle, dot, scale, sub};
 use super::spring::Rates;
 use crate::describe::{JointDef, JointKind};
-use crate::dynamics::{TreeLink, WeldBlock};
+use crate::dynamics::{SoftLanes, TreeLink, WeldBlock};
 use crate::math::{Pose, Vec2};
 use crate::simd::Lanes;
 
@@ -49,8 +49,8 @@ impl JointKernel for WeldBlock {
     fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let linear = Soft::<L, BIAS>::load(stride, &self.linear);
         let angular = Soft::<L, BIAS>::load(stride, &self.angular);
-        let [rigid_point, rigid] =
-            [stride.load(&self.linear.rigid), stride.load(&self.angular.rigid)];
+        let is_rigid = |soft: &SoftLanes| stride.load(&soft.rigid).min(stride.one);
+        let [rigid_point, rigid] = [is_rigid(&self.linear), is_rigid(&self.angular)];
         // A springy point of bodies that do not turn against each other: what it gives comes after what holds the angle.
         let upright = rigid * (stride.one - rigid_point);
         let inverse = pair.point_mass_where(stride, upright);

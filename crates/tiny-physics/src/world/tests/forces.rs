@@ -65,7 +65,8 @@ fn no_wind_is_too_strong_for_a_step() {
 fn wood_floats_at_the_depth_of_its_density() {
     for density in [200.0, 500.0, 800.0] {
         let mut world = world();
-        let crate_ = add(&mut world, 0.0, 0.2, rect(0.5, 0.5).density(density));
+        // Wide: a square of about half the water's density tips over to float on its corner.
+        let crate_ = add(&mut world, 0.0, 0.2, rect(1.0, 0.5).density(density));
         let water = Water { surface: DVec2::new(0.0, 1.0), ..Water::default() };
         for _ in 0..900 {
             world.apply_water(&water, &QueryFilter::new(), DT);
@@ -75,7 +76,7 @@ fn wood_floats_at_the_depth_of_its_density() {
         let expected = 1.0 - density / 1000.0 + 0.5;
         assert!((y(&world, crate_) - expected).abs() < 0.01, "{density} {}", y(&world, crate_));
         // What floats at rest may sleep, and stays there.
-        assert!(!world.body(crate_).unwrap().is_awake());
+        assert!(!world.body(crate_).unwrap().is_awake(), "{density}");
     }
 }
 
@@ -259,5 +260,24 @@ fn endless_friction_holds() {
             assert!((y(&world, low) - 1.5).abs() < 0.02, "{i} {mix:?}: {}", y(&world, low));
             assert!((y(&world, high) - 0.5).abs() < 0.02, "{i} {mix:?}: {}", y(&world, high));
         }
+    }
+}
+
+/// A thing of default density, a thousandth of the water's, rises as fast as the drag lets it: by g / drag, and no more, from the first step on.
+#[test]
+fn what_is_light_is_not_shot_out_of_water() {
+    for density in [1.0, 20.0, 100.0] {
+        let mut world = world();
+        let water = Water::default();
+        let ball = add(&mut world, 0.0, -40.0, circle(0.5).density(density));
+        let still = 9.8 * (water.density - density) / (water.density * water.linear_drag);
+        let mut speed = 0.0;
+        for _ in 0..120 {
+            world.apply_water(&water, &QueryFilter::new(), DT);
+            world.step(DT);
+            speed = world.body(ball).unwrap().velocity().y;
+            assert!(speed < 1.05 * still, "density {density}: {speed} m/s for {still}");
+        }
+        assert!(speed > 0.95 * still, "density {density}: {speed} m/s for {still}");
     }
 }

@@ -92,7 +92,8 @@ pub(super) fn factor<S: Simd>(simd: S, tree: &mut JointTree) {
     if core::mem::replace(factored, true) {
         return;
     }
-    let heavy = heavy(&nodes[..*dynamic]);
+    let free = |node: &TreeNode| node.inv[0] > 0.0 && node.inv[1] > 0.0 && node.inv[2] > 0.0;
+    let heavy = if nodes[..*dynamic].iter().all(free) { 0.0 } else { heavy(&nodes[..*dynamic]) };
     for node in &mut nodes[..*dynamic] {
         node.hat = mass(node, heavy);
     }
@@ -202,23 +203,31 @@ fn gather_and_scatter<S: Simd>(simd: S, tree: &mut JointTree) {
     }
 }
 
-/// Changes of velocities of all nodes for an impulse of one on a node: along x, y, or about.
+/// Works out the answers of all nodes to impulses of one on a node.
 #[inline(always)]
-pub(super) fn answer<S: Simd>(simd: S, tree: &mut JointTree, node: u32, k: usize) {
-    let moving = &mut tree.nodes[..tree.dynamic];
-    moving.iter_mut().for_each(|node| (node.g, node.dv) = ([0.0; 4], [0.0; 4]));
-    moving[node as usize].g[k] = 1.0;
+pub(super) fn answer<S: Simd>(simd: S, tree: &mut JointTree, node: u32) {
+    let JointTree { nodes, dynamic, links, .. } = tree;
+    nodes[..*dynamic].iter_mut().for_each(|node| node.answers = [[0.0; 4]; 3]);
+    let mut felt: [Three; 3] = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
     // Nothing is felt but on the way to the root. Links are in the order of their children; the root has one if it has an anchor.
-    let mut at = node as usize;
-    let first = usize::from(!is_rooted(&tree.links));
-    while let Some(link) = at.checked_sub(first).and_then(|at| tree.links.get_mut(at)) {
-        link.rhs = [0.0; 4];
-        gather(simd, &mut tree.nodes, link);
-        at = link.parent as usize;
+    let (mut at, first) = (node as usize, usize::from(!is_rooted(links)));
+    while let Some(TreeNode { hat, answers, .. }) = nodes.get_mut(at) {
+        let link = at.checked_sub(first).and_then(|at| links.get(at));
+        for (felt, dv) in felt.iter_mut().zip(answers) {
+            *dv = times(simd, hat, felt);
+            let Some(link) = link else { continue };
+            let columns = &link.jacobians[usize::from(link.child == link.b)].columns;
+            let held = times(simd, &link.inverse, &times(simd, columns, dv));
+            take_product(simd, dv, &link.given, &held);
+            *felt = times(simd, &link.follow.rows, felt).map(|x| -x);
+        }
+        at = link.map_or(NULL, |link| link.parent) as usize;
     }
-    move_root(simd, tree);
-    for link in &tree.links[..tree.uncut()] {
-        follow(simd, &mut tree.nodes, link);
+    for link in links.iter().filter(|link| link.parent != NULL && link.child != NULL) {
+        let before = nodes[link.parent as usize].answers;
+        for (before, dv) in before.iter().zip(&mut nodes[link.child as usize].answers) {
+            take_product(simd, dv, &link.follow.columns, before);
+        }
     }
 }
 
@@ -271,23 +280,16 @@ fn gather<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
     }
 }
 
-/// Away from the root: changes of the child's velocity.
-#[inline(always)]
-fn follow<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &TreeLink) {
-    if link.parent != NULL && link.child != NULL {
-        let dv = nodes[link.parent as usize].dv;
-        take_product(simd, &mut nodes[link.child as usize].dv, &link.follow.columns, &dv);
-    }
-}
-
-/// And of the impulses.
+/// Away from the root: changes of the child's velocity, and of the impulses.
 #[inline(always)]
 fn scatter<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
-    follow(simd, nodes, link);
     if link.parent != NULL {
         let dv = nodes[link.parent as usize].dv;
         let columns = &link.jacobians[usize::from(link.parent == link.b)].columns;
         take_product(simd, &mut link.rhs, columns, &dv);
+        if link.child != NULL {
+            take_product(simd, &mut nodes[link.child as usize].dv, &link.follow.columns, &dv);
+        }
     }
     link.change = times(simd, &link.inverse, &link.rhs);
 }

@@ -123,11 +123,12 @@ impl FourKernel for Answer<'_> {
         let Self(tree, touched, columns) = self;
         factor::factor(simd, tree);
         let length = columns.len() / (3 * touched.len());
-        for (i, column) in columns.chunks_exact_mut(length).enumerate() {
-            factor::answer(simd, tree, touched[i / 3], i % 3);
-            for (column, node) in column.chunks_exact_mut(3).zip(&tree.nodes[..tree.dynamic]) {
-                (column[0], column[1], column[2]) =
-                    (node.dv[0] as f32, node.dv[1] as f32, node.dv[2] as f32);
+        for (columns, &node) in columns.chunks_exact_mut(3 * length).zip(touched) {
+            factor::answer(simd, tree, node);
+            for (k, column) in columns.chunks_exact_mut(length).enumerate() {
+                for (column, node) in column.chunks_exact_mut(3).zip(&tree.nodes[..tree.dynamic]) {
+                    (0..3).for_each(|i| column[i] = node.answers[k][i] as f32);
+                }
             }
         }
     }
@@ -187,11 +188,15 @@ fn run_tree<S: Simd>(
 /// difference in each.
 #[inline(always)]
 fn swings_freely(tree: &JointTree) -> bool {
-    let drives = |axis: &TreeAxis| {
-        let turns = axis.motor.is_some_and(|[_, most, _]| most != 0.0);
-        turns || axis.axis.motor_max != 0.0 || axis.axis.push != 0.0
-    };
-    tree.alone && !is_jointed(tree.pace) && !tree.axes.iter().any(drives)
+    let idle = |axis: &TreeAxis| drives(axis) == [false; 3];
+    tree.alone && !is_jointed(tree.pace) && tree.axes.iter().all(idle)
+}
+
+/// What may push or turn: a motor along the coordinate, one that turns, a spring.
+#[inline(always)]
+fn drives(TreeAxis { axis, motor, .. }: &TreeAxis) -> [bool; 3] {
+    let turns = motor.is_some_and(|[_, most, _]| most != 0.0);
+    [axis.motor_max != 0.0, turns, axis.push != 0.0]
 }
 
 /// Adds or takes away half of what forces add in a substep: they act half before it and half after it, which
@@ -230,10 +235,6 @@ fn turn(nodes: &mut [TreeNode], [a, b]: [u32; 2], impulse: f64) {
 /// its impulse is carried on. Of several, or with springs, each would see what the others do to its bodies before the rest has felt it.
 #[inline(always)]
 fn weigh_motor<S: Simd>(simd: S, tree: &mut JointTree) {
-    let drives = |axis: &TreeAxis| {
-        let turns = axis.motor.is_some_and(|[_, most, _]| most != 0.0);
-        [axis.axis.motor_max != 0.0, turns, axis.axis.push != 0.0]
-    };
     let all = tree.axes.iter().enumerate();
     let mut all =
         all.flat_map(|(i, axis)| (0..3).filter(|&k| drives(axis)[k]).map(move |k| (i, k)));
@@ -396,7 +397,8 @@ fn overrun(link: &TreeLink, axis: &TreeAxis, velocity: f64, side: f64, rates: &R
 
 /// Velocity along the free coordinate of a link.
 fn velocity(link: &TreeLink, nodes: &[TreeNode]) -> f64 {
-    rows::velocity(&link.coordinate.on, &nodes[link.a as usize], &nodes[link.b as usize])
+    let [on_a, on_b] = &link.coordinate.on;
+    factor::dot3(on_b, &nodes[link.b as usize].v) + factor::dot3(on_a, &nodes[link.a as usize].v)
 }
 
 /// Takes back what limits have given.
@@ -416,13 +418,7 @@ fn begin_limits<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
         let wants = |side: f64| {
             side * axis.axis.limits[0] > 0.0 || overrun(link, axis, velocity, side, rates) > 0.0
         };
-        let side = if wants(1.0) {
-            1.0
-        } else if wants(-1.0) {
-            -1.0
-        } else {
-            0.0
-        };
+        let side = [1.0, -1.0].into_iter().find(|&side| wants(side)).unwrap_or(0.0);
         if side * axis.axis.limits[0] < 0.0 {
             release(simd, link, axis, nodes);
         }

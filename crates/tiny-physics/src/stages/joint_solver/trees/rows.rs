@@ -5,8 +5,8 @@
 
 use super::factor::{dot3, invert};
 use crate::dynamics::{
-    FrameLanes, Impulses, JointClass, JointColour, JointTree, Joints, Slot, TreeAxis, TreeLink,
-    TreeNode, TreeRow, inverses, is_jointed, with_bucket,
+    Impulses, JointClass, JointColour, JointTree, Joints, Slot, TreeAxis, TreeLink, TreeNode,
+    TreeRow, inverses, is_jointed, with_bucket,
 };
 use crate::simd::{BLOCK, Simd, Three, add_times, times};
 use crate::stages::joint_solver::JointKernel;
@@ -154,10 +154,8 @@ pub(super) fn load(tree: &mut JointTree, rows: SharedRows<'_>) {
 pub(super) fn store(tree: &JointTree, rows: SharedRows<'_>) {
     for node in &tree.nodes[..tree.dynamic] {
         rows.update(node.body, |row| {
-            for (k, inverse) in inverses::<f32>((), row).into_iter().enumerate() {
-                if inverse > 0.0 {
-                    row[k] = node.v[k] as f32;
-                }
+            for k in (0..3).filter(|&k| node.inv[k] > 0.0) {
+                row[k] = node.v[k] as f32;
             }
         });
     }
@@ -186,7 +184,8 @@ pub(super) fn refresh<S: Simd>(
         let yields;
         with_bucket!(lanes, link.class, bucket => {
             let block = &bucket.blocks[link.slot as usize / BLOCK];
-            write(block, &block.frame, &stride, rows, link);
+            link.rigid = 0;
+            block.tie(&stride, &Pair::load(&stride, rows, &block.frame), link);
             // What slides would run away along its line.
             let slides = link.class == JointClass::Slider;
             yields = if slides { 0.0 } else { f64::from(block.frame.yields[stride.at]) };
@@ -257,23 +256,12 @@ fn stiffen(link: &TreeLink, nodes: &mut [TreeNode]) {
     }
 }
 
-fn write<B: JointKernel>(
-    block: &B,
-    frame: &FrameLanes,
-    stride: &Stride<f64>,
-    rows: SharedRows<'_>,
-    link: &mut TreeLink,
-) {
-    link.rigid = 0;
-    block.tie(stride, &Pair::load(stride, rows, frame), link);
-}
-
 /// Works out how the two bodies of a link answer an impulse along its free coordinate, as its rigid rows tie them.
 #[inline(always)]
 fn tie<S: Simd>(simd: S, link: &mut TreeLink, axis: &mut TreeAxis, a: &TreeNode, b: &TreeNode) {
     let own = link.coordinate.on;
-    axis.free = response(&own, &own, a, b);
-    link.coordinate.compliance = COMPLIANCE * axis.free;
+    let free = response(&own, &own, a, b);
+    link.coordinate.compliance = COMPLIANCE * free;
     let (mut coupling, mut mass) = ([0.0; 4], [[0.0; 4]; 3]);
     for i in 0..link.rigid {
         coupling[i] = response(&link.row(i), &own, a, b);
@@ -282,16 +270,14 @@ fn tie<S: Simd>(simd: S, link: &mut TreeLink, axis: &mut TreeAxis, a: &TreeNode,
         }
     }
     let per = times(simd, &invert(&mass, link.rigid), &coupling);
-    let (tied, least) =
-        (axis.free - dot3(&coupling, &per), f64::from(LEAST_COMPLEMENT) * axis.free);
+    let (tied, least) = (free - dot3(&coupling, &per), f64::from(LEAST_COMPLEMENT) * free);
     axis.tied = if tied > least { tied } else { least };
     axis.given = per.map(|x| -x);
     axis.on = own;
     for i in 0..link.rigid {
-        axis.on
-            .iter_mut()
-            .zip(&link.row(i))
-            .for_each(|(sum, on)| add_times(simd, sum, on, axis.given[i]));
+        for (sum, on) in axis.on.iter_mut().zip(&link.row(i)) {
+            add_times(simd, sum, on, axis.given[i]);
+        }
     }
 }
 
@@ -304,12 +290,6 @@ fn response(first: &[Three; 2], second: &[Three; 2], a: &TreeNode, b: &TreeNode)
         linear + turn * first[2] * second[2]
     };
     of(0, a) + of(1, b)
-}
-
-/// Velocity along a row.
-#[inline(always)]
-pub(super) fn velocity(on: &[Three; 2], a: &TreeNode, b: &TreeNode) -> f64 {
-    dot3(&on[1], &b.v) + dot3(&on[0], &a.v)
 }
 
 /// Applies an impulse along a row to both bodies of a link.

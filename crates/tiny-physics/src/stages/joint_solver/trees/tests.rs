@@ -81,7 +81,8 @@ fn random_tree(random: &mut Random) -> JointTree {
 
 fn add(tree: &mut JointTree, random: &mut Random, one: u32, other: u32, [child, parent]: [u32; 2]) {
     let ends = if random.below(2) == 0 { [one, other] } else { [other, one] };
-    let mut link = TreeLink::new(0, JointClass::Revolute, ends, child, parent);
+    let ([a, b], class) = (ends, JointClass::Revolute);
+    let mut link = TreeLink { class, a, b, child, parent, ..TreeLink::default() };
     link.rigid = 1 + random.below(2);
     link.limit = [0.0, 1.0, -1.0][random.below(3)];
     let mut rows = [(); 4].map(|()| random.row());
