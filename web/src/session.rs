@@ -107,6 +107,17 @@ impl Session {
         .map_err(words)
     }
 
+    /// Does what JavaScript asks for: what the engine passes over in silence is an error there.
+    pub(crate) fn order(&mut self, command: Command) -> Outcome<Made> {
+        let before = self.world().stats().refused_numbers;
+        let made = self.apply(command)?;
+        // Fewer where it went back to a frame.
+        if self.world().stats().refused_numbers > before {
+            return Err("a number is not finite, too large, or makes no sense".to_owned());
+        }
+        Ok(made)
+    }
+
     fn step(&mut self, dt: f32) -> Outcome {
         let settings = &self.world().settings;
         settings.validate().map_err(words)?;
