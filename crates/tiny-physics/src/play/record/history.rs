@@ -150,8 +150,7 @@ impl History {
             // A new world, not in place: handles have to come out as they did.
             let mut world = World::from_bytes(frame.as_ref().unwrap_or(&self.recording.first))?;
             world.take_equipment(&mut self.world);
-            (self.world, self.at) = (world, from);
-            self.frames.work = work;
+            (self.world, self.at, self.frames.work) = (world, from, work);
             self.commands.clear();
         }
         while self.at < step {
