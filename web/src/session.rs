@@ -13,7 +13,7 @@ use tiny_physics_scenes::{Commanded, Grip, PausedScript, Scene, Tape};
 enum Target {
     Plain(World),
     Recorded(Recorder),
-    Kept(Tape),
+    Kept(Box<Tape>),
 }
 
 /// What JavaScript calls a world.
@@ -136,7 +136,7 @@ impl Session {
         match &mut self.target {
             Target::Plain(world) => world.step(dt),
             Target::Recorded(recorder) => recorder.step(dt),
-            Target::Kept(tape) => Commanded::step(tape, dt),
+            Target::Kept(tape) => Commanded::step(&mut **tape, dt),
         }
         self.views.stale = true;
         Ok(())
@@ -222,7 +222,7 @@ pub extern "C" fn tp_new_recording(budget: f64) -> u32 {
         let tape = recording.and_then(|recording| Tape::of_recording(recording, budget as usize));
         let session = tape.map_err(words).map(|tape| {
             let dt = tape.dt();
-            Session::new(Target::Kept(tape), None, dt)
+            Session::new(Target::Kept(Box::new(tape)), None, dt)
         });
         shelf.put(session)
     })
@@ -347,7 +347,7 @@ pub extern "C" fn tp_keep(session: u32, budget: f64) -> bool {
     with(session, |session, _| {
         let world = core::mem::replace(session.plain()?, World::new(Vec2::ZERO));
         let tape = Tape::of_world(world, session.script.take(), session.dt, budget as usize);
-        session.target = Target::Kept(tape);
+        session.target = Target::Kept(Box::new(tape));
         Ok(())
     })
 }
