@@ -2,7 +2,6 @@
 
 use crate::handles::Handle;
 use crate::outcome::Outcome;
-use crate::session::Session;
 use crate::shelf::Shelf;
 use crate::{with, with_shelf};
 use tiny_physics::record::{BodyCommand, Command, Made};
@@ -12,7 +11,7 @@ use tiny_physics::{BodyId, BodyKind, CharacterMover, DVec2, Locks, Pose, Rot, Ve
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_apply(session: u32) -> bool {
     with(session, |session, shelf| {
-        let made = session.apply(shelf.read()?)?;
+        let made = session.order(shelf.read()?)?;
         answer(&made, shelf)
     })
 }
@@ -42,8 +41,7 @@ fn answer(made: &Made, shelf: &mut Shelf) -> Outcome {
     Ok(())
 }
 
-/// Does something to a body: which of [`body_command`]'s, and up to four numbers. What the engine would pass over in
-/// silence is an error here.
+/// Does something to a body: which of [`body_command`]'s, and up to four numbers.
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_body_command(
     session: u32,
@@ -56,10 +54,7 @@ pub extern "C" fn tp_body_command(
 ) -> bool {
     with(session, |session, _| {
         let command = body_command(which, [a, b, c, d]).ok_or("there is no such command")?;
-        let refused = |session: &Session| session.world().stats().refused_numbers;
-        let before = refused(session);
-        session.apply(Command::Body(BodyId::of(body), command))?;
-        if refused(session) == before { Ok(()) } else { Err("a number is too large".to_owned()) }
+        session.order(Command::Body(BodyId::of(body), command)).map(drop)
     })
 }
 
@@ -100,4 +95,52 @@ fn body_command(which: u32, [a, b, c, d]: [f64; 4]) -> Option<BodyCommand> {
         23 => BodyCommand::SetUserData(a as u64),
         _ => return None,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tiny_physics::record::FilterData;
+    use tiny_physics::{Explosion, RigidBody, Shape};
+
+    fn input(text: String) {
+        with_shelf(|shelf| shelf.input = text.into_bytes());
+    }
+
+    fn said() -> String {
+        with_shelf(|shelf| String::from_utf8_lossy(&shelf.text).into_owned())
+    }
+
+    /// What JavaScript is told of a command; nothing where it was done.
+    fn told(session: u32, command: Command) -> Option<String> {
+        input(serde_json::to_string(&command).unwrap());
+        (!tp_apply(session)).then(said)
+    }
+
+    #[test]
+    fn what_the_engine_refuses_is_said() {
+        input("{}".to_owned());
+        let session = crate::session::tp_new();
+        let ball = RigidBody::dynamic().shape(Shape::circle(1.0).unwrap());
+        assert_eq!(told(session, Command::AddBody(ball)), None);
+        let body = with_shelf(|shelf| shelf.numbers[0]);
+        let lead = |dt| {
+            let pose = Pose::new(DVec2::new(1.0, 0.0), Rot::IDENTITY);
+            Command::Body(BodyId::of(body), BodyCommand::SetTarget(pose, dt))
+        };
+        let blast = |radius| {
+            let explosion =
+                Explosion { center: DVec2::ZERO, radius, falloff: 1.0, impulse_per_metre: 1.0 };
+            Command::Explode(explosion, FilterData::default())
+        };
+        for done in [lead(1.0), blast(2.0)] {
+            assert_eq!(told(session, done), None);
+        }
+        for refused in [lead(0.0), blast(-1.0)] {
+            let words = told(session, refused);
+            assert!(words.as_ref().is_some_and(|w| w.contains("makes no sense")), "{words:?}");
+        }
+        assert!(!tp_body_command(session, body, 5, 1.0, 0.0, 0.0, 0.0));
+        assert!(said().contains("makes no sense"), "{}", said());
+    }
 }

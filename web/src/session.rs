@@ -13,7 +13,7 @@ use tiny_physics_scenes::{Commanded, Grip, PausedScript, Scene, Tape};
 enum Target {
     Plain(World),
     Recorded(Recorder),
-    Kept(Tape),
+    Kept(Box<Tape>),
 }
 
 /// What JavaScript calls a world.
@@ -107,6 +107,17 @@ impl Session {
         .map_err(words)
     }
 
+    /// Does what JavaScript asks for: what the engine passes over in silence is an error there.
+    pub(crate) fn order(&mut self, command: Command) -> Outcome<Made> {
+        let before = self.world().stats().refused_numbers;
+        let made = self.apply(command)?;
+        // Fewer where it went back to a frame.
+        if self.world().stats().refused_numbers > before {
+            return Err("a number is not finite, too large, or makes no sense".to_owned());
+        }
+        Ok(made)
+    }
+
     fn step(&mut self, dt: f32) -> Outcome {
         let settings = &self.world().settings;
         settings.validate().map_err(words)?;
@@ -125,7 +136,7 @@ impl Session {
         match &mut self.target {
             Target::Plain(world) => world.step(dt),
             Target::Recorded(recorder) => recorder.step(dt),
-            Target::Kept(tape) => Commanded::step(tape, dt),
+            Target::Kept(tape) => Commanded::step(&mut **tape, dt),
         }
         self.views.stale = true;
         Ok(())
@@ -211,7 +222,7 @@ pub extern "C" fn tp_new_recording(budget: f64) -> u32 {
         let tape = recording.and_then(|recording| Tape::of_recording(recording, budget as usize));
         let session = tape.map_err(words).map(|tape| {
             let dt = tape.dt();
-            Session::new(Target::Kept(tape), None, dt)
+            Session::new(Target::Kept(Box::new(tape)), None, dt)
         });
         shelf.put(session)
     })
@@ -336,7 +347,7 @@ pub extern "C" fn tp_keep(session: u32, budget: f64) -> bool {
     with(session, |session, _| {
         let world = core::mem::replace(session.plain()?, World::new(Vec2::ZERO));
         let tape = Tape::of_world(world, session.script.take(), session.dt, budget as usize);
-        session.target = Target::Kept(tape);
+        session.target = Target::Kept(Box::new(tape));
         Ok(())
     })
 }

@@ -129,9 +129,9 @@ pub(crate) struct Words {
     pub(crate) figures: Vec<Figure>,
 }
 
-/// Findings kept of one code; of more is remembered what they are about.
+/// Findings kept of one kind; of more is remembered what they are about.
 const KEPT: usize = 16;
-/// What more findings of one code may be about; beyond it is not counted.
+/// What more findings of one kind may be about; beyond it is not counted.
 const COUNTED: usize = 1000;
 
 /// Steps by which a cause may be told later than what it brings about: some are seen sooner than others.
@@ -140,14 +140,18 @@ const SOON: u64 = 120;
 /// All that was found.
 #[derive(Default, Debug, Clone)]
 pub(crate) struct Findings {
-    found: BTreeMap<Code, BTreeMap<About, Finding>>,
-    more: BTreeMap<Code, BTreeSet<(u32, bool)>>,
+    found: BTreeMap<Kind, BTreeMap<About, Finding>>,
+    more: BTreeMap<Kind, BTreeSet<(u32, bool)>>,
 }
+
+/// A code and the name of what was measured: numbers of bodies and of sensors are not to be compared.
+type Kind = (Code, &'static str);
 
 impl Findings {
     /// Books a sighting; asks for words where it is new or worse than before.
     pub(crate) fn add(&mut self, look: &Look<'_>, seen: Sighting, words: impl FnOnce() -> Words) {
-        let kept = self.found.entry(seen.code).or_default();
+        let kind = (seen.code, seen.figure.name);
+        let kept = self.found.entry(kind).or_default();
         if let Some(known) = kept.get_mut(&seen.about) {
             known.count += 1;
             known.last_step = look.step;
@@ -161,16 +165,22 @@ impl Findings {
         } else if kept.len() < KEPT {
             kept.insert(seen.about, describe(look, &seen, words()));
         } else {
-            let more = self.more.entry(seen.code).or_default();
+            let more = self.more.entry(kind).or_default();
             if more.len() < COUNTED {
                 more.insert(seen.about.place());
             }
         }
     }
 
+    /// All findings of a code, by what was measured.
+    fn of(&self, code: Code) -> impl Iterator<Item = &BTreeMap<About, Finding>> + Clone {
+        let from = self.found.range((code, "")..);
+        from.take_while(move |(kind, _)| kind.0 == code).map(|(_, kept)| kept)
+    }
+
     /// Is anything of this code known about a body?
     pub(crate) fn has(&self, code: Code, about: About) -> bool {
-        self.found.get(&code).is_some_and(|kept| kept.contains_key(&about))
+        self.of(code).any(|kept| kept.contains_key(&about))
     }
 
     /// Bytes of all that is kept.
@@ -178,7 +188,7 @@ impl Findings {
         let kept = self.found.values().flat_map(BTreeMap::values);
         kept.map(Finding::memory).sum::<usize>()
             + self.more.values().map(BTreeSet::len).sum::<usize>() * size_of::<(u32, bool)>()
-            + (self.found.len() + self.more.len()) * size_of::<(Code, BTreeMap<About, Finding>)>()
+            + (self.found.len() + self.more.len()) * size_of::<(Kind, BTreeMap<About, Finding>)>()
     }
 
     /// What was seen last; of several the worst, causes before their effects.
@@ -190,10 +200,10 @@ impl Findings {
         })
     }
 
-    /// One finding for each code and severity: the one that weighs most; the others are counted.
+    /// One finding for each code, measured figure and severity: the one that weighs most; the others are counted.
     pub(crate) fn report(&self, steps: u64, bodies: usize) -> Report {
         let mut findings: Vec<Finding> = Vec::new();
-        for (code, kept) in &self.found {
+        for (kind, kept) in &self.found {
             let mut worst: BTreeMap<Severity, Finding> = BTreeMap::new();
             for finding in kept.values() {
                 let Some(known) = worst.get_mut(&finding.severity) else {
@@ -207,7 +217,7 @@ impl Findings {
                 known.others = others;
             }
             if let Some(mut most) = worst.last_entry() {
-                most.get_mut().others += self.more.get(code).map_or(0, |more| more.len() as u64);
+                most.get_mut().others += self.more.get(kind).map_or(0, |more| more.len() as u64);
             }
             findings.extend(worst.into_values());
         }
@@ -218,12 +228,9 @@ impl Findings {
 
     /// Is a kind of finding the cause of another one here: about the same body or joint, or about the world, and not later?
     fn brings_about(&self, cause: Code, effect: Code) -> bool {
-        let (Some(causes), Some(effects)) = (self.found.get(&cause), self.found.get(&effect))
-        else {
-            return false;
-        };
+        let effects = self.of(effect).flat_map(BTreeMap::values);
         cause.brings_about().contains(&effect)
-            && causes.iter().any(|(about, cause)| {
+            && self.of(cause).flatten().any(|(about, cause)| {
                 let same = |effect: &Finding| *about == About::World || cause.shares_with(effect);
                 let late = match cause.code {
                     Code::EnergyGain => 0,
@@ -232,7 +239,7 @@ impl Findings {
                     _ => SOON,
                 };
                 let soon = |effect: &Finding| cause.first_step <= effect.first_step + late;
-                effects.values().any(|effect| same(effect) && soon(effect))
+                effects.clone().any(|effect| same(effect) && soon(effect))
             })
     }
 }

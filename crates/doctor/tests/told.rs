@@ -108,3 +108,34 @@ fn all_that_is_alike_is_counted() {
     let told: u64 = fights.map(|found| 1 + found.others).sum();
     assert_eq!(told, 80);
 }
+
+#[test]
+fn findings_about_the_world_do_not_hide_each_other() {
+    let mut world = World::new(Vec2::ZERO);
+    world.settings.substeps = 60;
+    for i in 0..2100 {
+        let place = Vec2::new(3.0 * i as f32, 0.0);
+        let body = if i < 60 { RigidBody::dynamic() } else { RigidBody::fixed() };
+        world.add_body(body.position(place).shape(Shape::circle(0.5).unwrap())).unwrap();
+    }
+    let report = run(&mut world, 5, |_| DT);
+    let slow: Vec<_> = report.findings.iter().filter(|f| f.code == Code::Slow).collect();
+    let told = |word| slow.iter().any(|found| found.what.contains(word));
+    assert!(told("static bodies") && told("times a step"), "{report}");
+    assert!(slow.iter().all(|found| found.others == 0), "{report}");
+}
+
+#[test]
+fn refused_numbers_and_stale_handles_are_both_told() {
+    let (mut world, ball) = alone();
+    let gone = world.add_body(RigidBody::dynamic()).unwrap();
+    world.remove_body(gone).unwrap();
+    world.body_mut(ball).unwrap().set_velocity(Vec2::new(f32::NAN, 0.0));
+    let _ = world.remove_body(gone);
+    let _ = world.body_mut(gone);
+    assert!(world.stats().stale_handles > 0, "the test is of two findings");
+    let report = run(&mut world, 2, |_| DT);
+    let told: Vec<_> = report.findings.iter().map(|f| (f.code, f.severity)).collect();
+    let both = [Severity::Error, Severity::Note].map(|severity| (Code::RefusedInput, severity));
+    assert_eq!(told, both, "{report}");
+}

@@ -1,7 +1,7 @@
 //! A body that is held and pulled, by a mouse or a finger.
 
 use tiny_physics::record::{BodyCommand, Command};
-use tiny_physics::{BodyId, BodyKind, DVec2, QueryFilter, Vec2, World};
+use tiny_physics::{BodyId, BodyKind, DVec2, QueryFilter, Shape, Vec2, World};
 
 /// A held point reaches the pointer at this rate, 1/s.
 const RATE: f32 = 12.0;
@@ -63,8 +63,38 @@ impl Grip {
         let change = if change.length() > most { change.normalized() * most } else { change };
         // What the point weighs against an impulse: less than the body where it can turn.
         let (mass, inertia) = (body.mass(), body.inertia());
-        let turning = if inertia > 0.0 { arm.length_sq() * mass / inertia } else { 0.0 };
+        // It has its inertia even where nothing turns it.
+        let upright = |id| world.shape(id).is_some_and(|s| matches!(s.shape(), Shape::Aabb { .. }));
+        let turns = inertia > 0.0 && !body.locks().rotation && !body.shapes().any(upright);
+        let turning = if turns { arm.length_sq() * mass / inertia } else { 0.0 };
         let impulse = change * (mass / (1.0 + turning));
         Some(Command::Body(self.body, BodyCommand::ApplyImpulse(impulse, point)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tiny_physics::{Locks, RigidBody};
+
+    /// How fast a corner of a body is after a pull that asks for 1.2 m/s.
+    fn pulled(body: RigidBody) -> f32 {
+        let mut world = World::new(Vec2::ZERO);
+        let body = world.add_body(body).unwrap();
+        let corner = DVec2::new(0.9, 0.2);
+        let mut grip = Grip::take(&world, corner).unwrap();
+        grip.target = DVec2::new(0.9, 0.3);
+        grip.pull(&world, 1.0 / 60.0).unwrap().apply(&mut world).unwrap();
+        world.body(body).unwrap().velocity_at(corner).y
+    }
+
+    #[test]
+    fn what_cannot_turn_is_pulled_as_strongly() {
+        let plank = RigidBody::dynamic().shape(Shape::rect(1.0, 0.25).unwrap());
+        let locked = plank.clone().locks(Locks { rotation: true, ..Locks::default() });
+        let half_extents = Vec2::new(1.0, 0.25);
+        let upright = RigidBody::dynamic().shape(Shape::Aabb { half_extents });
+        let speeds = [plank, locked, upright].map(pulled);
+        assert!(speeds.iter().all(|speed| (speed - 1.2).abs() < 0.1), "{speeds:?}");
     }
 }

@@ -7,6 +7,9 @@ use tiny_physics::{Error, World};
 
 /// Steps between two marks of a script.
 const MARKS: usize = 60;
+/// They may be farther apart by this part of their age: what goes on from long ago may take longer, and a long run has
+/// few more marks than a short one.
+const FADING: usize = 16;
 
 /// A [`History`] with the script of a scene: where the run goes on from a step in the past, so does the script.
 ///
@@ -111,6 +114,7 @@ impl Tape {
         if let Some(script) = &mut self.script {
             if at.is_multiple_of(MARKS) && self.marks.last().is_some_and(|(step, _)| *step < at) {
                 self.marks.push((at, script.clone()));
+                thin_out(&mut self.marks);
             }
             script.before_step(&mut self.history);
         }
@@ -160,6 +164,20 @@ impl Tape {
     }
 }
 
+/// Drops marks that are closer to each other than their age asks for; never the first or the last.
+fn thin_out<T>(marks: &mut Vec<(usize, T)>) {
+    let Some(&(now, _)) = marks.last() else { return };
+    let mut i = 1;
+    while i + 1 < marks.len() {
+        let (before, after) = (marks[i - 1].0, marks[i + 1].0);
+        if FADING * (after - before) <= now - after {
+            marks.remove(i);
+        } else {
+            i += 1;
+        }
+    }
+}
+
 impl Commanded for Tape {
     fn world(&self) -> &World {
         self.world()
@@ -176,6 +194,7 @@ impl Commanded for Tape {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::script::{Rain, Script};
     use crate::{Options, Run, find};
     use tiny_physics::record::BodyCommand;
     use tiny_physics::{BodyId, Vec2};
@@ -220,6 +239,41 @@ mod tests {
                 }
                 tape.step();
                 assert_eq!(tape.world().state_hash(), hashes[step + 1], "{name} on to {step}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_long_run_has_few_marks_and_none_is_far_away() {
+        let mut marks = vec![(0, ())];
+        for now in (MARKS..=1_000_000).step_by(MARKS) {
+            marks.push((now, ()));
+            thin_out(&mut marks);
+        }
+        assert!(marks.len() < 250, "{}", marks.len());
+        assert!(marks.windows(2).all(|two| {
+            let gap = two[1].0 - two[0].0;
+            gap <= MARKS.max(999_960 / FADING - two[0].0 / FADING)
+        }));
+    }
+
+    #[test]
+    fn a_scripted_run_keeps_few_marks_and_goes_on_from_anywhere() {
+        let mut scene = find("rain").unwrap().build(Options::default());
+        scene.script =
+            Some(Script::Rain(Rain { rows: 1, columns: 2, group: 1, ..Rain::default() }));
+        let mut tape = Tape::of_scene(&scene, 8 << 20).unwrap();
+        let hashes = play(&mut tape, 3000);
+        assert!(tape.marks.len() < 45, "{}", tape.marks.len());
+        for from in [2990, 1111] {
+            tape.go_to(from).unwrap();
+            tape.forget_later();
+            for step in from..from + 10 {
+                if step % 17 == 5 {
+                    tape.apply(push(&tape, step)).unwrap();
+                }
+                tape.step();
+                assert_eq!(tape.world().state_hash(), hashes[step + 1], "on to {step}");
             }
         }
     }

@@ -72,7 +72,11 @@ impl PausedScript {
     pub fn start(scene: &Scene) -> Result<(Self, World), Error> {
         let run = Run::start(scene)?;
         let mut world = World::new(scene.gravity);
-        let script = run.map(|host| host.onto((), |target| world = target));
+        let mut script = run.map(|host| host.onto((), |target| world = target));
+        // What comes now comes from the script, which forgets the numbers of what it removes.
+        let host = script.host_mut();
+        host.bodies.lasting = host.bodies.ids.len();
+        host.joints.lasting = host.joints.ids.len();
         Ok((Self(Some(script)), world))
     }
 
@@ -88,7 +92,7 @@ impl PausedScript {
     /// The world's handle of a body of the scene.
     pub fn body_id(&self, body: usize) -> Option<BodyId> {
         let script = self.0.as_ref()?;
-        script.host().bodies.get(*script.bodies().get(body)?).copied().flatten()
+        script.host().bodies.get(*script.bodies().get(body)?)
     }
 
     /// The first thing that the world refused.
@@ -166,9 +170,45 @@ pub type WorldHost = CommandHost<World>;
 #[derive(Clone, Debug)]
 pub struct CommandHost<T> {
     target: T,
-    bodies: Vec<Option<BodyId>>,
-    joints: Vec<Option<JointId>>,
+    bodies: Numbers<BodyId>,
+    joints: Numbers<JointId>,
     error: Option<Error>,
+}
+
+/// Handles by number.
+#[derive(Clone, Debug)]
+struct Numbers<I> {
+    ids: Vec<Option<I>>,
+    /// Places of what is gone, to be used again, so that a script that adds and removes for ever stays small.
+    free: Vec<usize>,
+    /// Places below are never used again: a timeline may speak of bodies of its scene that are gone.
+    lasting: usize,
+}
+
+impl<I: Copy> Numbers<I> {
+    /// Without any; no place is used again so far.
+    fn new() -> Self {
+        Self { ids: Vec::new(), free: Vec::new(), lasting: usize::MAX }
+    }
+
+    fn get(&self, number: usize) -> Option<I> {
+        self.ids.get(number).copied().flatten()
+    }
+
+    fn add(&mut self, id: Option<I>) -> usize {
+        if let Some(number) = self.free.pop() {
+            self.ids[number] = id;
+            return number;
+        }
+        self.ids.push(id);
+        self.ids.len() - 1
+    }
+
+    fn remove(&mut self, number: usize) {
+        if self.ids.get_mut(number).and_then(Option::take).is_some() && number >= self.lasting {
+            self.free.push(number);
+        }
+    }
 }
 
 impl WorldHost {
@@ -212,7 +252,7 @@ impl<T> CommandHost<T> {
 impl<T: Commanded> CommandHost<T> {
     /// Sends commands to something in whose world nothing is yet.
     pub fn on(target: T) -> Self {
-        Self { target, bodies: Vec::new(), joints: Vec::new(), error: None }
+        Self { target, bodies: Numbers::new(), joints: Numbers::new(), error: None }
     }
 
     /// The world.
@@ -222,12 +262,12 @@ impl<T: Commanded> CommandHost<T> {
 
     /// The world's handle of a body.
     pub fn body_id(&self, body: usize) -> Option<BodyId> {
-        self.bodies.get(body).copied().flatten()
+        self.bodies.get(body)
     }
 
     /// The world's handle of a joint.
     pub fn joint_id(&self, joint: usize) -> Option<JointId> {
-        self.joints.get(joint).copied().flatten()
+        self.joints.get(joint)
     }
 
     /// The first thing that the world refused.
@@ -294,14 +334,13 @@ impl<T: Commanded> CommandHost<T> {
 impl<T: Commanded> Host for CommandHost<T> {
     fn add_body(&mut self, body: &RigidBody) -> usize {
         let made = self.apply(Command::AddBody(body.clone()));
-        self.bodies.push(if let Made::Body(id) = made { Some(id) } else { None });
-        self.bodies.len() - 1
+        self.bodies.add(if let Made::Body(id) = made { Some(id) } else { None })
     }
 
     fn remove_body(&mut self, body: usize) {
         if let Some(id) = self.body_id(body) {
             self.apply(Command::RemoveBody(id));
-            self.bodies[body] = None;
+            self.bodies.remove(body);
         }
     }
 
@@ -310,14 +349,13 @@ impl<T: Commanded> Host for CommandHost<T> {
             (Some(a), Some(b)) => self.apply(Command::AddJoint(a, b, *def)),
             _ => Made::Nothing,
         };
-        self.joints.push(if let Made::Joint(id) = made { Some(id) } else { None });
-        self.joints.len() - 1
+        self.joints.add(if let Made::Joint(id) = made { Some(id) } else { None })
     }
 
     fn remove_joint(&mut self, joint: usize) {
         if let Some(id) = self.joint_id(joint) {
             self.apply(Command::RemoveJoint(id));
-            self.joints[joint] = None;
+            self.joints.remove(joint);
         }
     }
 
@@ -397,5 +435,40 @@ impl<T: Commanded> Host for CommandHost<T> {
             return false;
         };
         body.shapes().any(|shape| self.world().sensor_overlaps(shape).next().is_some())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::script::{Rain, Script};
+    use crate::{Options, find};
+
+    #[test]
+    fn a_script_that_adds_and_removes_stays_as_small_as_its_world() {
+        let mut scene = find("rain").unwrap().build(Options::default());
+        scene.script =
+            Some(Script::Rain(Rain { rows: 1, columns: 2, group: 1, ..Rain::default() }));
+        let (mut script, mut world) = PausedScript::start(&scene).unwrap();
+        let mut most = 0;
+        for _ in 0..2000 {
+            script.before_step(&mut world);
+            world.step(scene.dt);
+            most = most.max(world.body_count());
+        }
+        let host = script.0.as_ref().unwrap().host();
+        let (bodies, joints) = (host.bodies.ids.len(), host.joints.ids.len());
+        assert!(bodies <= most && joints <= 2 * most, "{bodies}, {joints} of {most}");
+    }
+
+    #[test]
+    fn numbers_of_the_scene_itself_are_not_used_again() {
+        let mut numbers = Numbers::new();
+        let [a, b] = [10, 11].map(|id| numbers.add(Some(id)));
+        numbers.lasting = 2;
+        let c = numbers.add(Some(12));
+        [a, c, c].into_iter().for_each(|number| numbers.remove(number));
+        assert_eq!([13, 14].map(|id| numbers.add(Some(id))), [c, 3]);
+        assert_eq!([a, b, c].map(|number| numbers.get(number)), [None, Some(11), Some(13)]);
     }
 }

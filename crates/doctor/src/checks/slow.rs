@@ -86,12 +86,12 @@ fn report(
     look: &Look<'_>,
     about: About,
     severity: Severity,
-    [count, bound]: [usize; 2],
+    (name, count, bound): (&'static str, usize, usize),
     what: String,
     advice: &'static str,
     findings: &mut Findings,
 ) {
-    let figure = figure("count", count as f32, bound as f32, "");
+    let figure = figure(name, count as f32, bound as f32, "");
     let bodies = if let About::Body(id) = about { vec![id] } else { Vec::new() };
     findings.add(look, Sighting::new(Code::Slow, severity, about, figure), || Words {
         what,
@@ -106,7 +106,15 @@ fn check_debug(look: &Look<'_>, findings: &mut Findings) {
     if cfg!(debug_assertions) && awake > DEBUG {
         let advice = "build with --release, or give the engine opt-level = 3 in the dev profile";
         let what = format!("{awake} bodies are simulated in a debug build");
-        report(look, About::World, Severity::Note, [awake, DEBUG], what, advice, findings);
+        report(
+            look,
+            About::World,
+            Severity::Note,
+            ("bodies in a debug build", awake, DEBUG),
+            what,
+            advice,
+            findings,
+        );
     }
 }
 
@@ -121,7 +129,15 @@ fn check_rounds(look: &Look<'_>, findings: &mut Findings) {
             "{} substeps of {} iterations solve every contact {rounds} times a step",
             settings.substeps, settings.iterations
         );
-        report(look, About::World, Severity::Note, [rounds, ROUNDS], what, advice, findings);
+        report(
+            look,
+            About::World,
+            Severity::Note,
+            ("rounds", rounds, ROUNDS),
+            what,
+            advice,
+            findings,
+        );
     }
 }
 
@@ -140,7 +156,7 @@ fn check_sight(look: &Look<'_>, findings: &mut Findings) {
     let advice =
         "make sensors smaller or give them masks; ask for distance where one question is enough";
     let what = format!("sensors overlap {seen} shapes in all, {widest} alone {}", most.0);
-    report(look, About::World, Severity::Note, [seen, SEEN], what, advice, findings);
+    report(look, About::World, Severity::Note, ("shapes seen", seen, SEEN), what, advice, findings);
 }
 
 fn check_awake<'a>(
@@ -153,7 +169,15 @@ fn check_awake<'a>(
         let advice =
             "turn Settings::sleep on and can_sleep; see what the finding never_sleeps says";
         let what = format!("{awake} bodies are at rest and simulated all the same");
-        report(look, About::World, Severity::Note, [awake, AWAKE], what, advice, findings);
+        report(
+            look,
+            About::World,
+            Severity::Note,
+            ("bodies awake at rest", awake, AWAKE),
+            what,
+            advice,
+            findings,
+        );
     }
 }
 
@@ -166,7 +190,15 @@ fn check_singles(look: &Look<'_>, findings: &mut Findings) {
     if count > SINGLES {
         let advice = "make the level of one body with many shapes, of chains, or of a tile grid (World::add_tiles)";
         let what = format!("the level is made of {count} static bodies with a shape each");
-        report(look, About::World, Severity::Note, [count, SINGLES], what, advice, findings);
+        report(
+            look,
+            About::World,
+            Severity::Note,
+            ("static bodies", count, SINGLES),
+            what,
+            advice,
+            findings,
+        );
     }
 }
 
@@ -183,12 +215,28 @@ fn check_shapes(look: &Look<'_>, findings: &mut Findings) {
     if sensors > SENSORS {
         let advice = "let one larger sensor or an overlap query stand for many; give sensors masks";
         let what = format!("{sensors} sensors ask in each step what they overlap");
-        report(look, About::World, Severity::Note, [sensors, SENSORS], what, advice, findings);
+        report(
+            look,
+            About::World,
+            Severity::Note,
+            ("sensors", sensors, SENSORS),
+            what,
+            advice,
+            findings,
+        );
     } else if polygons > POLYGONS {
         let advice =
             "boxes, circles and capsules cost less than polygons of more than four corners";
         let what = format!("{polygons} moving polygons have more than four corners");
-        report(look, About::World, Severity::Note, [polygons, POLYGONS], what, advice, findings);
+        report(
+            look,
+            About::World,
+            Severity::Note,
+            ("polygons", polygons, POLYGONS),
+            what,
+            advice,
+            findings,
+        );
     }
 }
 
@@ -201,7 +249,7 @@ pub(crate) fn check_hub(look: &Look<'_>, body: &Body<'_>, touches: usize, findin
             look,
             About::Body(body.id()),
             Severity::Note,
-            [touches, HUB],
+            ("contacts", touches, HUB),
             what,
             advice,
             findings,

@@ -41,14 +41,22 @@ pub struct History {
     seen: usize,
     /// What has been done to the world since.
     commands: Vec<Command>,
+    /// About the memory that the steps take, bytes.
+    recorded: usize,
 }
 
 impl History {
-    /// Begins with the world as it is. About `budget` bytes are kept, but at least the first frame and the commands.
+    /// Begins with the world as it is. About `budget` bytes are kept, but at least the first frame and the commands; half
+    /// of it is left to frames where those need more, so that a long run can still be gone back in.
     pub fn new(world: World, budget: usize) -> Self {
         let recording = Recording { first: world.to_bytes(), steps: Vec::new() };
+        Self::of(world, recording, budget)
+    }
+
+    fn of(world: World, recording: Recording, budget: usize) -> Self {
+        let recorded = recording.steps.iter().map(Step::rough_bytes).sum();
         let frames = Frames::new(budget);
-        Self { world, recording, frames, at: 0, seen: 0, commands: Vec::new() }
+        Self { world, recording, frames, at: 0, seen: 0, commands: Vec::new(), recorded }
     }
 
     /// Opens a recording at its beginning; going forward in it fills in frames.
@@ -56,9 +64,7 @@ impl History {
     /// # Errors
     /// The first frame cannot be read.
     pub fn open(recording: Recording, budget: usize) -> Result<Self, Error> {
-        let world = World::from_bytes(&recording.first)?;
-        let frames = Frames::new(budget);
-        Ok(Self { world, recording, frames, at: 0, seen: 0, commands: Vec::new() })
+        World::from_bytes(&recording.first).map(|world| Self::of(world, recording, budget))
     }
 
     /// The world as of the current step, to read.
@@ -93,7 +99,7 @@ impl History {
 
     /// Bytes besides frames.
     fn taken(&self) -> usize {
-        self.recording.first.len() + self.recording.rough_bytes()
+        self.recording.first.len() + self.recorded
     }
 
     /// Does something to the world. What came after the current step is forgotten.
@@ -109,7 +115,8 @@ impl History {
 
     /// Forgets what came after the current step.
     pub fn forget_later(&mut self) {
-        self.recording.steps.truncate(self.at);
+        let forgotten = self.recording.steps.drain(self.at..);
+        self.recorded -= forgotten.map(|step| step.rough_bytes()).sum::<usize>();
         self.frames.forget_after(self.at);
     }
 
@@ -121,8 +128,11 @@ impl History {
         if self.world.step_count() == made {
             return;
         }
-        let commands = core::mem::take(&mut self.commands);
-        self.recording.steps.push(Step { commands, dt, hash: self.world.state_hash() });
+        // No longer than needed, as it stays: a list that grew has room for four of its large commands.
+        let commands = self.commands.drain(..).collect();
+        let step = Step { commands, dt, hash: self.world.state_hash() };
+        self.recorded += step.rough_bytes();
+        self.recording.steps.push(step);
         self.arrive();
         self.seen = self.at;
     }
@@ -134,14 +144,13 @@ impl History {
     /// version of the engine.
     pub fn go_to(&mut self, step: usize) -> Result<(), Error> {
         let step = step.min(self.len());
-        let from = self.frames.last_before(step);
+        let (from, work) = self.frames.last_before(step);
         if step < self.at || from > self.at || !self.commands.is_empty() {
             let frame = self.frames.get(from)?;
             // A new world, not in place: handles have to come out as they did.
             let mut world = World::from_bytes(frame.as_ref().unwrap_or(&self.recording.first))?;
             world.take_equipment(&mut self.world);
-            (self.world, self.at) = (world, from);
-            self.frames.work = self.frames.work_before(from);
+            (self.world, self.at, self.frames.work) = (world, from, work);
             self.commands.clear();
         }
         while self.at < step {
@@ -160,9 +169,8 @@ impl History {
     /// Counts a step, and keeps a frame where one is due.
     fn arrive(&mut self) {
         self.at += 1;
-        let World { settings, .. } = &self.world;
         let moved = 1 + self.world.awake_body_count() + self.world.contact_count();
-        self.frames.work += moved as u64 * u64::from(settings.substeps);
+        self.frames.work += moved as u64 * u64::from(self.world.settings.substeps);
         if self.at >= self.frames.due {
             self.frames.keep(self.at, self.world.to_bytes_of_next(), self.taken());
         }
@@ -215,6 +223,8 @@ impl Frames {
         delta.shrink_to_fit();
         self.bytes += delta.len();
         self.kept.push(Kept { step, work: self.work, whole, delta });
+        // Commands cannot be dropped; without frames every seek would play the whole run.
+        let taken = taken.min(self.budget / 2);
         while self.bytes + self.whole.len() + taken > self.budget && self.thin_out(step) {}
     }
 
@@ -253,15 +263,10 @@ impl Frames {
             .unwrap_or_default();
     }
 
-    /// The last step before one of which there is a frame: that is whole again a step later.
-    fn last_before(&self, step: usize) -> usize {
-        self.kept.iter().rfind(|kept| kept.step < step).map_or(0, |kept| kept.step)
-    }
-
-    /// Counted work up to a step that is kept, or the beginning.
-    fn work_before(&self, step: usize) -> u64 {
-        let found = self.kept.binary_search_by_key(&step, |kept| kept.step);
-        found.map_or(0, |i| self.kept[i].work)
+    /// The last step before one of which there is a frame, that is whole again a step later, and counted work up to it.
+    fn last_before(&self, step: usize) -> (usize, u64) {
+        let kept = self.kept.iter().rfind(|kept| kept.step < step);
+        kept.map_or((0, 0), |kept| (kept.step, kept.work))
     }
 
     /// The frame of a step; none of the beginning.
@@ -339,6 +344,44 @@ mod tests {
         }
         let (none, _) = run(0, 100);
         assert!(none.frames.kept.len() <= 2);
+    }
+
+    /// A command a step for so long that they alone are over the budget.
+    #[test]
+    fn commands_leave_room_for_frames() {
+        const BUDGET: usize = 200_000;
+        let mut history = History::new(World::new(Vec2::new(0.0, -9.8)), BUDGET);
+        let ball = RigidBody::dynamic().shape(Shape::circle(0.3).unwrap());
+        history.apply(Command::AddBody(ball)).unwrap();
+        let ball = history.world().body_ids().next().unwrap();
+        let push = Command::Body(ball, BodyCommand::ApplyForceToCenter(Vec2::new(0.1, 9.0)));
+        for _ in 0..1000 {
+            history.apply(push.clone()).unwrap();
+            history.step(1.0 / 60.0);
+        }
+        let each = history.taken() / history.len();
+        assert!(each < 2 * size_of::<Command>(), "{each} bytes a step");
+        assert!(history.taken() > BUDGET);
+        let kept = &history.frames.kept;
+        let gap = kept.windows(2).map(|two| two[1].step - two[0].step).max();
+        assert!(kept.len() > 30 && gap < Some(100), "{} frames, {gap:?} apart", kept.len());
+        // What is counted is what is there, also after going on from the past, and in a file.
+        history.go_to(600).unwrap();
+        history.step(1.0 / 60.0);
+        let opened = History::open(history.recording().clone(), BUDGET).unwrap();
+        assert_eq!((history.len(), history.taken()), (601, opened.taken()));
+    }
+
+    #[test]
+    fn what_commands_point_to_is_counted() {
+        let mut history = History::new(World::new(Vec2::ZERO), 0);
+        let frame = history.world().to_bytes();
+        let before = history.taken();
+        (0..100).for_each(|_| drop(history.apply(Command::RestoreBytes(frame.clone())).unwrap()));
+        history.step(1.0 / 60.0);
+        let taken = history.taken() - before;
+        let least = 100 * (frame.len() + size_of::<Command>());
+        assert!((least..least + least / 10).contains(&taken), "{taken}, not {least}");
     }
 
     /// What is done in the past makes another run of it, bit for bit that of one who never saw the first.

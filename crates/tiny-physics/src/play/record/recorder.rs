@@ -39,7 +39,8 @@ impl Recorder {
     /// Moves the world on and notes it.
     pub fn step(&mut self, dt: f32) {
         self.world.step(dt);
-        let commands = core::mem::take(&mut self.commands);
+        // No longer than needed, as it stays.
+        let commands = self.commands.drain(..).collect();
         self.recording.steps.push(Step { commands, dt, hash: self.world.state_hash() });
     }
 

@@ -32,6 +32,13 @@ impl Step {
         let made = world.try_step(self.dt).is_ok();
         Ok(!(looked_at && made) || world.state_hash() == self.hash)
     }
+
+    /// About how much memory it takes: what its commands point to is as long as their bytes.
+    pub(super) fn rough_bytes(&self) -> usize {
+        let mut sink = Sink::new();
+        self.commands.save(&mut sink);
+        size_of::<Self>() + size_of_val(&*self.commands) + sink.bytes().len()
+    }
 }
 
 /// A run: its first frame and what was done in each step.
@@ -53,12 +60,6 @@ impl Recording {
     /// Is there no step?
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()
-    }
-
-    /// About how much memory the steps take.
-    pub(super) fn rough_bytes(&self) -> usize {
-        let commands: usize = self.steps.iter().map(|step| step.commands.capacity()).sum();
-        self.steps.capacity() * size_of::<Step>() + commands * size_of::<Command>()
     }
 
     /// The state hash after a step, counted from 1.
