@@ -5,7 +5,8 @@ mod common;
 
 use common::{DT, Random, circle, rect, steps, world};
 use tiny_physics::{
-    BodyId, ChainDef, JointDef, Locks, Polygon, RigidBody, Rot, ShapeDef, TileGrid, Vec2, World,
+    BodyId, ChainDef, DVec2, JointDef, Locks, Polygon, RigidBody, Rot, Settings, ShapeDef,
+    TileGrid, Vec2, World,
 };
 
 fn dynamic(world: &mut World, shape: ShapeDef, place: Vec2) -> BodyId {
@@ -323,6 +324,34 @@ fn endless_ground_is_as_good_as_any() {
                 steps(&mut world, 12);
                 let up = world.body(ball).expect("a ball").velocity().y;
                 assert!(up > 0.45 * speed - 2.0, "{half} {radius}: {up} of {speed}");
+            }
+        }
+    }
+}
+
+/// What slides on a half-space far from its point, at whatever slope and in whatever unit, keeps its speed and its height.
+#[test]
+fn half_spaces_are_endless_in_every_unit() {
+    for unit in [0.01_f32, 1.0, 100.0] {
+        for (normal, angle) in [(Vec2::Y, 0.0_f32), (Vec2::new(0.6, 0.8), -0.643_501_1)] {
+            for far in [0.0, 15.0, 997.0, 4e3].map(|far| far * unit) {
+                let settings = Settings { length_unit: unit, ..Settings::default() };
+                let mut world = World::with_settings(normal * (-10.0 * unit), settings);
+                let floor = ChainDef::half_space((0.0, 0.0), normal).friction(0.0);
+                world.add_body(RigidBody::fixed().chain(&floor).expect("a floor")).expect("it");
+                let (way, shape) = (normal.perp(), rect(0.3 * unit, 0.2 * unit));
+                let place = DVec2::from(way) * f64::from(far) + normal * (0.21 * unit);
+                let body = RigidBody::dynamic().position(place).angle(angle).can_sleep(false);
+                let body = body.velocity(way * (3.0 * unit));
+                let body = world.add_body(body.shape(ShapeDef::new(shape).friction(0.0)));
+                let body = body.expect("a box");
+                steps(&mut world, 120);
+                let body = world.body(body).expect("a box");
+                let place = body.pose().p;
+                let off = (place.dot(normal.into()) as f32 - 0.2 * unit).abs();
+                let speed = body.velocity().dot(way) / (3.0 * unit);
+                let told = format!("{unit} {normal} {far}: {off} {speed}");
+                assert!(off < 0.01 * unit + 1e-7 * far && (speed - 1.0).abs() < 0.01, "{told}");
             }
         }
     }

@@ -125,3 +125,72 @@ fn platforms_that_fly_are_hit_from_their_solid_side_alone() {
     }
     assert!(wrong.is_empty(), "{} of {}: {wrong:?}", wrong.len(), 60 * PHASES);
 }
+
+/// What falls on a convex corner of a one-way shape, or of two such shapes, stays on top; from below it goes through.
+#[test]
+fn corners_of_one_way_shapes_hold() {
+    let hull = |points: &[(f32, f32)]| {
+        let points: Vec<Vec2> = points.iter().map(|&point| Vec2::from(point)).collect();
+        ShapeDef::new(Shape::hull(&points).expect("a hull")).one_way(Vec2::Y)
+    };
+    let roof = vec![hull(&[(-2.0, 0.0), (2.0, 0.0), (0.0, 1.0)])];
+    let halves = vec![
+        hull(&[(-2.0, 0.0), (0.0, 0.0), (0.0, 1.0)]),
+        hull(&[(2.0, 0.0), (0.0, 0.0), (0.0, 1.0)]),
+    ];
+    let flat_and_slope = vec![
+        hull(&[(-2.0, 0.0), (0.0, 0.0), (0.0, 1.0), (-2.0, 1.0)]),
+        hull(&[(1.0, 0.0), (0.0, 0.0), (0.0, 1.0)]),
+    ];
+    for (k, parts) in [roof, halves, flat_and_slope].into_iter().enumerate() {
+        for shape in [circle(0.5), circle(0.1), capsule(0.3, 0.2), upright(0.3, 0.3)] {
+            for (off, speed) in [(0.05, 0.0), (0.0, 5.0), (-0.02, 15.0), (0.1, 2.0)] {
+                for up in [false, true] {
+                    let mut world = world();
+                    for part in &parts {
+                        world.add_body(RigidBody::fixed().shape(part.clone())).expect("a roof");
+                    }
+                    let (from, speed) = if up { (-1.0, 10.0 + 0.2 * speed) } else { (2.5, -speed) };
+                    let body = RigidBody::dynamic().position(Vec2::new(off, from));
+                    let body = body.velocity(Vec2::new(0.0, speed)).shape(shape);
+                    let body = world.add_body(body).expect("a body");
+                    let (mut highest, mut inside) = (f32::MIN, f32::MIN);
+                    for _ in 0..180 {
+                        world.step(DT);
+                        let body = world.body(body).expect("it is there");
+                        let place = body.position();
+                        highest = highest.max(place.y);
+                        // The top of the ground at this place.
+                        let slope = if k == 2 { 1.0 } else { 0.5 };
+                        let left = if k == 2 { 1.0 } else { 1.0 + 0.5 * place.x };
+                        let top = if place.x < 0.0 { left } else { 1.0 - slope * place.x };
+                        if body.velocity().y < 0.0 && place.x.abs() < 0.9 {
+                            inside = inside.max(top - place.y);
+                        }
+                    }
+                    let told = format!("{k} {shape:?} {off} {speed}: {inside} {highest}");
+                    assert!(inside < 0.0, "{told}");
+                    assert!(!up || (highest + 1.0 - speed * speed / 19.6).abs() < 0.2, "{told}");
+                }
+            }
+        }
+    }
+}
+
+/// The end of a one-way shape is none: what has its middle beside it falls past.
+#[test]
+fn balls_fall_past_the_ends_of_one_way_shapes() {
+    for radius in [0.1, 0.3] {
+        for part in [0.5, 0.9] {
+            let mut world = world();
+            let def = ShapeDef::new(rect(2.0, 0.1)).one_way(Vec2::Y);
+            world.add_body(RigidBody::fixed().shape(def)).expect("a platform");
+            let at = Vec2::new(2.0 + part * radius, 1.0);
+            let ball = world.add_body(RigidBody::dynamic().position(at).shape(circle(radius)));
+            let ball = ball.expect("a ball");
+            (0..90).for_each(|_| world.step(DT));
+            let place = world.body(ball).expect("it is there").position();
+            assert!((place.x - at.x).abs() < 1e-3 && place.y < -3.0, "{radius} {part}: {place}");
+        }
+    }
+}

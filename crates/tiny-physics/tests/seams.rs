@@ -4,7 +4,9 @@
 mod common;
 
 use common::{DT, Random};
-use tiny_physics::{BodyId, ChainDef, Polygon, RigidBody, Rot, Shape, ShapeDef, Vec2, World};
+use tiny_physics::{
+    BodyId, ChainDef, Polygon, RigidBody, Rot, Settings, Shape, ShapeDef, Vec2, World,
+};
 
 const SPEED: f32 = 10.0;
 const TILES: i32 = 60;
@@ -625,6 +627,70 @@ fn what_comes_from_below_a_line_meets_the_side_of_the_block() {
             world.step(DT);
             let x = world.body(body).expect("a body").position().x;
             assert!(x < 0.01 - 0.8 * size, "{member}: at {x}, {size} wide, {speed} m/s");
+        }
+    }
+}
+
+/// A slot between two walls has a floor however narrow it is, in every unit.
+#[test]
+fn slots_between_walls_have_a_floor() {
+    for unit in [0.1_f32, 1.0, 20.0] {
+        for width in [0.01, 0.02, 0.03, 0.04, 0.05, 0.1] {
+            for part in [0.5, 0.8, 0.95] {
+                let settings = Settings { length_unit: unit, ..Settings::default() };
+                let mut world = World::with_settings(Vec2::new(0.0, -10.0 * unit), settings);
+                let floor = Shape::rect(unit, 0.5 * unit).unwrap();
+                let at = Vec2::new(0.0, -0.5 * unit);
+                world.add_body(RigidBody::fixed().position(at).shape(floor)).unwrap();
+                for side in [-1.0, 1.0] {
+                    let wall = Shape::rect(0.5 * unit, 0.5 * unit).unwrap();
+                    let at = Vec2::new(side * (0.5 + 0.5 * width), 0.5) * unit;
+                    world.add_body(RigidBody::fixed().position(at).shape(wall)).unwrap();
+                }
+                let radius = 0.5 * part * width * unit;
+                let ball = RigidBody::dynamic().position(Vec2::new(0.0, 0.1 * unit));
+                let ball = world.add_body(ball.shape(Shape::circle(radius).unwrap())).unwrap();
+                (0..120).for_each(|_| world.step(1.0 / 60.0));
+                let y = world.body(ball).unwrap().position().y;
+                assert!(
+                    (y - radius).abs() < 0.006 * unit,
+                    "{unit} {width} {part}: {y} of {radius}"
+                );
+            }
+        }
+    }
+}
+
+/// A plank that leans on a peak, however sharp that is, on whichever side its middle is, has a contact with the tip and no deep one.
+#[test]
+fn planks_lean_on_the_peaks_of_chains() {
+    for rise in [0.3_f32, 0.5, 1.0, 3.0] {
+        for (tilt, side) in (1..=8).flat_map(|k| [(0.1 * k as f32, -1.0), (0.1 * k as f32, 1.0)]) {
+            for off in [-0.5, -0.2, 0.2, 0.5] {
+                // The plank must touch the peak alone.
+                if tilt > 0.9 * rise.atan2(0.5) || 1.5 * tilt.sin() > rise {
+                    continue;
+                }
+                let mut world = world();
+                let ground = world.add_body(RigidBody::fixed()).unwrap();
+                let chain = ChainDef::heights(0.5, &[0.0, 0.0, 0.0, rise, 0.0, 0.0, 0.0]);
+                world.add_chain(ground, &chain).unwrap();
+                let along = Vec2::new(tilt.cos(), side * tilt.sin());
+                let at = Vec2::new(1.5, rise) + along * off + along.perp() * 0.049;
+                let plank = Shape::rect(1.0, 0.05).unwrap();
+                let body = RigidBody::dynamic().position(at).angle(side * tilt).shape(plank);
+                world.add_body(body).unwrap();
+                world.step(1.0 / 240.0);
+                let mut points = Vec::new();
+                for contact in world.contacts() {
+                    let normal = contact.normal.dot(along.perp()).abs();
+                    points.extend(contact.points().iter().map(|point| (normal, point.separation)));
+                }
+                let told = format!("{rise} {tilt} {side} {off}: {points:?}");
+                let near = |&(_, gap): &(f32, f32)| gap > -0.02;
+                assert!(points.iter().any(|&(normal, gap)| normal > 0.99 && gap < 0.01), "{told}");
+                assert!(points.iter().all(near), "{told}");
+            }
         }
     }
 }

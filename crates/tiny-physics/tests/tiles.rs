@@ -272,3 +272,62 @@ fn grids_that_contradict_themselves_are_empty_where_they_do() {
     grid.palette.clear();
     assert!(grid.bodies().is_empty());
 }
+
+/// Balls and boxes that roll and slide from flat one-way tiles down one-way slopes, and from slopes onto flat ones, stay on them.
+#[test]
+fn one_way_slopes_go_on_from_flat_ones() {
+    let one_way = |form: TileForm| Tile::new(form).one_way(Vec2::Y).friction(0.2);
+    let palette = vec![
+        one_way(TileForm::Full),
+        one_way(TileForm::Slope).mirrored_x(),
+        one_way(TileForm::GentleHigh).mirrored_x(),
+        one_way(TileForm::GentleLow).mirrored_x(),
+    ];
+    for (forms, fall) in [(vec![2], 1.0), (vec![3, 4], 0.5)] {
+        for (shape, half) in shapes() {
+            for speed in [0.5, 1.0, 2.0] {
+                let mut grid = TileGrid::new(1.0, 14, 3, palette.clone());
+                (0..4).for_each(|x| grid.set(x, 1, 1).unwrap());
+                for (x, form) in forms.iter().enumerate() {
+                    grid.set(4 + x as u32, 1, *form).unwrap();
+                }
+                (4 + forms.len() as u32..14).for_each(|x| grid.set(x, 0, 1).unwrap());
+                let mut world = world();
+                world.add_tiles(grid).unwrap();
+                let body = slider(shape, Vec2::new(2.5, 2.0 + half));
+                let body = body.velocity(Vec2::new(speed, 0.0)).can_sleep(false);
+                let body = world.add_body(body).unwrap();
+                for _ in 0..240 {
+                    world.step(1.0 / 60.0);
+                    let at = world.body(body).unwrap().position();
+                    let top = (2.0 - fall * (at.x - 4.0)).clamp(1.0, 2.0);
+                    assert!(at.x > 13.0 || at.y > top, "{forms:?} {shape:?} {speed}: {at}");
+                }
+            }
+        }
+    }
+}
+
+/// Tiles are what they are in cells of every size that is valid.
+#[test]
+fn tiles_of_all_sizes_are_alike() {
+    let rows = ["/\\_\"#", "[]lhHL", "#-####"];
+    let corners = |size: f32| -> Vec<(f32, f32)> {
+        let bodies = TileGrid::parse(size, &rows).unwrap().bodies();
+        let shapes = bodies.iter().flat_map(|body| &body.shapes);
+        let polygons = shapes.map(|def| match def.shape {
+            Shape::Polygon(polygon) => polygon,
+            other => panic!("{size}: {other:?}"),
+        });
+        let scaled = |at: &Vec2| (at.x / size, at.y / size);
+        polygons.flat_map(|p| p.vertices().iter().map(scaled).collect::<Vec<_>>()).collect()
+    };
+    let usual = corners(1.0);
+    for size in [1.0e-4, 1.5e-4, 1.0e-3, 0.1, 17.0, 3.0e4] {
+        let these = corners(size);
+        assert_eq!(these.len(), usual.len(), "{size}");
+        for (a, b) in these.iter().zip(&usual) {
+            assert!((a.0 - b.0).abs() < 1e-5 && (a.1 - b.1).abs() < 1e-5, "{size}: {a:?} {b:?}");
+        }
+    }
+}

@@ -3,7 +3,7 @@
 use super::{ChainLink, Filter, Material, ShapeDef};
 use crate::codec::{described, setters};
 use crate::error::Error;
-use crate::geometry::Shape;
+use crate::geometry::{MAX_EXTENT, Shape};
 use crate::math::Vec2;
 
 described! {
@@ -68,11 +68,14 @@ impl ChainDef {
         Self::open(&points.rev().collect::<Vec<_>>())
     }
 
-    /// Ground without hills: a line through `point`, solid from the side that `normal` points to, that goes 1000 m
-    /// each way. A flat floor is `RigidBody::fixed().chain(&ChainDef::half_space((0.0, 0.0), (0.0, 1.0)))?`.
+    /// Ground without hills: a line through `point`, solid from the side that `normal` points to, that goes on 900 km each
+    /// way, in segments that grow: the one with `point` has 2 km. A flat floor is `RigidBody::fixed().chain(&ChainDef::half_space((0.0, 0.0), (0.0, 1.0)))?`.
     pub fn half_space(point: impl Into<Vec2>, normal: impl Into<Vec2>) -> Self {
-        let (point, way) = (point.into(), normal.into().normalized().perp() * 1000.0);
-        Self::open(&[point - way, point + way])
+        let (point, way) = (point.into(), normal.into().normalized().perp());
+        // A segment of all the length would be rounded to centimetres where it is aslant.
+        let along = [-9e5, -1e5, -1e4, -1e3, 1e3, 1e4, 1e5, 9e5].map(|at| point + way * at);
+        let near = |at: &Vec2| at.x.abs() <= MAX_EXTENT && at.y.abs() <= MAX_EXTENT;
+        Self::of_points(along.into_iter().filter(near).collect())
     }
 
     /// Sets the friction of all segments.

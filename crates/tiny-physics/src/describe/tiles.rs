@@ -7,8 +7,7 @@
 use super::{Filter, Material, RigidBody, ShapeDef};
 use crate::codec::{data, described, described_enum, setters};
 use crate::error::Error;
-use crate::geometry::Shape;
-use crate::geometry::{MAX_EXTENT, MIN_EXTENT};
+use crate::geometry::{MAX_EXTENT, MIN_EXTENT, Polygon, Shape};
 use crate::math::{DVec2, Pose, Rot, Vec2};
 
 /// Side of a block of cells that share a body.
@@ -278,13 +277,13 @@ impl TileGrid {
             (piece.y - block_y * BLOCK_CELLS) as f32,
         );
         let size = Vec2::new(piece.width as f32, piece.height as f32);
-        let corners: Vec<Vec2> = tile
-            .corners()
-            .iter()
-            .map(|at| (corner + Vec2::new(at.x * size.x, at.y * size.y)) * self.cell_size)
-            .collect();
-        // Corners of a cell of valid size always have a hull; the other answer is never taken.
-        let shape = Shape::hull(&corners).unwrap_or(Shape::Circle { radius: self.cell_size });
+        let place = |at: &Vec2| corner + Vec2::new(at.x * size.x, at.y * size.y);
+        // The hull is that of cells of side 1: it takes corners that are close for one. Tiles always have one, and the circle is never
+        // taken.
+        let hull = Polygon::hull(&tile.corners().iter().map(place).collect::<Vec<_>>());
+        let scale = |hull: Polygon| hull.vertices().iter().map(|at| *at * self.cell_size).collect();
+        let shape = hull.map(scale).and_then(|corners: Vec<Vec2>| Polygon::convex(&corners));
+        let shape = shape.map_or(Shape::Circle { radius: self.cell_size }, Shape::Polygon);
         let mut def = ShapeDef::new(shape).filter(tile.filter).user_data(tile.user_data);
         def.material = tile.material;
         def.one_way = tile.one_way;

@@ -28,7 +28,7 @@ use crate::math::{Aabb, DVec2, Pose, Transform, Vec2};
 
 /// Shapes this close to each other make one surface, metres; multiplied by the length unit.
 const TOLERANCE: f32 = 0.002;
-/// A face counts as covered at a point if it is so this far to both sides, metres; multiplied likewise.
+/// A face counts as covered at a point if it is so there and this far to both sides, metres; multiplied likewise.
 const REACH: f32 = 0.02;
 /// Lines count as so thick where they go on from a face: more than [`REACH`], metres; multiplied likewise.
 const THICK: f32 = 0.05;
@@ -185,16 +185,20 @@ impl<'a> Seams<'a> {
         if face_of(&self.core, normal) == Some(0) {
             return true;
         }
-        let (a, b) = (self.core.points[0], self.core.points[1]);
-        let (corner, end) =
-            if normal.dot(b - a) < 0.0 { (a, link.previous) } else { (b, link.next) };
-        let leans_on = end.is_none_or(|end| {
-            let way = self.record.box_frame.unapply(end) - corner;
-            normal.dot(way) > LINK_TOLERANCE * way.length()
-        });
+        let (corner, peak) = self.link_corner(link, normal);
         // The next segment may be gone.
-        let free = !leans_on || !self.goes_on(corner, normal);
+        let free = peak.is_some() || !self.goes_on(corner, normal);
         free && normal.dot(self.core.normal(0)) > 0.0
+    }
+
+    /// The corner that a normal is of, and where it sticks out the direction out of the next segment, of any length.
+    fn link_corner(&self, link: ChainLink, normal: Vec2) -> (Vec2, Option<Vec2>) {
+        let (a, b) = (self.core.points[0], self.core.points[1]);
+        let at_start = normal.dot(b - a) < 0.0;
+        let (corner, end) = if at_start { (a, link.previous) } else { (b, link.next) };
+        let way = end.map(|end| self.record.box_frame.unapply(end) - corner);
+        let peak = way.filter(|way| normal.dot(*way) <= LINK_TOLERANCE * way.length());
+        (corner, peak.map(|way| if at_start { way.perp() } else { -way.perp() }))
     }
 
     /// Do other static shapes cover a face around all points of contact with it?
@@ -203,23 +207,17 @@ impl<'a> Seams<'a> {
         let (start, end) = self.core.edge(face);
         let along = self.core.normal(face).perp();
         let length = along.dot(end - start);
-        let mut probes = [Vec2::ZERO; 4];
+        let mut probes = [Vec2::ZERO; 6];
         let mut count = 0;
         for point in points.into_iter().flatten() {
             let at = along.dot(point - start);
-            for shifted in [at - REACH * unit, at + REACH * unit] {
-                let limited = if shifted < 0.0 {
-                    0.0
-                } else if shifted > length {
-                    length
-                } else {
-                    shifted
-                };
-                probes[count] = start + along * limited;
+            // In a slot both sides may be within walls.
+            for shifted in [at - REACH * unit, at, at + REACH * unit] {
+                probes[count] = start + along * shifted.max(0.0).min(length);
                 count += 1;
             }
         }
-        let (mut covered, middle) = ([false; 4], middle(&self.other_core));
+        let (mut covered, middle) = ([false; 6], middle(&self.other_core));
         self.each_neighbour(&probes[..count], |neighbour| {
             // What the other shape is in itself makes no surface for it.
             if point_gap(neighbour, middle) <= 0.0 {
@@ -337,10 +335,7 @@ impl<'a> View<'a> {
         if self.seams.guard & guard::ONE_WAY != 0 {
             let solid = match face_of(&self.seams.core, normal) {
                 Some(face) => self.is_solid(face),
-                None => {
-                    self.is_against_way(normal)
-                        && (self.seams.core.radius > 0.0 || self.meets_a_corner(normal))
-                }
+                None => self.is_against_way(normal) && self.is_no_end(lane, normal),
             };
             if !solid {
                 return self.best_face();
@@ -358,11 +353,16 @@ impl<'a> View<'a> {
         let is_behind = face.dot(middle(&seams.other_core) - a) < 0.0;
         // What leans on the end has its middle behind, perhaps.
         let is_open = link.previous.is_none() || link.next.is_none();
-        let is_met = !is_behind || is_open && self.meets_a_corner(normal);
+        // At a sharp peak each of its segments has the normals that the other turns its back on.
+        let (corner, peak) = seams.link_corner(link, normal);
+        let peak = peak.filter(|_| face_of(&seams.core, normal).is_none());
+        let before = middle(&seams.other_core) - corner;
+        let is_next = peak.is_some_and(|out| normal.dot(out) <= 0.0 && out.dot(before) > 0.0);
+        let is_met = !is_behind || is_next || is_open && self.meets_a_corner(normal);
         if is_met && seams.link_has(link, normal) {
             return Verdict::Keep;
         }
-        if is_behind {
+        if is_behind || peak.is_some_and(|out| normal.dot(out) > 0.0) {
             return Verdict::Drop;
         }
         let limit = context.speculative_distance;
@@ -375,11 +375,27 @@ impl<'a> View<'a> {
     fn is_before_a_face(&self, lane: &LanePoints, normal: Vec2) -> bool {
         let seams = &self.seams;
         let Some(face) = face_of(&seams.other_core, -normal) else { return false };
-        let k = usize::from(!lane.is_valid(0, self.context.speculative_distance));
-        let corner = nearest_vertex(&seams.core, self.frame.unapply(lane.point(k)));
+        let corner = seams.core.points[self.corner_of(lane)];
         seams.kind() == Some(ProxyKind::Dynamic)
             && face_of(&seams.core, normal).is_none()
-            && seams.lies_over(seams.other_core.edge(face), seams.core.points[corner])
+            && seams.lies_over(seams.other_core.edge(face), corner)
+    }
+
+    /// The corner at which the contact is.
+    fn corner_of(&self, lane: &LanePoints) -> usize {
+        let k = usize::from(!lane.is_valid(0, self.context.speculative_distance));
+        nearest_vertex(&self.seams.core, self.frame.unapply(lane.point(k)))
+    }
+
+    /// Does the solid side of a one-way shape go on beyond this corner, on the shape itself or on another? To a face of the other shape
+    /// ends are corners, too.
+    fn is_no_end(&self, lane: &LanePoints, normal: Vec2) -> bool {
+        let Seams { core, guard, .. } = &self.seams;
+        let (corner, last) = (self.corner_of(lane), core.count - 1);
+        core.radius > 0.0
+            || self.meets_a_corner(normal)
+            || guard & guard::corner(corner) != 0
+            || self.is_solid(corner) && self.is_solid(if corner > 0 { corner - 1 } else { last })
     }
 
     /// Is a corner met by a face of the other shape?
