@@ -117,7 +117,8 @@ fn parcels_come_into_the_box_of_their_kind() {
 fn the_door_opens() {
     let places = places(&end_of("sensor_door"));
     assert!(places[5].y > 6.5, "the door is up: {:?}", places[5]);
-    assert!(places[7..].iter().all(|load| load.y < 2.0), "all has come down: {:?}", &places[7..]);
+    // From a shelf of 2.6 m: three may come to lie on each other.
+    assert!(places[7..].iter().all(|load| load.y < 2.5), "all has come down: {:?}", &places[7..]);
 }
 
 #[test]
