@@ -69,13 +69,14 @@ impl ChainDef {
     }
 
     /// Ground without hills: a line through `point`, solid from the side that `normal` points to, that goes on 900 km each
-    /// way, in segments that grow: the one with `point` has 2 km. A flat floor is `RigidBody::fixed().chain(&ChainDef::half_space((0.0, 0.0), (0.0, 1.0)))?`.
+    /// way, as far as coordinates go, in segments that grow: the one with `point` has 2 km. A flat floor is `RigidBody::fixed().chain(&ChainDef::half_space((0.0, 0.0), (0.0, 1.0)))?`.
     pub fn half_space(point: impl Into<Vec2>, normal: impl Into<Vec2>) -> Self {
         let (point, way) = (point.into(), normal.into().normalized().perp());
         // A segment of all the length would be rounded to centimetres where it is aslant.
         let along = [-9e5, -1e5, -1e4, -1e3, 1e3, 1e4, 1e5, 9e5].map(|at| point + way * at);
-        let near = |at: &Vec2| at.x.abs() <= MAX_EXTENT && at.y.abs() <= MAX_EXTENT;
-        Self::of_points(along.into_iter().filter(near).collect())
+        let near = |at: Vec2| at.x.abs() <= MAX_EXTENT && at.y.abs() <= MAX_EXTENT;
+        let all = along.into_iter().enumerate().filter(|&(k, at)| matches!(k, 3 | 4) || near(at));
+        Self::of_points(all.map(|(_, at)| at).collect())
     }
 
     /// Sets the friction of all segments.

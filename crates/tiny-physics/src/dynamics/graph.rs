@@ -111,8 +111,8 @@ impl Bucket {
         constraint.body_a[lane] = contact.body_a;
         constraint.body_b[lane] = contact.body_b;
         for (point, saved) in constraint.points.iter_mut().zip(contact.saved) {
-            let pushes = [&mut point.normal_impulse[lane], &mut point.load[lane]];
-            pushes.into_iter().for_each(|push| *push = saved.normal_impulse);
+            let push = saved.normal_impulse;
+            (point.normal_impulse[lane], point.load[lane]) = (push, push);
             point.tangent_impulse[lane] = saved.tangent_impulse;
         }
         let surface = &mut self.surfaces[block];

@@ -5,7 +5,7 @@
 
 use crate::codec::{described, described_enum};
 use crate::{
-    Aabb, BodyId, BodyKind, BodyMut, DVec2, Pose, QueryFilter, Shape, ShapeId, Vec2, World,
+    Aabb, Body, BodyId, BodyKind, BodyMut, DVec2, Pose, QueryFilter, Shape, ShapeId, Vec2, World,
 };
 
 described! {
@@ -252,8 +252,8 @@ impl World {
         let (slowed, turned) = (1.0 / (1.0 + dt * slowed), 1.0 / (1.0 + dt * turned));
         // What is light rises as fast as the drag lets it, not first by a whole step.
         let displaced: f32 = parts.iter().map(|part| part.displaced).sum();
-        let rising =
-            gravity * (dt * (body.as_ref().info().gravity_scale - displaced / mass).min(0.0));
+        let free = if body.as_ref().is_held_down(gravity) { 0.0 } else { dt };
+        let rising = gravity * (free * (body.as_ref().gravity_scale() - displaced / mass).min(0.0));
         for part in parts {
             let slip = water.flow - body.as_ref().velocity_at(part.center) - rising;
             let drag = slip * (part.displaced * water.linear_drag * slowed);
@@ -279,6 +279,18 @@ impl World {
                 }
             }
         }
+    }
+}
+
+impl Body<'_> {
+    /// Has it joints, or lies something on it? Then it does not rise as it would.
+    fn is_held_down(&self, gravity: Vec2) -> bool {
+        self.joints().next().is_some()
+            || self.contacts().any(|contact| {
+                let push = contact.force();
+                let push = if contact.body_b == self.id() { push } else { -push };
+                push.dot(gravity) > 0.0
+            })
     }
 }
 

@@ -43,7 +43,7 @@ pub(crate) fn resist(
             let (a, b) = bucket.bodies(slot);
             let rocks = |body: u32| bodies.swings[body as usize] > ENOUGH;
             let free =
-                |body: u32| is_led(bodies, body) || is_ball_alone(bodies, contacts, joints, body);
+                |body: u32| is_led(bodies, body) || rolls_freely(bodies, contacts, joints, body);
             if (rocks(a) || rocks(b)) && !free(a) && !free(b) {
                 slow(bodies, a, b, lost);
             }
@@ -69,7 +69,7 @@ fn swings(bodies: &Bodies, joints: &Joints, body: u32, length_unit: f32) -> u8 {
 }
 
 /// Is a body a ball about its centre of mass that touches one other alone, or a wheel?
-fn is_ball_alone(bodies: &Bodies, contacts: &Contacts, joints: &Joints, body: u32) -> bool {
+fn rolls_freely(bodies: &Bodies, contacts: &Contacts, joints: &Joints, body: u32) -> bool {
     let info = &bodies.infos[body as usize];
     let all = contacts.of_body(info.first_contact);
     let touching = all.map(|(index, _)| &contacts.records[index as usize]);

@@ -26,7 +26,7 @@ pub struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    pub(crate) fn info(&self) -> &'a BodyInfo {
+    pub(super) fn info(&self) -> &'a BodyInfo {
         &self.world.state.bodies.infos[self.index as usize]
     }
 

@@ -591,3 +591,17 @@ fn a_hero_gets_up_under_the_back_of_a_chain() {
     assert!(!hero.fits(&world) && hero.resize(&world, 1.0, 0.3));
     assert!(!hero.resize(&world, 1.8, 0.3));
 }
+
+/// Where it is so low that his middle would be above it, too.
+#[test]
+fn a_hero_does_not_get_up_through_a_low_chain() {
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let house = world.add_body(RigidBody::fixed()).unwrap();
+    let mut hero = CharacterMover::new((0.0, 0.36), 0.7, 0.3);
+    let ceiling = ChainDef::open(&[(-9.0, 0.85), (9.0, 0.85)].map(Vec2::from));
+    world.add_chain(house, &ceiling).unwrap();
+    assert!(hero.fits(&world), "the ducked hero is under it");
+    assert!(!hero.resize(&world, 1.8, 0.3) && !hero.resize(&world, 1.0, 0.3));
+    assert!(hero.resize(&world, 0.8, 0.3));
+}

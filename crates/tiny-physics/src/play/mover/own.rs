@@ -107,12 +107,17 @@ impl CharacterMover {
 
     /// Is it free of everything that it collides with? One-way platforms do not count, nor chains seen from behind.
     pub fn fits(&self, world: &World) -> bool {
+        self.has_room(world, self)
+    }
+
+    /// The same, with chains as `seen` sees them: the middle of who gets up may be beyond a low one.
+    fn has_room(&self, world: &World, seen: &Self) -> bool {
         let (frame, pose) = (Frame::of(world), Pose::new(self.position, Rot::IDENTITY));
         let capsule = self.capsule(frame.up, 0.0);
         self.obstacles(world, capsule.world_aabb(pose)).into_iter().all(|obstacle| {
             let start = pose.relative_to(obstacle.pose());
             let apart = || distance(obstacle.shape(), &capsule, start).separation >= 0.0;
-            !self.is_solid(frame, &obstacle, obstacle.pose(), Vec2::ZERO) || apart()
+            !seen.is_solid(frame, &obstacle, obstacle.pose(), Vec2::ZERO) || apart()
         })
     }
 
@@ -126,7 +131,7 @@ impl CharacterMover {
         }
         let sound =
             height.is_finite() && radius > 0.0 && grown.capsule(Vec2::Y, 0.0).validate().is_ok();
-        if sound && grown.fits(world) {
+        if sound && grown.has_room(world, self) {
             *self = grown;
             return true;
         }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Explosion, ForceZone, Mix, Water, Wind, ZoneForce};
+use crate::{Explosion, ForceZone, JointDef, Mix, Water, Wind, ZoneForce};
 use core::f32::consts::PI;
 
 #[test]
@@ -280,4 +280,40 @@ fn what_is_light_is_not_shot_out_of_water() {
         }
         assert!(speed > 0.95 * still, "density {density}: {speed} m/s for {still}");
     }
+}
+
+/// Under a load, or on a rope, what is light has all of its lift, whatever the length of the step.
+#[test]
+fn what_is_held_down_keeps_its_lift() {
+    for (density, half, load) in [(1.0, 0.5, 1000.0), (100.0, 0.25, 1000.0)] {
+        for dt in [DT, 2.0 * DT] {
+            let mut world = world();
+            let raft = add(&mut world, 0.0, 0.0, rect(2.0, half).density(density));
+            let crate_ = ShapeDef::new(Shape::rect(1.5, 0.1).unwrap());
+            let crate_ = RigidBody::dynamic().position((0.0, f64::from(half) + 0.1)).shape(crate_);
+            world.add_body(crate_.mass(load)).unwrap();
+            // It bobs for long: of the drag of a light hull little is left in a step.
+            for _ in 0..6000 {
+                world.apply_water(&Water::default(), &QueryFilter::new(), dt);
+                world.step(dt);
+            }
+            let deep = (load + 8.0 * half * density) / 4000.0;
+            let low = half - y(&world, raft) as f32;
+            assert!(
+                (low - deep).abs() < 0.02,
+                "density {density}, {dt} s: {low} m deep for {deep}"
+            );
+        }
+    }
+    let mut world = world();
+    world.settings.sleep = false;
+    let ground = world.add_body(RigidBody::fixed().position((0.0, -5.0))).unwrap();
+    let buoy = add(&mut world, 0.0, -3.0, circle(0.5).density(1.0));
+    let rope = world.add_joint(ground, buoy, JointDef::rope(2.0)).unwrap();
+    for _ in 0..300 {
+        world.apply_water(&Water::default(), &QueryFilter::new(), DT);
+        world.step(DT);
+    }
+    let (pull, lift) = (world.joint(rope).unwrap().force().length(), 999.0 * PI * 0.25 * 10.0);
+    assert!((pull / lift - 1.0).abs() < 0.01, "{pull} N for {lift}");
 }
