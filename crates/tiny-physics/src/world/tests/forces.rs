@@ -298,7 +298,7 @@ fn what_is_held_down_keeps_its_lift() {
                 world.step(dt);
             }
             let deep = (load + 8.0 * half * density) / 4000.0;
-            let low = half - y(&world, raft) as f32;
+            let low = half - y(&world, raft);
             assert!(
                 (low - deep).abs() < 0.02,
                 "density {density}, {dt} s: {low} m deep for {deep}"
