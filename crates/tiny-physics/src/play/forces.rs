@@ -5,7 +5,8 @@
 
 use crate::codec::{described, described_enum};
 use crate::{
-    Aabb, Body, BodyId, BodyKind, BodyMut, DVec2, Pose, QueryFilter, Shape, ShapeId, Vec2, World,
+    Aabb, Body, BodyId, BodyKind, BodyMut, ContactView, DVec2, JointKind, JointRef, Pose,
+    QueryFilter, Shape, ShapeId, Vec2, World,
 };
 
 described! {
@@ -282,15 +283,29 @@ impl World {
     }
 }
 
+/// What is so many times as heavy as a thing, or does not move, holds that where it is joined to it or lies on it.
+const HOLDS: f32 = 4.0;
+
 impl Body<'_> {
-    /// Has it joints, or lies something on it? Then it does not rise as it would.
+    /// Does something that is much heavier keep it from rising as it would? What is as light rises along with it.
     fn is_held_down(&self, gravity: Vec2) -> bool {
-        self.joints().next().is_some()
-            || self.contacts().any(|contact| {
-                let push = contact.force();
-                let push = if contact.body_b == self.id() { push } else { -push };
-                push.dot(gravity) > 0.0
+        let (world, id) = (self.world(), self.id());
+        let holds = |(a, b): (BodyId, BodyId)| {
+            let other = world.body(if a == id { b } else { a });
+            other.is_some_and(|other| {
+                other.kind() != BodyKind::Dynamic || other.mass() > HOLDS * self.mass()
             })
+        };
+        let is_joined = |joint: JointRef<'_>| {
+            let def = joint.def();
+            def.enabled && !matches!(def.kind, JointKind::Filter) && holds(joint.bodies())
+        };
+        let presses = |contact: ContactView| {
+            let push = contact.force() * if contact.body_b == id { 1.0 } else { -1.0 };
+            push.dot(gravity) > 0.0 && holds((contact.body_a, contact.body_b))
+        };
+        self.joints().filter_map(|joint| world.joint(joint)).any(is_joined)
+            || self.contacts().any(presses)
     }
 }
 

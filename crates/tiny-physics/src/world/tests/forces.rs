@@ -317,3 +317,32 @@ fn what_is_held_down_keeps_its_lift() {
     let (pull, lift) = (world.joint(rope).unwrap().force().length(), 999.0 * PI * 0.25 * 10.0);
     assert!((pull / lift - 1.0).abs() < 0.01, "{pull} N for {lift}");
 }
+
+/// Nor are light things that are joined, that lie on each other, or that have a joint that does nothing.
+#[test]
+fn light_things_rise_together_as_their_drag_lets_them() {
+    let still = 10.0 * 999.0 / (1000.0 * Water::default().linear_drag);
+    for case in 0..4 {
+        let mut world = world();
+        let ball = |world: &mut World, y: f32| add(world, 0.0, y, circle(0.5).density(1.0));
+        let all: Vec<BodyId> = (0..3).map(|k| ball(&mut world, -40.0 + 1.01 * k as f32)).collect();
+        let ground = world.add_body(RigidBody::fixed().position((0.0, -50.0))).unwrap();
+        for pair in all.windows(2).take(if case < 2 { 2 } else { 0 }) {
+            let joint = if case == 0 { JointDef::weld() } else { JointDef::revolute() };
+            let [a, b] = [0, 1].map(|k| world.body(pair[k]).unwrap().position_f64());
+            world.add_joint(pair[0], pair[1], joint.anchor_at(a.lerp(b, 0.5))).unwrap();
+        }
+        if case == 3 {
+            world.add_joint(ground, all[0], JointDef::filter()).unwrap();
+        }
+        let (mut fastest, mut speed) = (0.0_f32, 0.0);
+        for _ in 0..240 {
+            world.apply_water(&Water::default(), &QueryFilter::new(), DT);
+            world.step(DT);
+            speed = world.body(all[0]).unwrap().velocity().y;
+            fastest = fastest.max(speed);
+        }
+        assert!(fastest < 1.3 * still, "case {case}: {fastest} m/s for {still}");
+        assert!(speed > 0.7 * still, "case {case}: {speed} m/s for {still}");
+    }
+}
