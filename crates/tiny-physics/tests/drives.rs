@@ -422,6 +422,7 @@ fn a_spring_at_its_most_pulls_with_it() {
     for (force, hertz, damping_ratio, far) in [(50.0, 5.0, 0.7, 10.0), (100.0, 10.0, 5.0, 300.0)] {
         for drive in [false, true] {
             let mut world = space();
+            world.settings.substeps = if drive { 8 } else { 4 };
             let wall = wall(&mut world);
             let spring = Spring { hertz, damping_ratio };
             let crate_ = add(&mut world, rect(0.2, 0.2), 1.0, Vec2::ZERO);
@@ -447,5 +448,28 @@ fn a_spring_at_its_most_pulls_with_it() {
             assert!((v / speed - 1.0).abs() < 0.06, "{force} N, {drive}: {v} m/s, not {speed}");
             assert!((told / force - 1.0).abs() < 0.01, "{force} N, {drive}: {told} N");
         }
+    }
+}
+
+/// The same of what turns: it has turned by half of the torque over the inertia by the square of the time.
+#[test]
+fn a_spring_at_its_greatest_torque_turns_with_it() {
+    for (torque, hertz, damping_ratio, substeps) in [(0.05, 5.0, 0.7, 4), (0.1, 10.0, 5.0, 2)] {
+        let mut world = space();
+        world.settings.substeps = substeps;
+        let wall = wall(&mut world);
+        let body = add(&mut world, rect(0.5, 0.5), 1.0, Vec2::ZERO);
+        let mut def = JointDef::drive().angles(3.0, 0.0);
+        if let JointKind::Motor { angular_spring, max_spring_torque, .. } = &mut def.kind {
+            *angular_spring = Some(Spring { hertz, damping_ratio });
+            *max_spring_torque = torque;
+        }
+        let joint = world.add_joint(wall, body, def).expect("a joint");
+        steps(&mut world, 120);
+        let found = world.body(body).expect("a body");
+        let expected = 2.0 * torque / found.inertia();
+        let (turned, told) = (found.angle(), world.joint(joint).expect("a joint").torque());
+        assert!((turned / expected - 1.0).abs() < 0.06, "{torque} N m: {turned}, not {expected}");
+        assert!((told / torque - 1.0).abs() < 0.01, "{torque} N m: {told} N m");
     }
 }
