@@ -396,14 +396,15 @@ fn moving_bodies_do_not_pass_through_each_other() {
     }
 }
 
-/// Two bodies on random ways that turn, how near they come to each other, and whether they were told to have met.
-fn duel(random: &mut Random, wide: f32) -> Option<(f32, bool, bool)> {
+/// Two bodies on random ways that turn, how near they come to each other, how they are turned off their ways, m/s, and whether
+/// they were told to have met.
+fn duel(random: &mut Random, wide: f32, fastest: f32) -> Option<(f32, f32, bool)> {
     let sizes = [random.range(0.05, 0.6), random.range(0.05, 0.6)];
     let shapes = sizes.map(|size| random.shape(size));
     let (q, meet) =
         (Rot::from_angle(random.range(0.0, core::f32::consts::TAU)), random.range(0.05, 0.15));
-    let ways =
-        [q.rotate(Vec2::X * random.range(5.0, 100.0)), q.rotate(Vec2::Y * random.range(0.0, 40.0))];
+    let ways = [(5.0, 1.0, Vec2::X), (0.0, 0.4, Vec2::Y)]
+        .map(|(least, most, axis)| q.rotate(axis * random.range(least, most * fastest)));
     let spins = [random.range(-10.0, 10.0), random.range(-10.0, 10.0)];
     let aside = (ways[0] - ways[1]).normalized().perp()
         * (random.range(-wide, wide) * (sizes[0] + sizes[1]));
@@ -429,18 +430,18 @@ fn duel(random: &mut Random, wide: f32) -> Option<(f32, bool, bool)> {
         began |= !world.events().contact_begin().is_empty();
     }
     let turned = |k: usize| (world.body(ids[k]).unwrap().velocity() - ways[k]).length();
-    Some((nearest, turned(0) + turned(1) > 1.0e-3, began))
+    Some((nearest, turned(0) + turned(1), began))
 }
 
 #[test]
 fn what_meets_is_told_and_what_passes_by_is_left_alone() {
     let (mut met, mut missed) = (0, 0);
     for seed in 0..600 {
-        let Some((nearest, turned, began)) =
-            duel(&mut Random::new(seed), if seed % 2 == 0 { 0.6 } else { 2.0 })
-        else {
+        let wide = if seed % 2 == 0 { 0.6 } else { 2.0 };
+        let Some((nearest, turned, began)) = duel(&mut Random::new(seed), wide, 100.0) else {
             continue;
         };
+        let turned = turned > 1.0e-3;
         if nearest < -0.03 {
             met += 1;
             assert!(turned && began, "{seed} met by {nearest}: {turned} {began}");
@@ -450,6 +451,24 @@ fn what_meets_is_told_and_what_passes_by_is_left_alone() {
         }
     }
     assert!(met > 150 && missed > 100, "{met} {missed}");
+}
+
+/// Contacts are made two centimetres before shapes touch, and pushed off what came in and went by: 10 of 110, by up to 6.3 m/s. What
+/// comes in by less than 1.4 cm in a step is not looked at.
+#[test]
+fn what_grazes_is_left_alone() {
+    let mut grazes = Vec::new();
+    for seed in 0..12_000 {
+        let fastest = if seed % 2 == 0 { 10.0 } else { 30.0 };
+        if let Some((nearest, turned, _)) = duel(&mut Random::new(seed), 1.2, fastest)
+            && (0.0065..0.02).contains(&nearest)
+        {
+            assert!(turned < 1.1, "{seed} missed by {nearest}: {turned}");
+            grazes.push(turned > 1.0e-3);
+        }
+    }
+    let turned = grazes.iter().filter(|&&it| it).count();
+    assert!(grazes.len() > 150 && 50 * turned < grazes.len(), "{turned} of {}", grazes.len());
 }
 
 #[test]

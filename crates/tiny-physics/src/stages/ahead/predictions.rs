@@ -7,7 +7,9 @@ use super::hits::{Hit, Prediction};
 use super::meeting::Meeting;
 use super::squeezed::{self, Pressed, Squeezed};
 use crate::broad_phase::BroadPhase;
-use crate::dynamics::{Bodies, ConstraintBlock, Contact, Contacts, Graph, Joints, Place, Shapes};
+use crate::dynamics::{
+    Bodies, Bucket, ConstraintBlock, Contact, Contacts, Graph, Joints, Place, Shapes,
+};
 use crate::footprint::footprint;
 use crate::geometry::manifold::Manifold;
 use crate::geometry::{LINEAR_SLOP, ToiState, impact_within};
@@ -43,6 +45,8 @@ pub(crate) struct Predictions {
     pub(crate) contacts: Vec<u32>,
     /// Those of them that did not touch before.
     pub(crate) fresh: Vec<u32>,
+    /// Contacts whose points are near each other, and whose shapes pass.
+    missed: Vec<u32>,
     /// Those of hard hits, some more than once: they are solved more often.
     pub(crate) hard: Vec<u32>,
     /// Those whose bodies hit others first, and are slowed.
@@ -59,7 +63,7 @@ pub(crate) struct Predictions {
     rounds: usize,
     /// Bodies that may still be looked at again in this step.
     budget: usize,
-    found: Vec<Vec<Hit>>,
+    found: Vec<Seen>,
     /// Hits of a round, the earliest first: time and contact, and place.
     order: Vec<(u64, u32)>,
     again: Again,
@@ -70,6 +74,7 @@ footprint!(Predictions {
     candidates,
     contacts,
     fresh,
+    missed,
     hard,
     behind,
     waiting,
@@ -82,6 +87,15 @@ footprint!(Predictions {
     again,
     reached
 } each { found } none { rounds, budget });
+
+/// What one member of the team has found.
+#[derive(Debug, Default)]
+struct Seen {
+    hits: Vec<Hit>,
+    missed: Vec<u32>,
+}
+
+footprint!(Seen { hits, missed });
 
 /// What predictions are made from.
 #[derive(Clone, Copy)]
@@ -104,6 +118,7 @@ impl Predictions {
         self.contacts.drain(..).for_each(|contact| self.places[contact as usize] = 0);
         self.list.clear();
         self.fresh.clear();
+        self.missed.clear();
         self.hard.clear();
         self.behind.clear();
         self.waiting.clear();
@@ -163,6 +178,15 @@ impl Predictions {
         }
     }
 
+    /// Contacts that came near, and that the solver is to leave alone: both bodies go by without a hit.
+    pub(crate) fn misses<'a>(&'a self, contacts: &'a Contacts) -> impl Iterator<Item = u32> + 'a {
+        let is_struck = |contact: &Contact| {
+            [contact.body_a, contact.body_b].iter().any(|&body| self.courses.is_struck(body))
+        };
+        let free = move |&index: &u32| !is_struck(&contacts.records[index as usize]);
+        self.missed.iter().copied().filter(free)
+    }
+
     /// Are there none?
     pub(crate) fn is_empty(&self) -> bool {
         self.list.is_empty()
@@ -214,14 +238,16 @@ impl Predictions {
         let mut found = core::mem::take(&mut self.found);
         let look = Look { scene, known: self };
         let chunks = team.map_chunks(self.candidates.len(), CHUNK, &mut found, |range, found| {
-            found.clear();
-            found.extend(self.candidates[range].iter().filter_map(|&contact| look.hit(contact)));
+            found.hits.clear();
+            found.missed.clear();
+            self.candidates[range].iter().for_each(|&contact| look.add(contact, found));
         });
         let mut order = core::mem::take(&mut self.order);
         list_by_time(chunks, &mut order);
         order.iter().for_each(|&(_, place)| {
-            self.take(scene, &chunks[place as usize / CHUNK][place as usize % CHUNK]);
+            self.take(scene, &chunks[place as usize / CHUNK].hits[place as usize % CHUNK]);
         });
+        chunks.iter().for_each(|found| self.missed.extend_from_slice(&found.missed));
         (self.found, self.order) = (found, order);
         self.rounds += 1;
         self.list_struck(scene.bodies, SLIGHT * scene.narrow_phase.speculative_distance);
@@ -407,6 +433,24 @@ impl Predictions {
     }
 }
 
+/// What becomes of two shapes that close in.
+enum Coming {
+    Hit(Hit),
+    Misses,
+    Unknown,
+}
+
+impl Coming {
+    fn hit(self) -> Option<Hit> {
+        if let Self::Hit(hit) = self { Some(hit) } else { None }
+    }
+}
+
+/// Does a contact carry an impulse?
+fn is_pushing(constraint: &ConstraintBlock, lane: usize) -> bool {
+    constraint.points.iter().any(|point| point.normal_impulse[lane] > 0.0)
+}
+
 /// The search for a hit.
 struct Look<'a> {
     scene: Scene<'a>,
@@ -414,48 +458,88 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
-    fn hit(&self, index: u32) -> Option<Hit> {
+    /// Looks at a contact.
+    fn add(&self, index: u32, seen: &mut Seen) {
         let contact = &self.scene.contacts.records[index as usize];
         if let Some(known) = self.known.of(index) {
-            return Some(known.hit(index, self.near()));
+            seen.hits.push(known.hit(index, self.near()));
+            return;
         }
-        let (bucket, block, lane) = self.scene.graph.lane_of(contact)?;
-        let touches = bucket.touches(block, lane);
-        if touches && let Some(constraint) = bucket.constraints.get(block) {
-            let hit = Hit::touching(index, constraint, lane);
+        let Some((bucket, block, lane)) = self.scene.graph.lane_of(contact) else { return };
+        if !bucket.touches(block, lane) {
+            seen.hits.extend(self.coming(index).hit());
+            return;
+        }
+        let pushes = bucket.constraints.get(block).is_some_and(|it| is_pushing(it, lane));
+        match if pushes || !self.is_free(contact) { Coming::Unknown } else { self.coming(index) } {
+            Coming::Hit(hit) => seen.hits.push(hit),
+            Coming::Misses => seen.missed.push(index),
+            Coming::Unknown => seen.hits.extend(self.touching(index, (bucket, block, lane))),
+        }
+    }
+
+    /// A hit of what touches already.
+    fn touching(&self, index: u32, (bucket, block, lane): (&Bucket, usize, usize)) -> Option<Hit> {
+        let contact = &self.scene.contacts.records[index as usize];
+        if let Some(constraint) = bucket.constraints.get(block) {
             let prediction = self.other_point(contact, constraint, lane);
-            return Some(Hit { prediction, ..hit });
+            return Some(Hit { prediction, ..Hit::touching(index, constraint, lane) });
         }
         let meeting = self.meeting(contact);
-        if !meeting.comes_near() || meeting.is_let_pass() {
+        // Whether what is one-way lets it begin is judged later.
+        let is_one_way = meeting.shapes.iter().any(|shape| shape.one_way.is_some());
+        if !meeting.comes_near() || meeting.is_let_pass() || is_one_way {
             return None;
+        }
+        let frames = meeting.sweeps().map(|sweep| sweep.at(0.0));
+        let manifold = meeting.manifold(&frames, self.reach());
+        (manifold.count > 0)
+            .then(|| meeting.predict(&manifold, &frames[0], 0.0).hit(index, self.near()))
+    }
+
+    /// Do the bodies of a contact go as they move now, as far as is known? And has neither shape a side to be passed from?
+    fn is_free(&self, contact: &Contact) -> bool {
+        let Scene { bodies, shapes, narrow_phase, .. } = &self.scene;
+        let goes = |body: u32| {
+            !self.known.courses.is_struck(body)
+                && !narrow_phase.ground.joints.act_on(bodies.infos[body as usize].first_joint)
+        };
+        let is_plain = |shape: u32| shapes.records[shape as usize].one_way.is_none();
+        goes(contact.body_a)
+            && goes(contact.body_b)
+            && is_plain(contact.shape_a)
+            && is_plain(contact.shape_b)
+    }
+
+    /// Looks for the time of impact.
+    fn coming(&self, index: u32) -> Coming {
+        let contact = &self.scene.contacts.records[index as usize];
+        let meeting = self.meeting(contact);
+        if !meeting.comes_near() {
+            return Coming::Misses;
+        }
+        if meeting.is_let_pass() {
+            return Coming::Unknown;
         }
         let [a, b] = meeting.shapes;
-        // Whether what is one-way lets it begin is judged later.
-        if touches && (a.one_way.is_some() || b.one_way.is_some()) {
-            return None;
-        }
-        if touches {
-            let frames = meeting.sweeps().map(|sweep| sweep.at(0.0));
-            let manifold = meeting.manifold(&frames, self.reach());
-            return (manifold.count > 0)
-                .then(|| meeting.predict(&manifold, &frames[0], 0.0).hit(index, self.near()));
-        }
         let slop = LINEAR_SLOP * self.length_unit();
         let apart = meeting.apart_until(slop);
         if apart >= 1.0 {
-            return None;
+            return Coming::Misses;
         }
         let sweeps = meeting.sweeps();
-        let toi = impact_within(&a.shape, &sweeps[0], &b.shape, &sweeps[1], (apart, 1.0), slop)?;
+        let toi = impact_within(&a.shape, &sweeps[0], &b.shape, &sweeps[1], (apart, 1.0), slop);
+        let Some(toi) = toi else { return Coming::Misses };
         let is_solid = one_way::are_solid_along(meeting.shapes, meeting.turned, toi.normal);
         if toi.state == ToiState::Touching || !is_solid {
-            return None;
+            return Coming::Unknown;
         }
         let frames = sweeps.map(|sweep| sweep.at(toi.fraction));
-        let manifold = self.correct(contact, &meeting, &frames)?;
+        let Some(manifold) = self.correct(contact, &meeting, &frames) else {
+            return Coming::Unknown;
+        };
         let prediction = meeting.predict(&manifold, &frames[0], toi.fraction);
-        Some(Hit { prediction: Some(prediction), ..prediction.hit(index, self.near()) })
+        Coming::Hit(Hit { prediction: Some(prediction), ..prediction.hit(index, self.near()) })
     }
 
     /// A contact that touches at one point, with the other: hits may turn a body so that this comes down in the step.
@@ -543,9 +627,9 @@ impl Look<'_> {
 }
 
 /// Lists hits by time, then by contact: what comes first is handed on first.
-fn list_by_time(found: &[Vec<Hit>], order: &mut Vec<(u64, u32)>) {
+fn list_by_time(found: &[Seen], order: &mut Vec<(u64, u32)>) {
     order.clear();
-    for (chunk, hits) in found.iter().enumerate() {
+    for (chunk, Seen { hits, .. }) in found.iter().enumerate() {
         // The bits of what is not negative are in its order.
         let key = |hit: &Hit| u64::from(hit.fraction.to_bits()) << 32 | u64::from(hit.contact);
         let place = |k: usize| (chunk * CHUNK + k) as u32;
