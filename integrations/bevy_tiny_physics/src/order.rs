@@ -13,10 +13,10 @@ pub(crate) fn of_bodies(a: &(u64, RigidBody), b: &(u64, RigidBody)) -> Ordering 
         .then_with(|| x.position.y.total_cmp(&y.position.y))
         .then_with(|| x.position.x.total_cmp(&y.position.x))
         .then_with(|| x.angle.total_cmp(&y.angle))
-        .then_with(|| of_text(x, y))
+        .then_with(|| text(x).cmp(&text(y)))
 }
 
 /// Of what has no better order: as it prints.
-pub(crate) fn of_text<T: Debug>(a: &T, b: &T) -> Ordering {
-    format!("{a:?}").cmp(&format!("{b:?}"))
+pub(crate) fn text(of: &impl Debug) -> String {
+    format!("{of:?}")
 }

@@ -50,6 +50,8 @@ const STIRRED_TIME: f32 = 2.0;
 /// Joined bodies of which one is hit so fast that it would go by its half thickness in a plain substep are solved more finely for
 /// so many seconds: what hits a limb or a plank is stopped by it and by all that hangs on it in turns.
 const STRUCK_TIME: f32 = 0.25;
+/// An island of so many bodies for each with joints is a pile in which there is a joint.
+const FEW_JOINED: usize = 4;
 /// A contact carries no more than this many times what pulls at all bodies of its island: wedges and levers do. What it pushes
 /// with beyond that holds something in that is squeezed; more stiffly, that would shoot out. Of 100 triples of U-shaped bodies put
 /// into each other 28 went off faster than 8 m/s, with this one.
@@ -259,7 +261,8 @@ impl Island {
             self.strain > least && (keeps || !waits)
         });
         if self.joined > 0 && self.touches {
-            for pace in if self.struck { [STRUCK, JOINTED] } else { [JOINTED; 2] } {
+            let strained = wanted.is_some() && FEW_JOINED * self.joined <= self.bodies;
+            for pace in if self.struck || strained { [STRUCK, JOINTED] } else { [JOINTED; 2] } {
                 let cost = self.bodies * ((REFINEMENT[pace] * ROUNDS[pace]) as usize - 1);
                 if self.bodies <= rules.most_bodies && cost <= *budget {
                     *budget -= cost;

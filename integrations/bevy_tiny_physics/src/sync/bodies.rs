@@ -62,9 +62,7 @@ fn describe(scene: &Scene, entity: Entity) -> Option<New> {
         let shapes = scene.shapes(collider, Some(entity));
         colliders.extend(shapes.ok().map(|shapes| (collider, shapes)));
     }
-    if colliders.len() > 1 {
-        colliders.sort_by(|a, b| order::of_text(&a.1, &b.1));
-    }
+    colliders.sort_by_cached_key(|(_, shapes)| order::text(shapes));
     body.shapes = colliders.iter().flat_map(|(_, shapes)| shapes.iter().cloned()).collect();
     Some(New { entity, key: (scene.order(entity), body), colliders })
 }

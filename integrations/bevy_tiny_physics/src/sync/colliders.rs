@@ -69,7 +69,7 @@ pub(crate) fn read(
             (Err(error), None) => problems.refuse(physics, entity, Role::Lone, error),
         }
     }
-    known.sort_by(|a, b| a.0.cmp(&b.0).then_with(|| order::of_text(&a.3, &b.3)));
+    known.sort_by_cached_key(|(body, _, _, shapes)| (*body, order::text(shapes)));
     for (body, owner, entity, shapes) in known {
         let Some(body) = body else { continue };
         let result = change(physics, &scene, entity, (owner, body), &shapes);

@@ -40,11 +40,11 @@ pub(crate) fn read(
                 if !waiting.contains(&entity) {
                     problems.report(entity, "joint", missing(physics, joint));
                 }
-                physics.maps.waiting.push(entity);
+                physics.maps.waiting.insert(entity);
             }
         }
     }
-    new.sort_by(|a, b| a.0.cmp(&b.0).then_with(|| order::of_text(&a.2.def, &b.2.def)));
+    new.sort_by_cached_key(|(bodies, _, joint)| (*bodies, order::text(&joint.def)));
     for (bodies, entity, joint) in new {
         let result = add(physics, entity, bodies, joint);
         problems.check(entity, "joint", result);

@@ -5,7 +5,7 @@ mod tables;
 
 use crate::components::Velocity;
 use crate::frame::Parts;
-use bevy_ecs::entity::{EntityHashMap, EntityMapper, MapEntities};
+use bevy_ecs::entity::{EntityHashMap, EntityHashSet, EntityMapper, MapEntities};
 use bevy_ecs::prelude::*;
 use bevy_math::{Quat, Vec2};
 use bevy_transform::prelude::Transform;
@@ -175,7 +175,7 @@ pub(crate) struct Maps {
     pub shapes: EntityHashMap<ShapesRecord>,
     pub joints: EntityHashMap<JointRecord>,
     /// Joints that wait for their bodies.
-    pub waiting: Vec<Entity>,
+    pub waiting: EntityHashSet,
     pub refused: Refused,
     pub tiles: EntityHashMap<TileGridId>,
     pub characters: EntityHashMap<CharacterMover>,
@@ -345,9 +345,8 @@ impl MapEntities for PhysicsWorld {
         for joint in maps.joints.values_mut() {
             joint.bodies = (mapper.get_mapped(joint.bodies.0), mapper.get_mapped(joint.bodies.1));
         }
-        for entity in &mut maps.waiting {
-            *entity = mapper.get_mapped(*entity);
-        }
+        let waiting = core::mem::take(&mut maps.waiting);
+        maps.waiting.extend(waiting.into_iter().map(|entity| mapper.get_mapped(entity)));
         for handles in [&mut maps.body_entities, &mut maps.shape_entities, &mut maps.joint_entities]
         {
             handles.map_entities(mapper);

@@ -90,11 +90,15 @@ impl PhysicsWorld {
     /// Takes a collider's shapes out.
     pub(crate) fn remove_shapes(&mut self, entity: Entity) {
         let Some(record) = self.maps.shapes.remove(&entity) else { return };
+        let mut there = Vec::with_capacity(record.shapes.len());
         for (id, _) in record.shapes {
             self.maps.shape_entities.remove(id.to_bits());
             // Gone already where its body went.
-            let _ = self.world.remove_shape(id);
+            if self.world.shape(id).is_some() {
+                there.push(id);
+            }
         }
+        let _ = self.world.remove_shapes(&there);
     }
 
     /// Takes a collider off the body that it was part of, or from the world where it stood alone.
@@ -117,18 +121,19 @@ impl PhysicsWorld {
         colliders.dedup();
         for joint in joints {
             self.remove_joint(joint);
-            self.maps.waiting.push(joint);
+            self.maps.waiting.insert(joint);
         }
+        self.maps.body_entities.remove(record.id.to_bits());
+        // All shapes at once: one by one, the mass of the others is found anew for each.
+        let _ = self.world.remove_body(record.id);
         for collider in colliders {
             self.remove_shapes(collider);
             self.notes.colliders.push(collider);
         }
-        self.maps.body_entities.remove(record.id.to_bits());
-        let _ = self.world.remove_body(record.id);
     }
 
     pub(crate) fn remove_joint(&mut self, entity: Entity) {
-        self.maps.waiting.retain(|waiting| *waiting != entity);
+        self.maps.waiting.remove(&entity);
         let Some(record) = self.maps.joints.remove(&entity) else { return };
         self.maps.joint_entities.remove(record.id.to_bits());
         // Gone already where a body went or it broke.

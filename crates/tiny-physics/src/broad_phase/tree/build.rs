@@ -8,13 +8,13 @@ use crate::work;
 
 impl DynamicTree {
     /// Builds the tree anew where that is worth it: once about as much has changed as there are
-    /// boxes, and the nodes have become larger by a quarter.
+    /// boxes, and a node has become larger by a quarter, at the mean.
     pub fn maintain(&mut self) {
         if self.changes <= self.count + 64 {
             return;
         }
         self.changes = 0;
-        if self.cost() > 1.25 * self.built_cost {
+        if self.size() > self.built_size + 0.32 {
             self.rebuild();
         }
     }
@@ -42,7 +42,7 @@ impl DynamicTree {
         branches.clear();
         self.spare.0 = branches;
         self.changes = 0;
-        self.built_cost = self.cost();
+        self.built_size = self.size();
     }
 
     /// Perimeters of all nodes, per box in the tree.
@@ -55,6 +55,16 @@ impl DynamicTree {
             }
         }
         total / self.count as f32
+    }
+
+    /// Logarithm to the base of 2 of the perimeter of a node, at the mean: one box far off makes the nodes above it as large as that is
+    /// far, and in a sum of perimeters nothing else would count.
+    fn size(&self) -> f32 {
+        let perimeters = self.boxes.iter().map(|boxes| boxes.union().perimeter());
+        let (sum, count) = perimeters
+            .filter(|&it| it > 0.0 && it < f32::INFINITY)
+            .fold((0.0, 0.0_f32), |(sum, count), it| (sum + logarithm(it), count + 1.0));
+        sum / count.max(1.0)
     }
 
     fn build(&mut self, branches: &mut [Branch], level: u8) -> u32 {
@@ -86,6 +96,11 @@ impl DynamicTree {
         self.build_parts(index, lane, low, parts / 2);
         self.build_parts(index, lane, high, parts - parts / 2);
     }
+}
+
+/// To the base of 2, exact at the powers and straight between them: a float's exponent with its fraction behind.
+fn logarithm(of: f32) -> f32 {
+    of.to_bits() as f32 / (1 << 23) as f32 - 127.0
 }
 
 /// Leaves that a tree with its root on this level can hold.

@@ -85,8 +85,8 @@ store! {
         count: usize,
         /// How much has changed since the last look at the quality, in boxes.
         changes: usize,
-        /// [`cost`](Self::cost) after the last rebuild.
-        built_cost: f32,
+        /// [`size`](Self::size) after the last rebuild.
+        built_size: f32,
         spare: Spare<Vec<Branch>> as derived,
     }
 }
@@ -162,7 +162,7 @@ impl DynamicTree {
             free: NONE,
             count: 0,
             changes: 0,
-            built_cost: 0.0,
+            built_size: 0.0,
             spare: Spare(Vec::new()),
         }
     }
@@ -204,7 +204,7 @@ impl DynamicTree {
         self.nodes.clear();
         self.places.clear();
         (self.root, self.free, self.count) = (NONE, NONE, 0);
-        (self.changes, self.built_cost) = (0, 0.0);
+        (self.changes, self.built_size) = (0, 0.0);
     }
 
     /// Puts a box in, in place of the one that the id had before, if any.
