@@ -479,7 +479,7 @@ fn loads_keep_their_momentum_on_light_things() {
         let real = 3.0 * heavy / (heavy + 1.0);
         assert!((0.94 * real..1.001 * real).contains(&speed), "ice, {heavy}: {speed} of {real}");
     }
-    for heavy in [20.0, 100.0, 500.0] {
+    for (heavy, least) in [(20.0, 2.05), (100.0, 2.4), (500.0, 2.4)] {
         let mut world = world_with_floor();
         for k in 0..9 {
             let place = Vec2::new(-2.0 + 0.7 * k as f32, 0.2);
@@ -496,6 +496,6 @@ fn loads_keep_their_momentum_on_light_things() {
             assert!(now < first, "logs, {heavy}: {first} to {now} J");
         }
         let speed = world.body(slab).expect("it is there").velocity().x;
-        assert!(speed > 2.1, "logs, {heavy}: {speed}");
+        assert!(speed > least, "logs, {heavy}: {speed}");
     }
 }

@@ -50,7 +50,8 @@ const STIRRED_TIME: f32 = 2.0;
 /// Joined bodies of which one is hit so fast that it would go by its half thickness in a plain substep are solved more finely for
 /// so many seconds: what hits a limb or a plank is stopped by it and by all that hangs on it in turns.
 const STRUCK_TIME: f32 = 0.25;
-/// An island of so many bodies for each with joints is a pile in which there is a joint.
+/// An island of so many bodies for each with joints is a pile in which there is a joint, if none hangs on something else: that bears
+/// what lies on it.
 const FEW_JOINED: usize = 4;
 /// A contact carries no more than this many times what pulls at all bodies of its island: wedges and levers do. What it pushes
 /// with beyond that holds something in that is squeezed; more stiffly, that would shoot out. Of 100 triples of U-shaped bodies put
@@ -230,6 +231,8 @@ struct Island {
     /// Bodies with joints, and joints between two of them that do no work.
     joined: usize,
     joints: usize,
+    /// Does a joint hold one of them to what is none of it?
+    hangs: bool,
     /// Does anything in it touch something?
     touches: bool,
     /// Do two of its bodies hold each other in?
@@ -261,8 +264,12 @@ impl Island {
             self.strain > least && (keeps || !waits)
         });
         if self.joined > 0 && self.touches {
-            let strained = wanted.is_some() && FEW_JOINED * self.joined <= self.bodies;
-            for pace in if self.struck || strained { [STRUCK, JOINTED] } else { [JOINTED; 2] } {
+            let few = FEW_JOINED * self.joined <= self.bodies && !self.hangs;
+            for pace in if self.struck || few && wanted.is_some() {
+                [STRUCK, JOINTED]
+            } else {
+                [JOINTED; 2]
+            } {
                 let cost = self.bodies * ((REFINEMENT[pace] * ROUNDS[pace]) as usize - 1);
                 if self.bodies <= rules.most_bodies && cost <= *budget {
                     *budget -= cost;
@@ -301,9 +308,14 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         island.struck |= info.stirred > STIRRED_TIME;
         island.joined += usize::from(joints.act_on(info.first_joint));
     }
-    for record in joints.tying().filter(|record| !may_drive(&record.def)) {
-        if bodies.is_solved(record.body_a) && bodies.is_solved(record.body_b) {
-            found[islands.root(record.body_a) as usize].joints += 1;
+    for record in joints.tying() {
+        match [record.body_a, record.body_b].map(|body| bodies.is_solved(body)) {
+            [true, true] if !may_drive(&record.def) => {
+                found[islands.root(record.body_a) as usize].joints += 1;
+            }
+            [true, false] => found[islands.root(record.body_a) as usize].hangs = true,
+            [false, true] => found[islands.root(record.body_b) as usize].hangs = true,
+            _ => {}
         }
     }
     for (place, bucket) in graph.touching_buckets() {

@@ -32,6 +32,8 @@ store! {
         pub(super) step_count: u64,
         /// The world's gravity in the last step.
         pub(super) gravity: Option<Vec2>,
+        /// Did the world let islands sleep in the last step?
+        pub(super) sleeps: bool,
         /// 1 / substep length of the last step, at the plain pace.
         pub(super) inv_h: f32,
         /// That of the first step: what sleeps keeps impulses of such substeps.

@@ -9,7 +9,8 @@ use crate::geometry::{LINEAR_SLOP, collide};
 use core::ops::ControlFlow;
 
 impl World {
-    /// Wakes what sleeps under another gravity than it fell asleep under, and what ground has been put into.
+    /// Wakes what sleeps under another gravity than it fell asleep under, or where sleep has been switched off, and what ground
+    /// has been put into.
     pub(super) fn wake_disturbed(&mut self) {
         let felt = self.state.gravity.replace(self.gravity);
         if felt.is_some_and(|felt| felt != self.gravity) {
@@ -17,6 +18,10 @@ impl World {
             for i in 0..self.state.bodies.awake.len() {
                 self.state.bodies.disturb(self.state.bodies.awake[i]);
             }
+        }
+        let slept = core::mem::replace(&mut self.state.sleeps, self.settings.sleep);
+        if slept && !self.settings.sleep {
+            self.wake_all();
         }
         for body in self.buried_sleepers() {
             self.wake_index(body);

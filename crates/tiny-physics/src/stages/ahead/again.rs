@@ -1,6 +1,7 @@
 //! What hits took off its way is looked at again: what may it meet on its new one?
 
 use super::courses::Courses;
+use super::hits::goes_in;
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Contact, Contacts, Graph};
 use crate::footprint::footprint;
@@ -179,13 +180,8 @@ impl Look<'_> {
         bucket.constraints.get(block).is_none_or(|constraint| {
             let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
             let motion = a.motion - b.motion;
-            let along = normal.dot(motion);
-            let goes_in = constraint.points.iter().any(|point| {
-                let turning = a.turn * point.normal_arm_a[lane] - b.turn * point.normal_arm_b[lane];
-                let gap = point.separation[lane].max(0.0);
-                point.normal_mass[lane] > 0.0 && along + turning - gap > least
-            });
-            goes_in || along > HEAD_ON * motion.length()
+            let goes_in = goes_in(constraint, lane, [&a, &b]) > least;
+            goes_in || normal.dot(motion) > HEAD_ON * motion.length()
         })
     }
 

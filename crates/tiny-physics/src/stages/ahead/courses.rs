@@ -3,6 +3,7 @@
 use crate::dynamics::{Bodies, Slot, inverse_mass_along};
 use crate::footprint::footprint;
 use crate::math::Vec2;
+use crate::stages::ahead::HARMLESS;
 use crate::stages::boxes::Way;
 
 /// What hits took off its way is looked for so many times as far off: one hit alone, in time, is handed on, where the
@@ -25,6 +26,21 @@ pub(super) struct Course {
     pub(super) inverse_mass: f32,
     /// Did it hit what does not bounce?
     pub(super) stopped: bool,
+    /// When it was hit last, as a part of the step.
+    pub(super) since: f32,
+    /// Did only what cannot move hit it? Then it is known where it goes.
+    pub(super) sure: bool,
+}
+
+/// The last leg of a body's way, since it was hit: the line on which it goes, as if from the start of the step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Leg {
+    /// From where the step starts to where the line would.
+    pub(super) offset: Vec2,
+    pub(super) offset_turn: f32,
+    pub(super) motion: Vec2,
+    pub(super) turn: f32,
+    pub(super) since: f32,
 }
 
 /// The courses of what is hit, as far as hits are known.
@@ -88,8 +104,19 @@ impl Course {
         let row = &bodies.rows[body as usize];
         let (velocity, spin) = (Vec2::new(row[Slot::VX], row[Slot::VY]), row[Slot::W]);
         let (motion, turn) = (velocity * dt, spin * dt);
-        let (inverse_mass, stopped) = (row[Slot::INV_MASS].abs(), false);
-        Self { body, motion, turn, velocity, spin, astray: 0.0, inverse_mass, stopped }
+        let inverse_mass = row[Slot::INV_MASS].abs();
+        Self {
+            body,
+            motion,
+            turn,
+            velocity,
+            spin,
+            astray: 0.0,
+            inverse_mass,
+            stopped: false,
+            since: 0.0,
+            sure: true,
+        }
     }
 
     /// How its velocities change by the second, as forces and impulses have done in the last substep. `inv_h` is 1 / its length.
@@ -103,10 +130,31 @@ impl Course {
 
     /// As far off the way as it is looked for, see [`AMISS`].
     fn amiss(&self, bodies: &Bodies, dt: f32) -> Self {
+        if self.sure {
+            return *self;
+        }
         let first = Self::of(bodies, dt, self.body);
         let motion = first.motion + (self.motion - first.motion) * AMISS;
         let turn = first.turn + (self.turn - first.turn) * AMISS;
         Self { motion, turn, ..*self }
+    }
+
+    /// Was it taken so far off its way, by `least` metres and more, that this is looked at again?
+    pub(super) fn is_far(&self, bodies: &Bodies, least: f32) -> bool {
+        let half = bodies.infos[self.body as usize].min_extent;
+        let thin = 0.0 < half && half < least;
+        self.astray > HARMLESS * half && self.astray > if thin { half } else { least }
+    }
+
+    /// Where it goes since it was hit; straight from its start to its end where that is not sure.
+    pub(super) fn leg(&self, dt: f32) -> Leg {
+        let Self { motion, turn, velocity, spin, since, sure, .. } = *self;
+        if !sure || since == 0.0 {
+            return Leg { offset: Vec2::ZERO, offset_turn: 0.0, motion, turn, since: 0.0 };
+        }
+        let (along, turned) = (velocity * dt, spin * dt);
+        let (offset, offset_turn) = (motion - along, turn - turned);
+        Leg { offset, offset_turn, motion: along, turn: turned, since }
     }
 
     pub(super) fn way(&self, bodies: &Bodies) -> Way {
@@ -127,15 +175,17 @@ pub(super) struct Impact {
     inverses: [[f32; 3]; 2],
     /// How far they reach from their centres of mass.
     reach: [f32; 2],
+    /// When, as a part of the step.
+    fraction: f32,
     rest: f32,
 }
 
 impl Impact {
     #[inline]
-    pub(super) fn new(bodies: &Bodies, courses: [Course; 2], rest: f32) -> Self {
+    pub(super) fn new(bodies: &Bodies, courses: [Course; 2], (fraction, dt): (f32, f32)) -> Self {
         let inverses = courses.map(|course| bodies.inverses(course.body));
         let reach = courses.map(|course| bodies.infos[course.body as usize].max_extent);
-        Self { courses, inverses, reach, rest }
+        Self { courses, inverses, reach, fraction, rest: (1.0 - fraction) * dt }
     }
 
     /// How fast B leaves A along an axis, and the mass that an impulse along it moves: nothing where neither can move.
@@ -155,6 +205,8 @@ impl Impact {
             let [x, y, turn] = self.inverses[k];
             self.courses[k].velocity += Vec2::new(axis.x * (impulse * x), axis.y * (impulse * y));
             self.courses[k].spin += impulse * arms[k] * turn;
+            self.courses[k].since = self.fraction.max(self.courses[k].since);
+            self.courses[k].sure &= self.inverses[1 - k] == [0.0; 3];
         }
         self.shift(impulse, axis, arms, self.rest);
     }

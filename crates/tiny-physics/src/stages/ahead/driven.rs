@@ -432,6 +432,7 @@ impl Change {
             course.motion += self.velocity * dt;
             course.turn += self.spin * dt;
             course.astray += self.way(bodies, dt);
+            course.sure = false;
             courses.keep(&course);
         }
     }

@@ -88,6 +88,18 @@ impl Hit {
     }
 }
 
+/// How far bodies will go into each other at the deepest point of a contact, as they move, metres.
+pub(super) fn goes_in(constraint: &ConstraintBlock, lane: usize, [a, b]: [&Course; 2]) -> f32 {
+    let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
+    let along = normal.dot(a.motion - b.motion);
+    let there = constraint.points.iter().filter(|point| point.normal_mass[lane] > 0.0);
+    let depths = there.map(|point| {
+        let turning = a.turn * point.normal_arm_a[lane] - b.turn * point.normal_arm_b[lane];
+        along + turning - point.separation[lane].max(0.0)
+    });
+    depths.fold(f32::MIN, f32::max)
+}
+
 impl Prediction {
     /// `near` is how far points may be apart that are hit together, metres.
     pub(super) fn hit(&self, contact: u32, near: f32) -> Hit {

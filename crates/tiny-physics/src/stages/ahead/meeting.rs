@@ -1,5 +1,6 @@
 //! Two shapes on their ways: whether they come near, when, and the contact that they have then.
 
+use super::courses::Leg;
 use super::hits::Prediction;
 use crate::dynamics::ShapeRecord;
 use crate::geometry::manifold::{self, Manifold};
@@ -15,14 +16,12 @@ const ROUNDING: f32 = 1.0e-6;
 pub(super) struct Meeting<'a> {
     pub(super) shapes: [&'a ShapeRecord; 2],
     pub(super) rows: [&'a Row; 2],
-    /// Of the bodies at the start, and how far they turn, radians.
+    /// Of the bodies at the start.
     pub(super) turned: [Rot; 2],
-    pub(super) turns: [f32; 2],
-    /// From the centre of mass of A to that of B at the start, and how that changes over the step.
+    /// From the centre of mass of A to that of B at the start.
     pub(super) between: Vec2,
-    pub(super) way: Vec2,
-    /// How far A goes in the step.
-    pub(super) way_of_a: Vec2,
+    /// How they go on.
+    pub(super) legs: [Leg; 2],
     /// How far they reach from the centres of mass of their bodies, metres.
     pub(super) extents: [f32; 2],
     /// The same of their bodies: less for a polygon, in whose box there is room.
@@ -32,10 +31,10 @@ pub(super) struct Meeting<'a> {
 impl Meeting<'_> {
     /// Is one of the shapes one-way, and lets the other pass?
     pub(super) fn is_let_pass(&self) -> bool {
-        let turned = self.turned_way();
+        let (turned, way) = (self.turned_way(), self.way());
         let lets =
             |k: usize, way: Vec2| one_way::lets_pass(self.shapes[k], self.turned[k], way, turned);
-        lets(0, self.way) || lets(1, -self.way)
+        lets(0, way) || lets(1, -way)
     }
 
     /// In the frame of shape A.
@@ -44,27 +43,58 @@ impl Meeting<'_> {
         manifold::collide(&a.shape, &b.shape, frame_b.relative_to(*frame_a), reach)
     }
 
+    /// How B goes on as A sees it.
+    fn way(&self) -> Vec2 {
+        self.legs[1].motion - self.legs[0].motion
+    }
+
+    /// Where the last legs would have begun.
+    fn begin(&self) -> Vec2 {
+        self.between + self.legs[1].offset - self.legs[0].offset
+    }
+
+    fn rotation(&self, k: usize) -> Rot {
+        match self.legs[k].offset_turn {
+            0.0 => self.turned[k],
+            turn => self.turned[k].compose(Rot::from_angle(turn)),
+        }
+    }
+
+    /// Since when both are on their last legs, as a part of the step.
+    pub(super) fn since(&self) -> f32 {
+        self.legs[0].since.max(self.legs[1].since)
+    }
+
     /// The ways of the shapes.
     pub(super) fn sweeps(&self) -> [Sweep; 2] {
         let sweep = |k: usize, place: Vec2, way: Vec2| {
-            let frame = Transform::new(place, self.turned[k]);
-            Sweep::new(frame, Vec2::ZERO, way, self.turns[k]).child(self.shapes[k].central)
+            let frame = Transform::new(place, self.rotation(k));
+            Sweep::new(frame, Vec2::ZERO, way, self.legs[k].turn).child(self.shapes[k].central)
         };
-        [sweep(0, Vec2::ZERO, Vec2::ZERO), sweep(1, self.between, self.way)]
+        [sweep(0, Vec2::ZERO, Vec2::ZERO), sweep(1, self.begin(), self.way())]
+    }
+
+    /// Where the shapes are as the step starts.
+    pub(super) fn frames(&self) -> [Transform; 2] {
+        let frame = |k: usize, place: Vec2| {
+            Transform::new(place, self.turned[k]).compose(self.shapes[k].central)
+        };
+        [frame(0, Vec2::ZERO), frame(1, self.between)]
     }
 
     /// A part of the step for which the disks or the boxes around the shapes show that these stay apart; 1 for all of it.
     pub(super) fn apart_until(&self, slop: f32) -> f32 {
         let [a, b] = self.rows;
-        let size = self.between.x.abs() + self.between.y.abs() + self.longest_way();
+        let (begin, way) = (self.begin(), self.way());
+        let size = begin.x.abs() + begin.y.abs() + self.longest_way();
         let least =
             hit_at(a[6] + b[6], slop) + ROUNDING * (self.extents[0] + self.extents[1] + size);
         if self.disks_apart_until(self.disks[0] + self.disks[1] + least) >= 1.0 {
             return 1.0;
         }
-        let swept = |k: usize, way| SweptBox::new(self.rows[k], self.turned[k], way);
-        let still = swept(0, (Vec2::ZERO, Vec2::ZERO, self.turns[0]));
-        let moving = swept(1, (self.between, self.way, self.turns[1]));
+        let swept = |k: usize, way| SweptBox::new(self.rows[k], self.rotation(k), way);
+        let still = swept(0, (Vec2::ZERO, Vec2::ZERO, self.legs[0].turn));
+        let moving = swept(1, (begin, way, self.legs[1].turn));
         let boxes = still.apart_until(&moving, least);
         let disks = self.disks_apart_until(self.extents[0] + self.extents[1] + least);
         if disks > boxes { disks } else { boxes }
@@ -72,10 +102,11 @@ impl Meeting<'_> {
 
     /// The part of the step until when the centres of mass are further from each other than `least`; 1 if they always are.
     fn disks_apart_until(&self, least: f32) -> f32 {
-        let length = self.between.length();
+        let (begin, way) = (self.begin(), self.way());
+        let length = begin.length();
         let gap = (length - least) * (length + least);
-        let coming = -self.between.dot(self.way);
-        let square = coming * coming - self.way.length_sq() * gap;
+        let coming = -begin.dot(way);
+        let square = coming * coming - way.length_sq() * gap;
         if gap <= 0.0 {
             0.0
         } else if coming <= 0.0 || square <= 0.0 || gap >= coming + square.sqrt() {
@@ -87,12 +118,12 @@ impl Meeting<'_> {
 
     /// How far a point can come nearer in the step, metres.
     pub(super) fn longest_way(&self) -> f32 {
-        self.way.length() + self.turned_way()
+        self.way().length() + self.turned_way()
     }
 
     /// How far turning takes a point at most, metres.
     fn turned_way(&self) -> f32 {
-        self.turns[0].abs() * self.extents[0] + self.turns[1].abs() * self.extents[1]
+        self.legs[0].turn.abs() * self.extents[0] + self.legs[1].turn.abs() * self.extents[1]
     }
 
     /// Do the disks around the shapes meet on their ways?
@@ -100,19 +131,27 @@ impl Meeting<'_> {
         self.disks_apart_until(self.extents[0] + self.extents[1]) < 1.0
     }
 
-    /// The contact of the time of impact, its points as far apart as they still have to come.
+    /// The contact of the time of impact, its points as far apart as they still have to come; at 0, of the start of the step.
     pub(super) fn predict(
         &self,
         manifold: &Manifold,
         frame: &Transform,
         fraction: f32,
     ) -> Prediction {
-        let (normal, between) =
-            (frame.q.rotate(manifold.normal), self.between + self.way * fraction);
+        let gone = |leg: &Leg| {
+            if fraction > 0.0 {
+                (leg.offset + leg.motion * fraction, leg.offset_turn + leg.turn * fraction)
+            } else {
+                (Vec2::ZERO, 0.0)
+            }
+        };
+        let [(way_a, turn_a), (way_b, turn_b)] = [gone(&self.legs[0]), gone(&self.legs[1])];
+        let normal = frame.q.rotate(manifold.normal);
+        let between = self.between + way_b - way_a;
         let mut prediction = Prediction {
             normal,
             between,
-            way: self.way_of_a * fraction,
+            way: way_a,
             points: [Vec2::ZERO; 2],
             separation: [f32::MAX; 2],
             id: [0.0; 2],
@@ -122,9 +161,8 @@ impl Meeting<'_> {
         };
         for (k, point) in manifold.points().iter().enumerate() {
             let arm = frame.apply(point.point);
-            let turned =
-                (arm - between).cross(normal) * self.turns[1] - arm.cross(normal) * self.turns[0];
-            let opened = fraction * (normal.dot(self.way) + turned);
+            let turned = (arm - between).cross(normal) * turn_b - arm.cross(normal) * turn_a;
+            let opened = normal.dot(way_b - way_a) + turned;
             let coming = if opened < 0.0 { -opened } else { 0.0 };
             prediction.points[k] = arm;
             prediction.separation[k] = point.separation + coming;

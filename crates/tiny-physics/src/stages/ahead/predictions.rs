@@ -3,7 +3,7 @@
 use super::again::{Again, Around, Struck};
 use super::courses::{Course, Courses, Impact};
 use super::driven::{self, Held};
-use super::hits::{Hit, Prediction};
+use super::hits::{Hit, Prediction, goes_in};
 use super::meeting::Meeting;
 use super::squeezed::{self, Pressed, Squeezed};
 use crate::broad_phase::BroadPhase;
@@ -14,7 +14,7 @@ use crate::footprint::footprint;
 use crate::geometry::manifold::Manifold;
 use crate::geometry::{LINEAR_SLOP, ToiState, impact_within};
 use crate::math::{Transform, Vec2};
-use crate::stages::ahead::{Found, HARMLESS, SLIGHT, Ways};
+use crate::stages::ahead::{Found, SLIGHT, Ways};
 use crate::stages::boxes;
 use crate::stages::narrow_context::Context;
 use crate::stages::one_way;
@@ -33,6 +33,8 @@ const BUDGET: usize = 256;
 const SHARE: usize = 32;
 /// A hit is hard if its bodies would go so far into each other in the step: a part of the thinner one's half thickness.
 const HARD: f32 = 0.2;
+/// Cosine of the angle by which the normal of what is near turns at most until it is hit: 11 degrees.
+const AS_NOW: f32 = 0.98;
 /// What hits before it leave so much of its speed bounces as if they were not.
 const UNSLOWED: f32 = 0.75;
 
@@ -66,6 +68,8 @@ pub(crate) struct Predictions {
     found: Vec<Seen>,
     /// Hits of a round, the earliest first: time and contact, and place.
     order: Vec<(u64, u32)>,
+    /// Contacts that wait for the next round: one of their bodies was hit before them, and goes elsewhere now.
+    deferred: Vec<u32>,
     again: Again,
     reached: Found,
 }
@@ -84,6 +88,7 @@ footprint!(Predictions {
     struck,
     squeezed,
     order,
+    deferred,
     again,
     reached
 } each { found } none { rounds, budget });
@@ -109,6 +114,13 @@ pub(crate) struct Scene<'a> {
     /// Length of the step, seconds, and how many substeps it has.
     pub(crate) dt: f32,
     pub(crate) substeps: f32,
+}
+
+impl Scene<'_> {
+    fn is_joined(&self, body: u32) -> bool {
+        let joints = self.narrow_phase.ground.joints;
+        joints.act_on(self.bodies.infos[body as usize].first_joint)
+    }
 }
 
 impl Predictions {
@@ -251,6 +263,7 @@ impl Predictions {
         (self.found, self.order) = (found, order);
         self.rounds += 1;
         self.list_struck(scene.bodies, SLIGHT * scene.narrow_phase.speculative_distance);
+        self.candidates.append(&mut self.deferred);
         !self.struck.is_empty()
     }
 
@@ -292,14 +305,17 @@ impl Predictions {
         let contact = &scene.contacts.records[hit.contact as usize];
         let bodies = [contact.body_a, contact.body_b];
         let courses = bodies.map(|body| self.courses.of(scene.bodies, scene.dt, body));
+        if self.waits(scene, hit, &courses) {
+            self.deferred.push(hit.contact);
+            return;
+        }
         let mut fraction = hit.when(&courses, scene.dt);
         if contact.restitution > 0.0 {
             // What bounces is reflected at the start of the substep.
             fraction = (fraction * scene.substeps).floor() / scene.substeps;
         }
-        let rest = (1.0 - fraction) * scene.dt;
-        let mut impact = Impact::new(scene.bodies, courses, rest);
-        if let Some(prediction) = hit.prediction {
+        let mut impact = Impact::new(scene.bodies, courses, (fraction, scene.dt));
+        if let Some(prediction) = hit.prediction.filter(|_| self.of(hit.contact).is_none()) {
             let parting = hit.parting(&impact.courses);
             self.contacts.push(hit.contact);
             self.list.push(Prediction { parting, ..prediction });
@@ -310,6 +326,10 @@ impl Predictions {
         }
         let astray = [impact.courses[0].astray, impact.courses[1].astray];
         self.note_squeezed(scene, hit, &mut impact.courses);
+        // Joints take a body elsewhere than a hit alone would, and what bounces may do so a substep sooner.
+        let is_plain = contact.restitution == 0.0;
+        let sure = bodies.map(|body| is_plain && !scene.is_joined(body));
+        impact.courses.iter_mut().zip(sure).for_each(|(it, sure)| it.sure &= sure);
         let thinner = scene.bodies.thinner_half(bodies);
         let mut pushed = self.put_forward(hit, fraction, scene.dt, &mut impact);
         for (arms, pushed) in hit.arms.into_iter().zip(&mut pushed) {
@@ -336,6 +356,22 @@ impl Predictions {
                 self.courses.keep(course);
             }
         }
+    }
+
+    /// Does a hit of what cannot move wait for the next round? Its other body was turned off its way before, by something else that cannot
+    /// move, and may pass.
+    fn waits(&self, scene: Scene<'_>, hit: &Hit, courses: &[Course; 2]) -> bool {
+        let least = SLIGHT * scene.narrow_phase.speculative_distance;
+        let turned = |course: &Course| {
+            let is_in_time = 0.0 < course.since && course.since < hit.fraction;
+            is_in_time && course.sure && course.is_far(scene.bodies, least)
+        };
+        let [a, b] = courses;
+        let is_fixed = |course: &Course| scene.bodies.inverses(course.body) == [0.0; 3];
+        let there_is_time = self.rounds + 1 < ROUNDS && self.budget > 0;
+        hit.prediction.is_some()
+            && there_is_time
+            && (turned(a) && is_fixed(b) || turned(b) && is_fixed(a))
     }
 
     /// Notes a hit of what bounces whose bodies others have slowed before.
@@ -417,11 +453,9 @@ impl Predictions {
             return;
         }
         for course in &mut self.courses.list {
-            let half = bodies.infos[course.body as usize].min_extent;
-            let astray = course.astray / half;
-            let thin = 0.0 < half && half < least;
-            if astray > HARMLESS && course.astray > if thin { half } else { least } {
-                self.struck.push(Struck { body: course.body, astray });
+            if course.is_far(bodies, least) {
+                let half = bodies.infos[course.body as usize].min_extent;
+                self.struck.push(Struck { body: course.body, astray: course.astray / half });
                 course.astray = 0.0;
             }
         }
@@ -446,11 +480,6 @@ impl Coming {
     }
 }
 
-/// Does a contact carry an impulse?
-fn is_pushing(constraint: &ConstraintBlock, lane: usize) -> bool {
-    constraint.points.iter().any(|point| point.normal_impulse[lane] > 0.0)
-}
-
 /// The search for a hit.
 struct Look<'a> {
     scene: Scene<'a>,
@@ -470,11 +499,18 @@ impl Look<'_> {
             seen.hits.extend(self.coming(index).hit());
             return;
         }
-        let pushes = bucket.constraints.get(block).is_some_and(|it| is_pushing(it, lane));
-        match if pushes || !self.is_free(contact) { Coming::Unknown } else { self.coming(index) } {
-            Coming::Hit(hit) => seen.hits.push(hit),
+        let passes = || {
+            let constraint = bucket.constraints.get(block);
+            self.is_free(contact) && constraint.is_none_or(|it| self.may_pass(contact, it, lane))
+        };
+        let touching = || self.touching(index, (bucket, block, lane));
+        match if passes() { self.coming(index) } else { Coming::Unknown } {
             Coming::Misses => seen.missed.push(index),
-            Coming::Unknown => seen.hits.extend(self.touching(index, (bucket, block, lane))),
+            Coming::Unknown => seen.hits.extend(touching()),
+            // Where it is hit as its points say, these are kept.
+            Coming::Hit(hit) => seen.hits.push(
+                touching().filter(|known| known.normal.dot(hit.normal) > AS_NOW).unwrap_or(hit),
+            ),
         }
     }
 
@@ -485,36 +521,61 @@ impl Look<'_> {
             let prediction = self.other_point(contact, constraint, lane);
             return Some(Hit { prediction, ..Hit::touching(index, constraint, lane) });
         }
-        let meeting = self.meeting(contact);
+        let meeting = self.meeting(contact, self.far(contact));
         // Whether what is one-way lets it begin is judged later.
         let is_one_way = meeting.shapes.iter().any(|shape| shape.one_way.is_some());
         if !meeting.comes_near() || meeting.is_let_pass() || is_one_way {
             return None;
         }
-        let frames = meeting.sweeps().map(|sweep| sweep.at(0.0));
+        let frames = meeting.frames();
         let manifold = meeting.manifold(&frames, self.reach());
         (manifold.count > 0)
             .then(|| meeting.predict(&manifold, &frames[0], 0.0).hit(index, self.near()))
     }
 
+    /// Does a contact that pushes nothing yet come so near in the step that it would?
+    fn may_pass(&self, contact: &Contact, constraint: &ConstraintBlock, lane: usize) -> bool {
+        let [a, b] = [contact.body_a, contact.body_b]
+            .map(|body| Course::of(self.scene.bodies, self.scene.dt, body));
+        constraint.points.iter().all(|point| point.normal_impulse[lane] == 0.0)
+            && goes_in(constraint, lane, [&a, &b]) > 0.0
+    }
+
     /// Do the bodies of a contact go as they move now, as far as is known? And has neither shape a side to be passed from?
     fn is_free(&self, contact: &Contact) -> bool {
-        let Scene { bodies, shapes, narrow_phase, .. } = &self.scene;
-        let goes = |body: u32| {
-            !self.known.courses.is_struck(body)
-                && !narrow_phase.ground.joints.act_on(bodies.infos[body as usize].first_joint)
-        };
-        let is_plain = |shape: u32| shapes.records[shape as usize].one_way.is_none();
+        let goes = |body: u32| !self.known.courses.is_struck(body) && !self.scene.is_joined(body);
+        let is_plain = |shape: u32| self.scene.shapes.records[shape as usize].one_way.is_none();
         goes(contact.body_a)
             && goes(contact.body_b)
             && is_plain(contact.shape_a)
             && is_plain(contact.shape_b)
     }
 
-    /// Looks for the time of impact.
+    /// Looks for the time of impact; where one body's new way is sure and the other's is not, also as far off its way as that is known
+    /// to go.
     fn coming(&self, index: u32) -> Coming {
         let contact = &self.scene.contacts.records[index as usize];
-        let meeting = self.meeting(contact);
+        let coming = self.impact(contact, index, self.far(contact));
+        if !matches!(coming, Coming::Misses) {
+            return coming;
+        }
+        let Scene { bodies, dt, .. } = self.scene;
+        let courses = [contact.body_a, contact.body_b];
+        let courses = courses.map(|body| self.known.courses.of(bodies, dt, body));
+        let turned = courses.iter().any(|course| course.sure && course.since > 0.0);
+        if turned && courses.iter().any(|course| !course.sure) {
+            return self.impact(contact, index, courses);
+        }
+        Coming::Misses
+    }
+
+    fn far(&self, contact: &Contact) -> [Course; 2] {
+        let Scene { bodies, dt, .. } = self.scene;
+        [contact.body_a, contact.body_b].map(|body| self.known.courses.far(bodies, dt, body))
+    }
+
+    fn impact(&self, contact: &Contact, index: u32, courses: [Course; 2]) -> Coming {
+        let meeting = self.meeting(contact, courses);
         if !meeting.comes_near() {
             return Coming::Misses;
         }
@@ -528,7 +589,8 @@ impl Look<'_> {
             return Coming::Misses;
         }
         let sweeps = meeting.sweeps();
-        let toi = impact_within(&a.shape, &sweeps[0], &b.shape, &sweeps[1], (apart, 1.0), slop);
+        let from = apart.max(meeting.since());
+        let toi = impact_within(&a.shape, &sweeps[0], &b.shape, &sweeps[1], (from, 1.0), slop);
         let Some(toi) = toi else { return Coming::Misses };
         let is_solid = one_way::are_solid_along(meeting.shapes, meeting.turned, toi.normal);
         if toi.state == ToiState::Touching || !is_solid {
@@ -558,12 +620,12 @@ impl Look<'_> {
         if both || !struck {
             return None;
         }
-        let meeting = self.meeting(contact);
+        let meeting = self.meeting(contact, self.far(contact));
         // The narrow phase has found no other within its reach.
         if meeting.longest_way() <= self.reach() {
             return None;
         }
-        let frames = meeting.sweeps().map(|sweep| sweep.at(0.0));
+        let frames = meeting.frames();
         let manifold = self.correct(contact, &meeting, &frames)?;
         (manifold.count == 2).then(|| meeting.predict(&manifold, &frames[0], 0.0))
     }
@@ -580,22 +642,18 @@ impl Look<'_> {
         NEAR * self.length_unit()
     }
 
-    fn meeting(&self, contact: &Contact) -> Meeting<'_> {
+    fn meeting(&self, contact: &Contact, courses: [Course; 2]) -> Meeting<'_> {
         let Scene { bodies, shapes, dt, .. } = self.scene;
         let [shape_a, shape_b] = [contact.shape_a, contact.shape_b];
         let shapes_of = [shape_a, shape_b].map(|shape| &shapes.records[shape as usize]);
         let both = [contact.body_a, contact.body_b];
-        let far = |body| self.known.courses.far(bodies, dt, body);
-        let courses = [far(contact.body_a), far(contact.body_b)];
         let [pose_a, pose_b] = both.map(|body| bodies.poses[body as usize]);
         Meeting {
             shapes: shapes_of,
             rows: [shape_a, shape_b].map(|shape| &shapes.rows[shape as usize]),
-            turns: [courses[0].turn, courses[1].turn],
             between: pose_b.p.relative_to(pose_a.p),
             turned: [pose_a.q, pose_b.q],
-            way: courses[1].motion - courses[0].motion,
-            way_of_a: courses[0].motion,
+            legs: courses.map(|course| course.leg(dt)),
             extents: [shapes.reach(shape_a), shapes.reach(shape_b)],
             disks: both.map(|body| bodies.infos[body as usize].max_extent),
         }

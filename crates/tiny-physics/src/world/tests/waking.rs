@@ -40,6 +40,24 @@ fn another_gravity_wakes_all() {
     assert_eq!(world.state_hash(), other);
 }
 
+/// Once it is switched off, and not again.
+#[test]
+fn a_world_without_sleep_wakes_all() {
+    let mut world = world();
+    add_ground(&mut world);
+    let body = sleeper(&mut world, 0.0);
+    world.settings.sleep = false;
+    let mut copy = World::from_bytes(&world.to_bytes()).unwrap();
+    for world in [&mut world, &mut copy] {
+        world.step(DT);
+        assert!(is_awake(world, body));
+        world.body_mut(body).unwrap().sleep();
+        world.step(DT);
+        assert!(!is_awake(world, body), "put to sleep by hand");
+    }
+    assert_eq!(world.state_hash(), copy.state_hash());
+}
+
 #[test]
 fn bodies_that_start_asleep_stay_so() {
     let mut world = world();
