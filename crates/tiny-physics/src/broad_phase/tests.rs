@@ -221,8 +221,8 @@ fn a_tree_filled_in_any_order_stays_low() {
     assert!(tree.area_ratio() <= grown);
 }
 
-/// One box at 20 km hid in a sum of perimeters how the others changed places: the tree was never built anew, and became seven times
-/// as large.
+/// One box at 20 km hid in a sum of perimeters how the others changed places: the tree was not built anew, and its nodes became four
+/// times as large.
 #[test]
 fn a_box_far_off_does_not_keep_a_tree_from_being_built_anew() {
     let mut seed = 1_u32;
@@ -231,9 +231,9 @@ fn a_box_far_off_does_not_keep_a_tree_from_being_built_anew() {
         (seed >> 8) as f32 / (1 << 24) as f32 * 200.0
     };
     let mut tree = DynamicTree::new();
-    tree.insert(2000, Aabb::from_center(Vec2::new(2.0e4, 0.0), Vec2::splat(0.5)), 1);
+    tree.insert(300, Aabb::from_center(Vec2::new(2.0e4, 0.0), Vec2::splat(0.5)), 1);
     for round in 0..5 {
-        for id in 0..2000 {
+        for id in 0..300 {
             let aabb = Aabb::from_center(Vec2::new(place(), place()), Vec2::splat(0.5));
             if round == 0 {
                 tree.insert(id, aabb, 1);
@@ -243,7 +243,7 @@ fn a_box_far_off_does_not_keep_a_tree_from_being_built_anew() {
         }
         tree.maintain();
     }
-    tree.remove(2000);
+    tree.remove(300);
     let kept = tree.area_ratio();
     tree.rebuild();
     assert!(kept < 1.6 * tree.area_ratio(), "{kept} {}", tree.area_ratio());

@@ -43,7 +43,9 @@ pub(crate) fn add(
             new.push((entity, (scene.order(entity), mover.describe_body()), mover));
         }
     }
-    new.sort_by(|a, b| order::of_bodies(&a.1, &b.1).then_with(|| order::text(&a.2).cmp(&order::text(&b.2))));
+    new.sort_by(|a, b| {
+        order::of_bodies(&a.1, &b.1).then_with(|| order::text(&a.2).cmp(&order::text(&b.2)))
+    });
     for (entity, (_, body), mut mover) in new {
         let id = match physics.world.add_body(body) {
             Ok(id) => id,

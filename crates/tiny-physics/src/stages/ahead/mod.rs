@@ -4,13 +4,14 @@
 //! two shapes are near if they will be as one sees the other move. The narrow phase names the pairs that close in so
 //! fast that they might meet in the step. [`Predictions::round`] looks for the time of impact of those alone and, where
 //! there is one, makes the contact of that moment: its normal and points, and separations as far apart as the motion
-//! up to then. The solver sees a contact with a gap, as any other. What passes by gets none, so nothing is deflected
-//! that would not have been hit.
+//! up to then. The solver sees a contact with a gap, as any other. What passes by gets none, and what has come within the reach of
+//! contacts, pushes nothing yet and passes loses its own, so nothing is deflected that would not have been hit.
 //!
 //! What a hit stops or throws may meet others that it would not have met by its old motion: a crowd behind its first
 //! rank, a pile into which something is shot. So each hit hands on its impulse, as one hit alone would, and the
 //! contacts of bodies that this makes go elsewhere are looked at again, in rounds; a hit that others make come sooner
-//! pushes for longer. The contacts of hard hits are solved more often in the substeps.
+//! pushes for longer. The contacts of hard hits are solved more often in the substeps. Where a dull hit on something fixed alone turned
+//! a body, its way is looked for leg by leg, and what it would have met without that waits for the next round.
 //!
 //! What forces, motors and springs are about to set going counts as taken off its way, too (`driven`).
 
