@@ -47,8 +47,8 @@ pub(crate) struct Predictions {
     pub(crate) contacts: Vec<u32>,
     /// Those of them that did not touch before.
     pub(crate) fresh: Vec<u32>,
-    /// Contacts whose points are near each other, and whose shapes pass: the solver is to leave them alone.
-    pub(crate) missed: Vec<u32>,
+    /// Contacts whose points are near each other, and whose shapes pass.
+    missed: Vec<u32>,
     /// Those of hard hits, some more than once: they are solved more often.
     pub(crate) hard: Vec<u32>,
     /// Those whose bodies hit others first, and are slowed.
@@ -190,6 +190,15 @@ impl Predictions {
         }
     }
 
+    /// Contacts that came near, and that the solver is to leave alone: both bodies go by without a hit.
+    pub(crate) fn misses<'a>(&'a self, contacts: &'a Contacts) -> impl Iterator<Item = u32> + 'a {
+        let is_struck = |contact: &Contact| {
+            [contact.body_a, contact.body_b].iter().any(|&body| self.courses.is_struck(body))
+        };
+        let free = move |&index: &u32| !is_struck(&contacts.records[index as usize]);
+        self.missed.iter().copied().filter(free)
+    }
+
     /// Are there none?
     pub(crate) fn is_empty(&self) -> bool {
         self.list.is_empty()
@@ -296,8 +305,6 @@ impl Predictions {
         let contact = &scene.contacts.records[hit.contact as usize];
         let bodies = [contact.body_a, contact.body_b];
         let courses = bodies.map(|body| self.courses.of(scene.bodies, scene.dt, body));
-        // On other ways than those by which it was missed.
-        self.missed.retain(|&missed| missed != hit.contact);
         if self.waits(scene, hit, &courses) {
             self.deferred.push(hit.contact);
             return;
