@@ -317,7 +317,7 @@ impl World {
             self.scratch.schedule.fill(&self.state.graph, narrow_phase::CHUNK);
         }
         let Self { state: State { contacts, graph, .. }, scratch, .. } = self;
-        for index in scratch.predictions.misses(contacts) {
+        for &index in &scratch.predictions.missed {
             graph.mark_touching(&contacts.records[index as usize], false);
         }
         let ahead::Predictions { contacts: predicted, fresh, .. } = &mut scratch.predictions;

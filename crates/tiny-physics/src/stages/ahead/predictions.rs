@@ -47,8 +47,8 @@ pub(crate) struct Predictions {
     pub(crate) contacts: Vec<u32>,
     /// Those of them that did not touch before.
     pub(crate) fresh: Vec<u32>,
-    /// Contacts whose points are near each other, and whose shapes pass.
-    missed: Vec<u32>,
+    /// Contacts whose points are near each other, and whose shapes pass: the solver is to leave them alone.
+    pub(crate) missed: Vec<u32>,
     /// Those of hard hits, some more than once: they are solved more often.
     pub(crate) hard: Vec<u32>,
     /// Those whose bodies hit others first, and are slowed.
@@ -190,15 +190,6 @@ impl Predictions {
         }
     }
 
-    /// Contacts that came near, and that the solver is to leave alone: both bodies go by without a hit.
-    pub(crate) fn misses<'a>(&'a self, contacts: &'a Contacts) -> impl Iterator<Item = u32> + 'a {
-        let is_struck = |contact: &Contact| {
-            [contact.body_a, contact.body_b].iter().any(|&body| self.courses.is_struck(body))
-        };
-        let free = move |&index: &u32| !is_struck(&contacts.records[index as usize]);
-        self.missed.iter().copied().filter(free)
-    }
-
     /// Are there none?
     pub(crate) fn is_empty(&self) -> bool {
         self.list.is_empty()
@@ -264,7 +255,20 @@ impl Predictions {
         self.rounds += 1;
         self.list_struck(scene.bodies, SLIGHT * scene.narrow_phase.speculative_distance);
         self.candidates.append(&mut self.deferred);
-        !self.struck.is_empty()
+        self.retake_missed(scene.contacts);
+        self.rounds < ROUNDS && !(self.struck.is_empty() && self.candidates.is_empty())
+    }
+
+    /// Looks once more at what is missed no longer: one of its bodies was struck since.
+    fn retake_missed(&mut self, contacts: &Contacts) {
+        let Self { missed, courses, candidates, .. } = self;
+        missed.retain(|&index| {
+            let contact = &contacts.records[index as usize];
+            let misses =
+                ![contact.body_a, contact.body_b].iter().any(|&body| courses.is_struck(body));
+            candidates.extend((!misses).then_some(index));
+            misses
+        });
     }
 
     /// Lets the boxes of bodies that hits took off their ways reach as far as they go now.
