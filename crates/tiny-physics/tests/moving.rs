@@ -397,8 +397,8 @@ fn moving_bodies_do_not_pass_through_each_other() {
 }
 
 /// Two bodies on random ways that turn, how near they come to each other, how they are turned off their ways, m/s, and whether
-/// they were told to have met.
-fn duel(random: &mut Random, wide: f32, fastest: f32) -> Option<(f32, f32, bool)> {
+/// they were told to have met, and to have hit.
+fn duel(random: &mut Random, wide: f32, fastest: f32) -> Option<(f32, f32, [bool; 2])> {
     let sizes = [random.range(0.05, 0.6), random.range(0.05, 0.6)];
     let shapes = sizes.map(|size| random.shape(size));
     let (q, meet) =
@@ -424,13 +424,14 @@ fn duel(random: &mut Random, wide: f32, fastest: f32) -> Option<(f32, f32, bool)
             RigidBody::dynamic().shape(ShapeDef::new(shapes[k]).events()).position(starts[k]);
         world.add_body(body.velocity(ways[k]).angular_velocity(spins[k])).unwrap()
     });
-    let mut began = false;
+    let mut told = [false; 2];
     for _ in 0..(2.0 * meet / DT) as u32 + 2 {
         world.step(DT);
-        began |= !world.events().contact_begin().is_empty();
+        told[0] |= !world.events().contact_begin().is_empty();
+        told[1] |= !world.events().hits().is_empty();
     }
     let turned = |k: usize| (world.body(ids[k]).unwrap().velocity() - ways[k]).length();
-    Some((nearest, turned(0) + turned(1), began))
+    Some((nearest, turned(0) + turned(1), told))
 }
 
 #[test]
@@ -438,7 +439,7 @@ fn what_meets_is_told_and_what_passes_by_is_left_alone() {
     let (mut met, mut missed) = (0, 0);
     for seed in 0..600 {
         let wide = if seed % 2 == 0 { 0.6 } else { 2.0 };
-        let Some((nearest, turned, began)) = duel(&mut Random::new(seed), wide, 100.0) else {
+        let Some((nearest, turned, [began, _])) = duel(&mut Random::new(seed), wide, 100.0) else {
             continue;
         };
         let turned = turned > 1.0e-3;
@@ -460,10 +461,11 @@ fn what_grazes_is_left_alone() {
     let mut grazes = Vec::new();
     for seed in 0..12_000 {
         let fastest = if seed % 2 == 0 { 10.0 } else { 30.0 };
-        if let Some((nearest, turned, _)) = duel(&mut Random::new(seed), 1.2, fastest)
+        if let Some((nearest, turned, [_, hit])) = duel(&mut Random::new(seed), 1.2, fastest)
             && (0.0065..0.02).contains(&nearest)
         {
             assert!(turned < 1.1, "{seed} missed by {nearest}: {turned}");
+            assert!(turned > 1.0e-3 || !hit, "{seed} missed by {nearest} is told to have hit");
             grazes.push(turned > 1.0e-3);
         }
     }

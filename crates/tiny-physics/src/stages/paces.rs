@@ -265,11 +265,8 @@ impl Island {
         });
         if self.joined > 0 && self.touches {
             let few = FEW_JOINED * self.joined <= self.bodies && !self.hangs;
-            for pace in if self.struck || few && wanted.is_some() {
-                [STRUCK, JOINTED]
-            } else {
-                [JOINTED; 2]
-            } {
+            let finer = self.struck || few && wanted.is_some();
+            for pace in if finer { [STRUCK, JOINTED] } else { [JOINTED; 2] } {
                 let cost = self.bodies * ((REFINEMENT[pace] * ROUNDS[pace]) as usize - 1);
                 if self.bodies <= rules.most_bodies && cost <= *budget {
                     *budget -= cost;

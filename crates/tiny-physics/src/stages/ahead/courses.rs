@@ -28,7 +28,7 @@ pub(super) struct Course {
     pub(super) stopped: bool,
     /// When it was hit last, as a part of the step.
     pub(super) since: f32,
-    /// Did only what cannot move hit it? Then it is known where it goes.
+    /// Did only what no hit moves hit it, and nothing else drives it? Then it is known where it goes.
     pub(super) sure: bool,
 }
 

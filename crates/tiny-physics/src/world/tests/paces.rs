@@ -248,7 +248,7 @@ fn what_has_tumbled_into_place_sleeps_before_it_becomes_finer() {
         }
         assert!(world.max_penetration() < 0.02, "case {case}: {}", world.max_penetration());
     }
-    assert!(3 * refined < awake, "{refined} of {awake}");
+    assert!(4 * refined < awake, "{refined} of {awake}");
     let mut world = heap(0, false);
     (0..1200).for_each(|_| world.step(DT));
     assert!(world.max_penetration() < 2.0e-3, "{}", world.max_penetration());
