@@ -4,7 +4,7 @@
 mod common;
 
 use common::{DT, Random, steps};
-use tiny_physics::{BodyId, RigidBody, Shape, ShapeDef, Vec2, World};
+use tiny_physics::{BodyId, JointDef, RigidBody, Shape, ShapeDef, Vec2, World};
 
 fn elastic(shape: Shape) -> ShapeDef {
     ShapeDef::new(shape).friction(0.0).restitution(1.0)
@@ -165,4 +165,53 @@ fn what_a_hook_lets_bounce_hands_on() {
     let (material, hook) = (last(1.0, false), last(0.0, true));
     assert!(material[5] > 4.9, "of materials: {material:?}");
     assert!(hook[5] > 4.9, "of a hook: {hook:?}");
+}
+
+/// What is joined bounces with what it is joined to: a ball off a crate that is nailed to a wall goes back as off the wall, and what
+/// is welded as one.
+#[test]
+fn what_is_welded_bounces_as_one() {
+    let half = Shape::rect(0.5, 0.5).expect("a crate");
+    let mut world = World::new(Vec2::ZERO);
+    let wall = world.add_body(RigidBody::fixed()).expect("a wall");
+    let target = RigidBody::dynamic().position(Vec2::new(3.0, 0.0)).shape(elastic(half));
+    let target = world.add_body(target).expect("a crate");
+    let nail = JointDef::weld().anchor_at(Vec2::new(3.0, 0.0));
+    world.add_joint(wall, target, nail).expect("a nail");
+    let ball = RigidBody::dynamic().velocity(Vec2::new(5.0, 0.0)).shape(elastic(half));
+    let ball = world.add_body(ball).expect("a ball");
+    steps(&mut world, 60);
+    let back = world.body(ball).expect("a ball").velocity().x;
+    assert!((back + 5.0).abs() < 0.2, "off what is nailed to a wall at {back}");
+
+    let mut world = World::new(Vec2::ZERO);
+    slab(&mut world, Vec2::new(0.0, -1.0), Vec2::new(20.0, 1.0));
+    let mut add = |y: f32| {
+        let body = RigidBody::dynamic().position(Vec2::new(0.0, y)).shape(elastic(half));
+        world.add_body(body.velocity(Vec2::new(0.0, -5.0))).expect("a crate")
+    };
+    let (low, high) = (add(1.5), add(2.5));
+    world.add_joint(low, high, JointDef::weld().anchor_at(Vec2::new(0.0, 2.0))).expect("a weld");
+    steps(&mut world, 30);
+    let up = [low, high].map(|id| world.body(id).expect("a crate").velocity().y);
+    assert!(up.iter().all(|up| (up - 5.0).abs() < 0.2), "two as one at {up:?}");
+}
+
+/// What nothing presses on bounces from a tenth of the threshold on, however bouncy it is.
+#[test]
+fn slow_balls_bounce_without_gravity() {
+    for (restitution, speed) in [(0.5, 0.3), (0.5, 0.15), (0.3, 0.8), (1.0, 0.15), (0.2, 0.5)] {
+        let bouncy = |shape| ShapeDef::new(shape).restitution(restitution).friction(0.0);
+        let mut world = World::new(Vec2::ZERO);
+        let wall = bouncy(Shape::rect(10.0, 1.0).expect("a wall"));
+        world
+            .add_body(RigidBody::fixed().position(Vec2::new(0.0, -1.0)).shape(wall))
+            .expect("a wall");
+        let ball = bouncy(Shape::circle(0.5).expect("a ball"));
+        let ball = RigidBody::dynamic().position(Vec2::new(0.0, 0.52)).shape(ball);
+        let ball = world.add_body(ball.velocity(Vec2::new(0.0, -speed))).expect("a ball");
+        steps(&mut world, 20);
+        let up = world.body(ball).expect("a ball").velocity().y;
+        assert!((up - restitution * speed).abs() < 1e-3, "{restitution} at {speed}: {up}");
+    }
 }

@@ -117,7 +117,8 @@ store! {
         pub(crate) records: Vec<ShapeRecord>,
         /// The shape as a rounded box in the frame of the body's centre of mass, for the lane kernels:
         /// place x, y, rotation c, s, half extents x, y, radius, and 1 where this is all there is to the
-        /// shape (0 for general polygons, whose row is the box around them), plus 2 where it has guards.
+        /// shape, plus 2 where it has guards. The row of a general polygon is the box around it, and in place
+        /// of the 1 is the part of the box's thickness that is its own.
         pub(crate) rows: Vec<Row>,
         /// The boxes of the shapes as they are.
         pub(crate) tight: Vec<Aabb>,

@@ -42,9 +42,11 @@ fn motion(info: &BodyInfo, row: &Row, gravity: Vec2, h: f32) -> Motion {
         return Motion { gain: [0.0, 0.0, 0.0, carry], factor: [1.0; 4] };
     }
     let linear = (gravity * info.gravity_scale + info.force * row[Slot::INV_MASS].abs()) * h;
-    let mut gain = [linear.x, linear.y, info.torque * row[Slot::INV_INERTIA].abs() * h, carry];
+    let turning = info.torque * row[Slot::INV_INERTIA].abs() * h;
     let damping = 1.0 / (1.0 + h * info.linear_damping);
     let mut factor = [damping, damping, 1.0 / (1.0 + h * info.angular_damping), 1.0];
+    // What is gained is damped, too: what falls comes to force over damping, however long a substep is.
+    let mut gain = [linear.x * factor[0], linear.y * factor[1], turning * factor[2], carry];
     let locks = info.locks;
     for (k, locked) in
         [locks.x, locks.y, locks.rotation || info.never_turns].into_iter().enumerate()

@@ -252,7 +252,8 @@ impl<L: Lanes> Geometry<L> {
             b: [shape_b[4], shape_b[5], shape_b[6]],
         };
         let limit = L::splat(token, context.speculative_distance);
-        let ahead = (context.fast && Ahead::matters(token, context, bodies, [&shape_a, &shape_b]))
+        let rows = [&shape_a, &shape_b];
+        let ahead = (context.fast && Ahead::matters(token, context, bodies, rows))
             .then(|| Ahead::of(token, context.dt, bodies, &pair, [place_a, place_b]));
         let reach = ahead.as_ref().map_or(limit, |ahead| ahead.way.max(limit));
         let shapes = [&block.shape_a[at..], &block.shape_b[at..]];
@@ -277,7 +278,7 @@ impl<L: Lanes> Geometry<L> {
         let mut geometry =
             Self { manifold: world, most, valid, between, bodies, touching, closing: 0 };
         if let Some(ahead) = ahead {
-            geometry.closing = ahead.closing::<K>(token, &pair, &geometry, gap, limit);
+            geometry.closing = ahead.closing::<K>(token, rows, &geometry, gap, limit);
         }
         geometry
     }
@@ -314,6 +315,12 @@ impl<L: Lanes> Geometry<L> {
     }
 }
 
+/// Half of the least thickness of shapes with these rows; with guards, of the boxes around them.
+#[inline(always)]
+fn thickness<L: Lanes>(token: L::Token, row: &[L; 8]) -> L {
+    (row[4].min(row[5]) + row[6]) * row[7].min(L::splat(token, 1.0))
+}
+
 /// How far the bodies of a stride move against each other in the step, metres.
 struct Ahead<L: Lanes> {
     linear: [L; 2],
@@ -336,14 +343,13 @@ impl<L: Lanes> Ahead<L> {
         [a, b]: [&[L; 8]; 2],
         [shape_a, shape_b]: [&[L; 8]; 2],
     ) -> bool {
-        let thickness = |shape: &[L; 8]| shape[4].min(shape[5]) + shape[6];
         let extent =
             |shape: &[L; 8]| shape[0].abs() + shape[1].abs() + shape[4] + shape[5] + shape[6];
         let linear = (b[0] - a[0]).abs() + (b[1] - a[1]).abs();
         let turned = a[2].abs() * extent(shape_a) + b[2].abs() * extent(shape_b);
         let way = (linear + turned) * L::splat(token, context.dt);
         let slight = L::splat(token, SLIGHT * context.speculative_distance);
-        let thin = (thickness(shape_a) + thickness(shape_b)) * L::splat(token, 0.5);
+        let thin = (thickness(token, shape_a) + thickness(token, shape_b)) * L::splat(token, 0.5);
         // Less by more than rounding makes.
         L::bits(way.le(slight.min(thin) * L::splat(token, 0.99))) != L::bits(slight.eq(slight))
     }
@@ -375,13 +381,12 @@ impl<L: Lanes> Ahead<L> {
     fn closing<K: PairKernel>(
         &self,
         token: L::Token,
-        pair: &LanePair<L>,
+        [shape_a, shape_b]: [&[L; 8]; 2],
         now: &Geometry<L>,
         gap: L,
         limit: L,
     ) -> u32 {
-        let thickness = |half: [L; 3]| half[0].min(half[1]) + half[2];
-        let [a, b] = [thickness(pair.a), thickness(pair.b)];
+        let (a, b) = (thickness(token, shape_a), thickness(token, shape_b));
         let slight = (limit * L::splat(token, SLIGHT)).min((a + b) * L::splat(token, 0.5));
         let least = slight.max(L::splat(token, HARMLESS) * a.min(b));
         let along =

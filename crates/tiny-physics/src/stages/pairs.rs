@@ -402,15 +402,16 @@ pub(crate) fn mix_materials(contact: &mut Contact, settings: &Settings, shapes: 
     let (a, b) = (contact.shape_a, contact.shape_b);
     let (shape_a, shape_b) = (&shapes.records[a as usize], &shapes.records[b as usize]);
     let (material_a, material_b) = (&shape_a.material, &shape_b.material);
-    // A general polygon rolls like the disk around it, about its own centre of mass.
-    let rolling = |i: u32| match shapes.records[i as usize] {
+    // A general polygon rolls like the disk around it, about its own centre of mass, on what is not round itself: there it is ground.
+    let radius = |i: u32| shapes.rows[i as usize][6];
+    let rolling = |i: u32, other: u32| match shapes.records[i as usize] {
         ShapeRecord { material, .. } if material.rolling_resistance == 0.0 => 0.0,
-        ShapeRecord { class: ShapeClass::General, shape, material, .. } => {
+        ShapeRecord { class: ShapeClass::General, shape, material, .. } if radius(other) == 0.0 => {
             let core = shape.core();
             let center = shape.mass_properties(1.0).center;
             material.rolling_resistance * (core.reach(center) + core.radius)
         }
-        ShapeRecord { material, .. } => material.rolling_resistance * shapes.rows[i as usize][6],
+        ShapeRecord { material, .. } => material.rolling_resistance * radius(i),
     };
     if !contact.touching {
         contact.events = shape_a.contact_events || shape_b.contact_events;
@@ -422,7 +423,7 @@ pub(crate) fn mix_materials(contact: &mut Contact, settings: &Settings, shapes: 
     let (a_mix, b_mix) = (material_a.restitution_mix, material_b.restitution_mix);
     let mix = Mix::of(a_mix, b_mix, settings.restitution_mix);
     contact.restitution = mix.apply(material_a.restitution, material_b.restitution);
-    contact.rolling_resistance = rolling(a).max(rolling(b)).clamp(0.0, f32::MAX);
+    contact.rolling_resistance = rolling(a, b).max(rolling(b, a)).clamp(0.0, f32::MAX);
     // The solver's tangent points along the surface of A; a belt goes the other way round B.
     let speed = material_a.tangent_speed + material_b.tangent_speed;
     contact.tangent_speed = -speed.clamp(f32::MIN, f32::MAX);

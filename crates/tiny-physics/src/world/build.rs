@@ -428,6 +428,9 @@ impl World {
     }
 }
 
+/// Parts of a box's thickness that a polygon's is counted in.
+const PARTS: f32 = 1024.0;
+
 /// A shape as the lane kernels see it.
 struct LaneShape {
     /// See [`Shapes::rows`](crate::dynamics::Shapes).
@@ -446,14 +449,17 @@ impl LaneShape {
         let [x, y, radius] = rounded.extents();
         let frame = central.compose(rounded.frame);
         let is_general = ShapeClass::of(shape) == ShapeClass::General;
-        let (exact, reach, thickness) = if is_general {
+        let thinner = if x < y { x } else { y } + radius;
+        let (part, reach, thickness) = if is_general {
             let (core, center) = (shape.core(), central.unapply(Vec2::ZERO));
-            (0.0, core.reach(center) + core.radius, shape.inner_radius())
+            let thickness = shape.inner_radius();
+            // In steps that a mark beside them leaves alone.
+            let part = (PARTS * thickness / thinner).clamp(0.0, PARTS - 1.0) as u16;
+            (f32::from(part) / PARTS, core.reach(center) + core.radius, thickness)
         } else {
-            let reach = frame.p.length() + rounded.half_extents.length() + radius;
-            (1.0, reach, if x < y { x } else { y } + radius)
+            (1.0, frame.p.length() + rounded.half_extents.length() + radius, thinner)
         };
-        let row = [frame.p.x, frame.p.y, frame.q.c, frame.q.s, x, y, radius, exact];
+        let row = [frame.p.x, frame.p.y, frame.q.c, frame.q.s, x, y, radius, part];
         Self { row, box_frame: rounded.frame, reach, thickness }
     }
 }

@@ -354,3 +354,27 @@ fn balls_roll_on_platforms_that_go_to_and_fro() {
     }
     assert!((peak - 0.133).abs() < 0.02, "{peak}");
 }
+
+/// What is damped and driven comes to force over damping, at any rate.
+#[test]
+fn terminal_speed_is_force_over_damping_at_any_rate() {
+    for (rate, substeps) in [(30, 1), (60, 1), (60, 4), (240, 8)] {
+        let mut world = World::new((0.0, -10.0));
+        world.settings.substeps = substeps;
+        let ball = RigidBody::dynamic().damping(5.0, 2.0).shape(circle(0.5)).mass(3.0);
+        let ball = world.add_body(ball).unwrap();
+        let inertia = world.body(ball).unwrap().inertia();
+        for _ in 0..6 * rate {
+            world.body_mut(ball).unwrap().apply_torque(3.0 * inertia);
+            world.step(1.0 / rate as f32);
+        }
+        let body = world.body(ball).unwrap();
+        assert!(
+            (body.velocity().y + 2.0).abs() < 0.01,
+            "{rate}, {substeps}: {:?}",
+            body.velocity()
+        );
+        let spin = body.angular_velocity();
+        assert!((spin - 1.5).abs() < 0.01, "{rate}, {substeps}: {spin}");
+    }
+}

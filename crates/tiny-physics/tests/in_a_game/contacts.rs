@@ -229,3 +229,25 @@ fn hits_are_where_they_are() {
         }
     }
 }
+
+/// Ground resists what rolls by the radius of what rolls, whatever its own shape and size.
+#[test]
+fn ground_of_any_shape_resists_rolling_alike() {
+    let speed = |ground: Shape, y: f64, resistance: [f32; 2]| {
+        let mut world = World::new((0.0, -10.0));
+        let mud = ShapeDef::new(ground).rolling_resistance(resistance[0]);
+        world.add_body(RigidBody::fixed().position((0.0, y)).shape(mud)).unwrap();
+        let ball = RigidBody::dynamic().position((0.0, 0.5)).velocity((2.0, 0.0));
+        let wheel = ShapeDef::new(circle(0.5)).rolling_resistance(resistance[1]);
+        let ball = world.add_body(ball.angular_velocity(-4.0).shape(wheel)).unwrap();
+        steps(&mut world, 60);
+        world.body(ball).unwrap().velocity().x
+    };
+    let corners = [(-20.0, 0.0), (20.0, 0.0), (18.0, -2.0), (-18.0, -2.0)];
+    let bank = Shape::hull(&corners.map(Vec2::from)).unwrap();
+    for resistance in [[0.05, 0.0], [0.0, 0.05]] {
+        let slab = speed(Shape::rect(20.0, 1.0).unwrap(), -1.0, resistance);
+        let bank = speed(bank, 0.0, resistance);
+        assert!((slab - bank).abs() < 0.02, "{resistance:?}: {slab} {bank}");
+    }
+}

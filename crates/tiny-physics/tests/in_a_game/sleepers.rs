@@ -208,3 +208,53 @@ fn what_is_steered_to_and_fro_is_not_slowed() {
         assert!((gained - 1.0).abs() < 0.05, "tilts {tilts}: {gained}");
     }
 }
+
+/// A crate that sleeps at a place, and a ball that a wall at 0 stops.
+fn behind_a_wall(crate_at: f64, shot: RigidBody) -> (World, BodyId, BodyId) {
+    let mut world = World::new((0.0, 0.0));
+    world.add_body(RigidBody::fixed().shape(Shape::rect(0.1, 5.0).unwrap())).unwrap();
+    let sleeper = RigidBody::dynamic().position((crate_at, 0.0)).shape(square(0.3)).asleep();
+    let sleeper = world.add_body(sleeper).unwrap();
+    let shot = world.add_body(shot.shape(circle(0.1))).unwrap();
+    (world, sleeper, shot)
+}
+
+/// What lies on the straight way of a shot, behind the wall that stops it, sleeps on.
+#[test]
+fn a_shot_that_a_wall_stops_wakes_nobody_behind_it() {
+    for phase in 0..20 {
+        let start = -0.3 - 0.1 * f64::from(phase);
+        for at in [0.5, 1.0, 1.7] {
+            let shot = RigidBody::dynamic().position((start, 0.0)).velocity((120.0, 0.0));
+            let (mut world, sleeper, shot) = behind_a_wall(at, shot);
+            steps(&mut world, 5);
+            assert!(world.body(shot).unwrap().position().x < 0.0);
+            assert!(!world.body(sleeper).unwrap().is_awake(), "{start} {at}");
+        }
+    }
+}
+
+/// What is taken away wakes what leaned on it, not what lies within what is kept of its way, nor what is only near.
+#[test]
+fn what_is_removed_wakes_nobody_that_it_did_not_touch() {
+    for at in [0.45, 1.0, 3.0] {
+        let shot = RigidBody::dynamic().position((-8.5, 0.0)).velocity((120.0, 0.0));
+        let (mut world, sleeper, shot) = behind_a_wall(at, shot);
+        steps(&mut world, 120);
+        assert!(!world.body(shot).unwrap().is_awake() && !world.body(sleeper).unwrap().is_awake());
+        world.remove_body(shot).unwrap();
+        steps(&mut world, 1);
+        assert!(!world.body(sleeper).unwrap().is_awake(), "{at}");
+    }
+    let mut world = World::new((0.0, -10.0));
+    ground(&mut world);
+    let mut add = |x: f64, y: f64| {
+        world.add_body(RigidBody::dynamic().position((x, y)).shape(square(0.3))).unwrap()
+    };
+    let [pebble, near, on_top] = [add(0.0, 0.3), add(0.75, 0.3), add(0.0, 0.9)];
+    steps(&mut world, 120);
+    assert!([pebble, near, on_top].iter().all(|&id| !world.body(id).unwrap().is_awake()));
+    world.body_mut(pebble).unwrap().set_enabled(false);
+    steps(&mut world, 1);
+    assert!(!world.body(near).unwrap().is_awake() && world.body(on_top).unwrap().is_awake());
+}

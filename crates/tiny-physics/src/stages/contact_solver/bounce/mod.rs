@@ -15,12 +15,13 @@ use super::normals::Normal;
 use super::pair::{Constants, Pair, Stride};
 use super::{CHUNK, Parameters};
 use crate::dynamics::{
-    Bodies, ConstraintBlock, Contacts, Graph, LaneBlock, PointLanes, flags, is_overflow,
+    Bodies, ConstraintBlock, Contacts, Graph, LaneBlock, NULL, PointLanes, flags, is_overflow,
 };
 use crate::footprint::footprint;
 use crate::math::Vec2;
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_narrow};
 use crate::stages::islands::Stores;
+use crate::stages::tree_contacts::TreeContacts;
 use crate::threads::{SharedRows, SharedSlice, Team};
 use search::{At, Hit, Search, leaves};
 
@@ -76,12 +77,14 @@ pub(crate) struct Bounces {
     changes: Vec<(u32, [f32; 3])>,
     /// Bodies that wait for what they hit first: they are looked at in the second round.
     pub(crate) waiting: Vec<u32>,
+    /// What bounced off bodies with joints that are no tree's.
+    joined: Vec<Hit>,
     /// Impulses of bounces that events of hits tell.
     told: Vec<(At, [f32; 2])>,
 }
 
 footprint!(Batch { blocks, aims, hits });
-footprint!(Bounces { approaching, list, hits, changes, waiting, told } each { found, batches } none { bounciest });
+footprint!(Bounces { approaching, list, hits, changes, waiting, joined, told } each { found, batches } none { bounciest });
 
 impl Bounces {
     /// Begins with the contacts of a pace.
@@ -95,8 +98,10 @@ impl Bounces {
         (team, level): (&Team, SimdLevel),
         parameters: &Parameters,
         Stores { bodies, contacts, graph, .. }: &mut Stores<'_>,
+        trees: &mut TreeContacts,
         pace: usize,
     ) {
+        self.joined.clear();
         if self.approaching.is_empty() && self.waiting.is_empty() {
             return;
         }
@@ -111,12 +116,43 @@ impl Bounces {
             if self.hits.is_empty() && (!first || self.waiting.is_empty()) {
                 return;
             }
+            // What hits a tree leaves it as the contacts of that are solved.
+            self.hits.retain(|&Hit { at: At { place, class, slot }, targets }| {
+                !trees.bounce((graph.index_of(place, class), slot), targets)
+            });
+            let is_joined = |body: u32| bodies.infos[body as usize].first_joint != NULL;
+            self.joined.extend(self.hits.iter().filter(|hit| {
+                let (a, b) = graph.bucket(hit.at.place, hit.at.class).bodies(hit.at.slot);
+                is_joined(a) || is_joined(b)
+            }));
             self.leave((team, level), parameters, (bodies, graph));
             if first {
                 let waiting = self.waiting.iter().filter(|&&body| bodies.is_dynamic(body));
                 self.changes.extend(waiting.map(|&body| (body, [f32::INFINITY; 3])));
             }
             self.list_near((bodies, contacts, graph), pace, parameters.restitution_threshold);
+        }
+    }
+
+    /// Lets what bounced off joined bodies bounce off all that hangs on them: each time that joints have taken their part of what that
+    /// was, what is left to its speed is made up for.
+    pub(crate) fn hand_on(
+        &mut self,
+        (team, level): (&Team, SimdLevel),
+        parameters: &Parameters,
+        stores: &mut Stores<'_>,
+        joints: impl Fn(&mut Stores<'_>),
+    ) {
+        if self.joined.is_empty() {
+            return;
+        }
+        self.hits.clone_from(&self.joined);
+        self.hits.sort_by_key(|hit| hit.at.key());
+        self.hits.dedup_by_key(|hit| hit.at.key());
+        for _ in 0..ITERATIONS {
+            joints(stores);
+            self.changes.clear();
+            self.leave((team, level), parameters, (stores.bodies, stores.graph));
         }
     }
 

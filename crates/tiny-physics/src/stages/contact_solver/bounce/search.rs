@@ -36,7 +36,7 @@ impl At {
         surfaces[self.slot / BLOCK].restitution[self.slot % BLOCK]
     }
 
-    fn key(self) -> u64 {
+    pub(super) fn key(self) -> u64 {
         (self.place as u64) << 40 | (self.class as u64) << 32 | self.slot as u64
     }
 }
@@ -89,13 +89,13 @@ pub(super) fn list_approaching(
 fn approaches(bucket: &Bucket, slot: usize, parameters: &Parameters) -> bool {
     let (block, lane) = (slot / BLOCK, slot % BLOCK);
     let (surface, points) = (&bucket.surfaces[block], &bucket.constraints[block].points);
-    let (threshold, restitution) = (parameters.restitution_threshold, surface.restitution[lane]);
+    let threshold = parameters.restitution_threshold;
     let approaches = [surface.approach_1[lane], surface.approach_2[lane]];
     // What is dull may share a block with what bounces.
-    restitution > 0.0
+    surface.restitution[lane] > 0.0
         && points.iter().zip(approaches).any(|(point, approach)| {
             let fresh = point.normal_impulse[lane] == 0.0;
-            approach < -threshold || fresh && leaves(restitution, approach, threshold)
+            approach < -if fresh { HANDED_ON * threshold } else { threshold }
         })
 }
 
@@ -176,8 +176,11 @@ impl Search<'_> {
         {
             let arms = [point.normal_arm_a[lane], point.normal_arm_b[lane]];
             let velocity = pair.normal_velocity(arms[0], arms[1]);
-            let comes =
-                leaves(restitution, velocity, threshold) || self.first && velocity < -threshold;
+            let comes = if self.first {
+                velocity < -HANDED_ON * threshold
+            } else {
+                leaves(restitution, velocity, threshold)
+            };
             if !comes || point.normal_mass[lane] <= 0.0 {
                 continue;
             }
