@@ -359,7 +359,7 @@ impl World {
 
     /// Wakes the islands of bodies that touch this one or are near it: of what was put down asleep no step has seen which.
     pub(super) fn wake_neighbours(&mut self, index: u32) {
-        let contacts = self.state.contacts_of(index);
+        let contacts = self.state.contacts_of(index).filter(|(_, contact)| self.is_close(contact));
         let others: Vec<u32> = contacts.map(|(_, contact)| contact.other(index)).collect();
         others.into_iter().for_each(|other| self.wake_index(other));
     }

@@ -5,7 +5,7 @@ use super::events::{ContactBegin, ContactEnd, Hit};
 use super::ids::{BodyId, ShapeId};
 use super::state::State;
 use crate::describe::BodyKind;
-use crate::dynamics::{Bucket, NULL, PLAIN, Place, REFINEMENT, flags, pace_at};
+use crate::dynamics::{Bucket, Contact, NULL, PLAIN, Place, REFINEMENT, flags, pace_at};
 use crate::math::{DVec2, Vec2};
 use crate::simd::BLOCK;
 use crate::stages::islands::Stores;
@@ -335,8 +335,16 @@ impl World {
             let end = self.end_event(index);
             self.state.events.pending_end.push(end);
         }
-        self.wake_dynamic(bodies);
+        if self.is_close(contact) {
+            self.wake_dynamic(bodies);
+        }
         self.state.destroy_contact(index);
+    }
+
+    /// May one of the bodies of a contact lean on the other? Fat boxes of what was fast reach far.
+    pub(super) fn is_close(&self, contact: &Contact) -> bool {
+        let Contact { touching, shape_a, shape_b, .. } = *contact;
+        touching || self.state.shapes.are_near(shape_a, shape_b, self.contact_reach())
     }
 
     fn end_event(&self, index: u32) -> ContactEnd {
@@ -379,7 +387,8 @@ impl World {
 
     /// What rests on a body and what hangs on it, the first one last.
     fn carried_by(&self, index: u32) -> Vec<u32> {
-        let contacts = self.state.contacts_of(index).map(|(_, contact)| contact.other(index));
+        let contacts = self.state.contacts_of(index).filter(|(_, contact)| self.is_close(contact));
+        let contacts = contacts.map(|(_, contact)| contact.other(index));
         let joints = self.state.joints_of(index).map(|(_, joint)| joint.other(index));
         let mut others: Vec<u32> = contacts.chain(joints).collect();
         others.reverse();

@@ -316,10 +316,11 @@ impl World {
         if changed {
             self.scratch.schedule.fill(&self.state.graph, narrow_phase::CHUNK);
         }
-        let Self { state: State { contacts, graph, .. }, scratch, .. } = self;
+        let Self { state: State { bodies, contacts, graph, .. }, scratch, .. } = self;
         for &index in &scratch.predictions.missed {
             graph.mark_touching(&contacts.records[index as usize], false);
         }
+        scratch.predictions.leave_asleep(bodies, contacts, self.settings.length_unit);
         let ahead::Predictions { contacts: predicted, fresh, .. } = &mut scratch.predictions;
         for &index in &*predicted {
             let contact = &contacts.records[index as usize];
