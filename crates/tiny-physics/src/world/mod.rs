@@ -392,9 +392,7 @@ impl World {
             }
         }
         changes.ended.sort_unstable();
-        if !changes.ended.is_empty() {
-            self.transfer(team, &changes);
-        }
+        self.transfer(team, &changes);
         self.scratch.changes = changes;
         self.scratch.predictions.fresh = predicted;
         // What sleeps on goes nowhere.
