@@ -248,15 +248,15 @@ impl World {
         let partners = pairs::Partners { shapes, bodies, contacts, joints, custom, reach, ways };
         self.scratch.search.run(team, broad_phase, &partners, graph, waiting);
 
-        let search = core::mem::take(&mut self.scratch.search);
-        self.stats.candidate_pairs = search.pairs.len();
-        self.destroy_contacts(team, &search.parted);
+        self.stats.candidate_pairs = self.scratch.search.pairs.len();
+        let parted = core::mem::take(&mut self.scratch.search.parted);
+        self.destroy_contacts(team, &parted);
         self.state.events.flush_pending();
         let State { shapes, bodies, contacts, graph, .. } = &mut self.state;
-        let Scratch { created, transfers, .. } = &mut self.scratch;
+        let Scratch { search, created, transfers, .. } = &mut self.scratch;
+        search.parted = parted;
         pairs::create_contacts(&search.pairs, &self.settings, shapes, bodies, contacts, created);
         transfers.insert(team, graph, bodies, contacts, created.iter().copied());
-        self.scratch.search = search;
     }
 
     /// How far apart points may be and be a contact, metres.

@@ -203,9 +203,6 @@ impl Predictions {
         (dt, reach): (f32, f32),
         held: impl Fn(u32, bool) -> Option<Held>,
     ) -> bool {
-        if ways.forced.is_empty() && joints.driven.is_empty() {
-            return false;
-        }
         self.courses.resize(bodies.rows.len());
         for &body in &ways.forced {
             driven::by_force(bodies, body, dt, &mut self.courses);
