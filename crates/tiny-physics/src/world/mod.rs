@@ -500,13 +500,14 @@ impl World {
         scratch.fast.extend(findings.iter().flat_map(|chunk| &chunk.fast));
         scratch.carriers.clear();
         scratch.carriers.extend(findings.iter().flat_map(|chunk| &chunk.carriers));
-        let broken: Vec<u32> = findings.iter().flat_map(|chunk| &chunk.broken).copied().collect();
-        self.stats.fast_bodies = self.scratch.fast.len();
-        self.stats.frozen_bodies = broken.len();
-        if !broken.is_empty() {
+        self.stats.fast_bodies = scratch.fast.len();
+        self.stats.frozen_bodies = findings.iter().map(|chunk| chunk.broken.len()).sum();
+        if self.stats.frozen_bodies > 0 {
+            let broken = findings.iter().flat_map(|chunk| &chunk.broken).copied();
+            let broken = broken.collect::<Vec<u32>>();
             self.state.bodies.stop_ground_that_is_not_finite();
+            broken.into_iter().for_each(|index| self.freeze(index));
         }
-        broken.into_iter().for_each(|index| self.freeze(index));
     }
 
     /// Stops fast bodies where they would have gone through something.
