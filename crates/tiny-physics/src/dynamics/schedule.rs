@@ -79,17 +79,15 @@ impl Schedule {
         let (mut first, mut start) = (self.runs.len(), buckets.start);
         let mut all = graph.all().enumerate().skip(start).take(buckets.len()).peekable();
         while let Some((index, (place, class, bucket))) = all.next() {
-            let count = bucket.manifolds.len();
-            let runs = (0..count).step_by(len).map(|start| Run {
-                place,
-                bucket: index,
-                class,
-                blocks: start..count.min(start + len),
-                at: start as f32 / count as f32,
-            });
+            let (count, mut from) = (bucket.manifolds.len(), 0);
             let is_open = |head: &BlockHead| head.flags & flags::TAKEN == 0;
-            self.runs
-                .extend(runs.filter(|run| bucket.heads[run.blocks.clone()].iter().any(is_open)));
+            while from < count {
+                let (blocks, at) = (from..count.min(from + len), from as f32 / count as f32);
+                from = blocks.end;
+                if bucket.heads[blocks.clone()].iter().any(is_open) {
+                    self.runs.push(Run { place, bucket: index, class, blocks, at });
+                }
+            }
             if all.peek().is_none_or(|&(_, (next, ..))| next != place) {
                 if !is_overflow(place) && self.runs.len() > first + 1 {
                     self.runs[first..].sort_unstable_by(|a, b| {

@@ -45,6 +45,9 @@ impl Transfers {
                 self.moves.push(to_move(place, contact, slot));
             }
         }
+        if self.moves.is_empty() {
+            return;
+        }
         self.group();
         let records = &contacts.records;
         self.for_each_bucket(team, graph, |bucket, _, moves| {
@@ -69,6 +72,9 @@ impl Transfers {
             if let Some((place, slot)) = graph.dismiss(bodies, contact) {
                 self.moves.push(to_move(place, contact, slot));
             }
+        }
+        if self.moves.is_empty() {
+            return;
         }
         self.group();
         let records = SharedSlice::new(&mut contacts.records);

@@ -67,6 +67,9 @@ pub(crate) fn run(
     rules: Rules<'_>,
     moved: &mut Vec<Moved>,
 ) {
+    if fast.is_empty() && carriers.is_empty() {
+        return;
+    }
     let bounds =
         [ProxyKind::Static, ProxyKind::Kinematic].map(|kind| broad_phase.tree(kind).bounds());
     let scene = Scene { bodies, shapes, broad_phase, rules, carriers, bounds };

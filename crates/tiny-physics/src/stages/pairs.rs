@@ -7,14 +7,15 @@
 use crate::broad_phase::{BroadPhase, ProxyId};
 use crate::describe::{Mix, Settings};
 use crate::dynamics::{
-    Bodies, Contact, Contacts, Graph, Joints, NULL, Place, SavedPoint, Schedule, ShapeRecord,
-    Shapes, Waiting,
+    Bodies, Bucket, Contact, Contacts, Graph, Joints, NULL, Place, SavedPoint, Schedule,
+    ShapeRecord, Shapes, Waiting,
 };
 use crate::footprint::footprint;
 use crate::geometry::manifold::{PairClass, ShapeClass};
 use crate::math::{Vec2, sort_by_number};
 use crate::simd::BLOCK;
 use crate::threads::{SharedSlice, Team};
+use core::ops::Range;
 use core::sync::atomic::{AtomicBool, Ordering};
 
 /// Groups of moved shapes whose partners one member of the team looks for at a time.
@@ -194,31 +195,46 @@ impl Search {
     }
 
     fn find_parted_in_graph(&mut self, team: &Team, shapes: &Shapes, graph: &Graph) {
-        self.schedule.fill(graph, SCANNED);
-        let ((runs, chunk), moved) = (self.schedule.runs(SCANNED), &self.moved);
-        let chunks = team.map_chunks(runs.len(), chunk, &mut self.found_parted, |range, parted| {
+        let Self { moved, parted, schedule, found_parted, .. } = self;
+        let (known, list) = ((&**moved, shapes), graph.buckets.list());
+        if team.member_count() == 1 {
+            let all =
+                |bucket: &Bucket| add_parted(known, bucket, 0..bucket.manifolds.len(), parted);
+            return list.iter().for_each(all);
+        }
+        schedule.fill(graph, SCANNED);
+        let (runs, chunk) = schedule.runs(SCANNED);
+        let chunks = team.map_chunks(runs.len(), chunk, found_parted, |range, parted| {
             parted.clear();
             for run in &runs[range] {
-                let bucket = &graph.buckets.list()[run.bucket];
-                let slots = run.blocks.start * BLOCK..;
-                let contacts = bucket.contacts[slots].chunks(BLOCK);
-                for (contacts, block) in contacts.zip(&bucket.manifolds[run.blocks.clone()]) {
-                    // Which of them have moved is noise to the branch predictor where much moves.
-                    let lanes = (0..contacts.len()).fold(0_u16, |lanes, lane| {
-                        let (a, b) = (block.shape_a[lane], block.shape_b[lane]);
-                        let motion = moved[a as usize] | moved[b as usize];
-                        let parted = (motion != motion::NONE) & !shapes.may_touch(a, b);
-                        lanes | u16::from(parted) << lane
-                    });
-                    if lanes != 0 {
-                        let parted_lanes =
-                            contacts.iter().enumerate().filter(|(lane, _)| lanes >> lane & 1 != 0);
-                        parted.extend(parted_lanes.map(|(_, &index)| index));
-                    }
-                }
+                add_parted(known, &list[run.bucket], run.blocks.clone(), parted);
             }
         });
-        chunks.iter().for_each(|parted| self.parted.extend_from_slice(parted));
+        chunks.iter().for_each(|found| parted.extend_from_slice(found));
+    }
+}
+
+/// Adds those contacts of some blocks of which a shape has moved, and whose fat boxes no longer overlap.
+fn add_parted(
+    (moved, shapes): (&[u8], &Shapes),
+    bucket: &Bucket,
+    blocks: Range<usize>,
+    parted: &mut Vec<u32>,
+) {
+    let contacts = bucket.contacts[blocks.start * BLOCK..].chunks(BLOCK);
+    for (contacts, block) in contacts.zip(&bucket.manifolds[blocks]) {
+        // Which of them have moved is noise to the branch predictor where much moves.
+        let lanes = (0..contacts.len()).fold(0_u16, |lanes, lane| {
+            let (a, b) = (block.shape_a[lane], block.shape_b[lane]);
+            let motion = moved[a as usize] | moved[b as usize];
+            let parted = (motion != motion::NONE) & !shapes.may_touch(a, b);
+            lanes | u16::from(parted) << lane
+        });
+        if lanes != 0 {
+            let parted_lanes =
+                contacts.iter().enumerate().filter(|(lane, _)| lanes >> lane & 1 != 0);
+            parted.extend(parted_lanes.map(|(_, &index)| index));
+        }
     }
 }
 

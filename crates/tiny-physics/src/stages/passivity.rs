@@ -211,6 +211,9 @@ impl Memory {
     /// Lets the velocities of islands whose constraints did work in this substep give way.
     pub(crate) fn run(&mut self, bodies: &mut Bodies) {
         let Self { islands, members, free, withheld, .. } = self;
+        if members.is_empty() {
+            return;
+        }
         find_whole(bodies, islands, free);
         for member in &*members {
             let Member { body, island, masses, g, .. } = member;

@@ -99,14 +99,15 @@ impl Scene<'_> {
         let Some(fat) = self.broad_phase.fat_aabb(self.shapes.proxy(sensor)) else { return };
         let place = self.place(record);
         let awake = self.is_restless(sensor, record);
-        // The fat box holds the tight one; what is only in the fat box fails the test of distance.
+        // The fat box holds the tight one; what is only in the fat box fails the tests of tight boxes and distance.
         let mut look_at = |visitor: u32| {
             let other = &self.shapes.records[visitor as usize];
             if self.may_see(record, other) {
                 let overlap = self.overlap(sensor, visitor);
                 let overlaps = if awake || self.is_restless(visitor, other) {
-                    let gap = self.place(other).relative_to(place);
-                    distance(&record.shape, &other.shape, gap).separation <= 0.0
+                    let gap = || self.place(other).relative_to(place);
+                    self.shapes.are_near(sensor, visitor, 0.0)
+                        && distance(&record.shape, &other.shape, gap()).separation <= 0.0
                 } else {
                     self.sensors.saw(&overlap)
                 };

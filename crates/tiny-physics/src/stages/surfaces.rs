@@ -25,6 +25,7 @@ use crate::geometry::manifold::{
 };
 use crate::geometry::{Core, Shape};
 use crate::math::{Aabb, DVec2, Pose, Transform, Vec2};
+use core::cell::OnceCell;
 
 /// Shapes this close to each other make one surface, metres; multiplied by the length unit.
 const TOLERANCE: f32 = 0.002;
@@ -147,7 +148,8 @@ pub(crate) struct Seams<'a> {
     own: u32,
     record: &'a ShapeRecord,
     other: u32,
-    other_core: Core,
+    place: Transform,
+    other_core: OnceCell<Core>,
     guard: u32,
     core: Core,
 }
@@ -157,8 +159,14 @@ impl<'a> Seams<'a> {
     pub(crate) fn new(ground: Ground<'a>, own: u32, other: u32, place: Transform) -> Self {
         let record = &ground.shapes.records[own as usize];
         let guard = ground.shapes.guards[own as usize];
-        let other_core = boxed_core(&ground.shapes.records[other as usize]).transformed(place);
-        Self { ground, own, record, other, other_core, guard, core: boxed_core(record) }
+        let (core, other_core) = (boxed_core(record), OnceCell::new());
+        Self { ground, own, record, other, place, other_core, guard, core }
+    }
+
+    /// That of the other shape: most looks need none, where no neighbour is near.
+    fn other_core(&self) -> &Core {
+        let shape = || boxed_core(&self.ground.shapes.records[self.other as usize]);
+        self.other_core.get_or_init(|| shape().transformed(self.place))
     }
 
     /// Does the surface made by all static shapes lack this normal at these points of contact?
@@ -217,10 +225,10 @@ impl<'a> Seams<'a> {
                 count += 1;
             }
         }
-        let (mut covered, middle) = ([false; 6], middle(&self.other_core));
+        let mut covered = [false; 6];
         self.each_neighbour(&probes[..count], |neighbour| {
             // What the other shape is in itself makes no surface for it.
-            if point_gap(neighbour, middle) <= 0.0 {
+            if point_gap(neighbour, middle(self.other_core())) <= 0.0 {
                 return;
             }
             for (probe, covered) in probes[..count].iter().zip(&mut covered) {
@@ -259,7 +267,7 @@ impl<'a> Seams<'a> {
             return false;
         };
         let way = place.q.rotate(way);
-        let lowest = -support_height(&self.other_core, -way);
+        let lowest = -support_height(self.other_core(), -way);
         lowest < support_height(core, way) - REACH * self.ground.length_unit
     }
 
@@ -287,8 +295,9 @@ impl<'a> Seams<'a> {
             {
                 let place = boxed_pose(&bodies.poses, neighbour).relative_to(pose);
                 let core = boxed_core(neighbour).transformed(place);
-                let before = middle(&self.other_core) - core.points[0];
-                let is_before = core.count < 2 || core.normal(0).dot(before) >= 0.0;
+                // Only what is a line is asked.
+                let before = || middle(self.other_core()) - core.points[0];
+                let is_before = core.count != 2 || core.normal(0).dot(before()) >= 0.0;
                 if self.is_passed_from_below(neighbour, &core, place) {
                     return;
                 }
@@ -350,13 +359,13 @@ impl<'a> View<'a> {
         let face = self.seams.core.normal(0);
         let a = self.seams.core.points[0];
         let Self { seams, context, .. } = self;
-        let is_behind = face.dot(middle(&seams.other_core) - a) < 0.0;
+        let is_behind = face.dot(middle(seams.other_core()) - a) < 0.0;
         // What leans on the end has its middle behind, perhaps.
         let is_open = link.previous.is_none() || link.next.is_none();
         // At a sharp peak each of its segments has the normals that the other turns its back on.
         let (corner, peak) = seams.link_corner(link, normal);
         let peak = peak.filter(|_| face_of(&seams.core, normal).is_none());
-        let before = middle(&seams.other_core) - corner;
+        let before = middle(seams.other_core()) - corner;
         let is_next = peak.is_some_and(|out| normal.dot(out) <= 0.0 && out.dot(before) > 0.0);
         let is_met = !is_behind || is_next || is_open && self.meets_a_corner(normal);
         if is_met && seams.link_has(link, normal) {
@@ -366,7 +375,7 @@ impl<'a> View<'a> {
             return Verdict::Drop;
         }
         let limit = context.speculative_distance;
-        let manifold = collide_face(&seams.core, 0, [0.0; 2], &seams.other_core, limit);
+        let manifold = collide_face(&seams.core, 0, [0.0; 2], seams.other_core(), limit);
         if manifold.count == 0 { Verdict::Drop } else { Verdict::Replace(manifold) }
     }
 
@@ -374,11 +383,11 @@ impl<'a> View<'a> {
     /// Then the face is met as what it is: by a face of this part the normal would be tilted.
     fn is_before_a_face(&self, lane: &LanePoints, normal: Vec2) -> bool {
         let seams = &self.seams;
-        let Some(face) = face_of(&seams.other_core, -normal) else { return false };
+        let Some(face) = face_of(seams.other_core(), -normal) else { return false };
         let corner = seams.core.points[self.corner_of(lane)];
         seams.kind() == Some(ProxyKind::Dynamic)
             && face_of(&seams.core, normal).is_none()
-            && seams.lies_over(seams.other_core.edge(face), corner)
+            && seams.lies_over(seams.other_core().edge(face), corner)
     }
 
     /// The corner at which the contact is.
@@ -400,8 +409,8 @@ impl<'a> View<'a> {
 
     /// Is a corner met by a face of the other shape?
     fn meets_a_corner(&self, normal: Vec2) -> bool {
-        let Seams { core, other_core, .. } = &self.seams;
-        face_of(core, normal).is_none() && face_of(other_core, -normal).is_some()
+        let seams = &self.seams;
+        face_of(&seams.core, normal).is_none() && face_of(seams.other_core(), -normal).is_some()
     }
 
     fn is_ghost(&self, lane: &LanePoints, normal: Vec2) -> bool {
@@ -414,7 +423,7 @@ impl<'a> View<'a> {
     /// The contact with the highest solid face that is not covered and has the other shape's middle in
     /// front of it.
     fn best_face(&self) -> Verdict {
-        let middle = middle(&self.seams.other_core);
+        let middle = middle(self.seams.other_core());
         let mut tried = 0_u32;
         loop {
             let mut best: Option<(usize, f32, Manifold)> = None;
@@ -452,7 +461,7 @@ impl<'a> View<'a> {
             if goes_on { TOLERANCE * seams.ground.length_unit } else { 0.0 }
         });
         let limit = context.speculative_distance;
-        collide_face(&seams.core, face, beyond, &seams.other_core, limit)
+        collide_face(&seams.core, face, beyond, seams.other_core(), limit)
     }
 
     /// May something stand on this face?

@@ -254,8 +254,11 @@ impl World {
 
     /// Moves contacts that began or ended to where they belong in the graph, and wakes what was touched.
     pub(super) fn transfer(&mut self, team: &Team, changes: &Changes) {
-        let mut transfers = core::mem::take(&mut self.scratch.transfers);
         let Changes { began, ended, .. } = changes;
+        if began.is_empty() && ended.is_empty() {
+            return;
+        }
+        let mut transfers = core::mem::take(&mut self.scratch.transfers);
         let both = || ended.iter().chain(began).copied();
         let State { graph, bodies, contacts, .. } = &mut self.state;
         transfers.remove(team, graph, bodies, contacts, both());

@@ -239,6 +239,11 @@ impl Events {
 
     /// Makes what came about by changes part of this step.
     pub(crate) fn flush_pending(&mut self) {
+        let Self { pending_end, pending_sensor_end, pending_woke, pending_asleep, .. } = self;
+        let ends = pending_end.len() + pending_sensor_end.len();
+        if ends + pending_woke.len() + pending_asleep.len() == 0 {
+            return;
+        }
         self.contact_end.append(&mut self.pending_end);
         self.sensor_end.append(&mut self.pending_sensor_end);
         self.woke.append(&mut self.pending_woke);

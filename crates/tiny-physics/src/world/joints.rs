@@ -16,7 +16,8 @@ use crate::stages::solve::Lengths;
 impl World {
     /// Finds what forces and joints are about to set going; says whether there is any.
     pub(super) fn foresee(&mut self, lengths: Lengths) -> bool {
-        if !self.settings.continuous {
+        let none = self.scratch.ways.forced.is_empty() && self.state.joints.driven.is_empty();
+        if none || !self.settings.continuous {
             return false;
         }
         let mut predictions = core::mem::take(&mut self.scratch.predictions);

@@ -248,15 +248,15 @@ impl World {
         let partners = pairs::Partners { shapes, bodies, contacts, joints, custom, reach, ways };
         self.scratch.search.run(team, broad_phase, &partners, graph, waiting);
 
-        let search = core::mem::take(&mut self.scratch.search);
-        self.stats.candidate_pairs = search.pairs.len();
-        self.destroy_contacts(team, &search.parted);
+        self.stats.candidate_pairs = self.scratch.search.pairs.len();
+        let parted = core::mem::take(&mut self.scratch.search.parted);
+        self.destroy_contacts(team, &parted);
         self.state.events.flush_pending();
         let State { shapes, bodies, contacts, graph, .. } = &mut self.state;
-        let Scratch { created, transfers, .. } = &mut self.scratch;
+        let Scratch { search, created, transfers, .. } = &mut self.scratch;
+        search.parted = parted;
         pairs::create_contacts(&search.pairs, &self.settings, shapes, bodies, contacts, created);
         transfers.insert(team, graph, bodies, contacts, created.iter().copied());
-        self.scratch.search = search;
     }
 
     /// How far apart points may be and be a contact, metres.
@@ -393,9 +393,7 @@ impl World {
             }
         }
         changes.ended.sort_unstable();
-        if !changes.ended.is_empty() {
-            self.transfer(team, &changes);
-        }
+        self.transfer(team, &changes);
         self.scratch.changes = changes;
         self.scratch.predictions.fresh = predicted;
         // What sleeps on goes nowhere.
@@ -503,13 +501,14 @@ impl World {
         scratch.fast.extend(findings.iter().flat_map(|chunk| &chunk.fast));
         scratch.carriers.clear();
         scratch.carriers.extend(findings.iter().flat_map(|chunk| &chunk.carriers));
-        let broken: Vec<u32> = findings.iter().flat_map(|chunk| &chunk.broken).copied().collect();
-        self.stats.fast_bodies = self.scratch.fast.len();
-        self.stats.frozen_bodies = broken.len();
-        if !broken.is_empty() {
+        self.stats.fast_bodies = scratch.fast.len();
+        self.stats.frozen_bodies = findings.iter().map(|chunk| chunk.broken.len()).sum();
+        if self.stats.frozen_bodies > 0 {
+            let broken = findings.iter().flat_map(|chunk| &chunk.broken).copied();
+            let broken = broken.collect::<Vec<u32>>();
             self.state.bodies.stop_ground_that_is_not_finite();
+            broken.into_iter().for_each(|index| self.freeze(index));
         }
-        broken.into_iter().for_each(|index| self.freeze(index));
     }
 
     /// Stops fast bodies where they would have gone through something.

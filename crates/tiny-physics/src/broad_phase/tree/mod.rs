@@ -254,12 +254,14 @@ impl DynamicTree {
     /// bit of `mask`, until it breaks. The order depends on the shape of the tree.
     #[inline]
     pub fn query(&self, aabb: &Aabb, mask: u64, mut visit: impl FnMut(u32) -> ControlFlow<()>) {
+        let Some(mut node) = self.nodes.get(self.root as usize) else { return };
         let aabb = clamped(*aabb);
+        let mut bits = self.overlaps(self.root, &aabb);
+        if bits == 0 {
+            return;
+        }
         let mut stack = Stack::new();
-        let mut next = (self.root != NONE).then_some(self.root);
-        while let Some(index) = next {
-            let node = &self.nodes[index as usize];
-            let mut bits = self.overlaps(index, &aabb);
+        loop {
             while bits != 0 {
                 let lane = bits.trailing_zeros() as usize % WIDTH;
                 bits &= bits - 1;
@@ -272,7 +274,8 @@ impl DynamicTree {
                     return;
                 }
             }
-            next = stack.pop();
+            let Some(index) = stack.pop() else { return };
+            (node, bits) = (&self.nodes[index as usize], self.overlaps(index, &aabb));
         }
     }
 

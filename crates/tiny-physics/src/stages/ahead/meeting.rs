@@ -89,14 +89,19 @@ impl Meeting<'_> {
         let size = begin.x.abs() + begin.y.abs() + self.longest_way();
         let least =
             hit_at(a[6] + b[6], slop) + ROUNDING * (self.extents[0] + self.extents[1] + size);
-        if self.disks_apart_until(self.disks[0] + self.disks[1] + least) >= 1.0 {
+        let [disks, extents] = [self.disks, self.extents].map(|[a, b]| a + b);
+        // Larger ones would have shown that the shapes do not come near.
+        if disks < extents && self.disks_apart_until(disks + least) >= 1.0 {
             return 1.0;
         }
         let swept = |k: usize, way| SweptBox::new(self.rows[k], self.rotation(k), way);
         let still = swept(0, (Vec2::ZERO, Vec2::ZERO, self.legs[0].turn));
         let moving = swept(1, (begin, way, self.legs[1].turn));
         let boxes = still.apart_until(&moving, least);
-        let disks = self.disks_apart_until(self.extents[0] + self.extents[1] + least);
+        if boxes >= 1.0 {
+            return boxes;
+        }
+        let disks = self.disks_apart_until(extents + least);
         if disks > boxes { disks } else { boxes }
     }
 

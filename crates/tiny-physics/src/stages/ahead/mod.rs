@@ -51,7 +51,7 @@ pub(crate) struct Ways {
     /// By shape, metres; zero for what is slow. Nothing at all where nothing is fast.
     pub(crate) of_shapes: Vec<Vec2>,
     /// Bodies that forces take far, ascending by place in the list of what is awake.
-    forced: Vec<u32>,
+    pub(crate) forced: Vec<u32>,
     found: Vec<Found>,
 }
 

@@ -51,7 +51,7 @@ pub(crate) struct Predictions {
     pub(crate) fresh: Vec<u32>,
     /// Contacts whose points are near each other, and whose shapes pass: the solver is to leave them alone.
     pub(crate) missed: Vec<u32>,
-    /// Those of hard hits, some more than once: they are solved more often.
+    /// Those of hard hits, some more than once, though not in a row: they are solved more often.
     pub(crate) hard: Vec<u32>,
     /// Those whose bodies hit others first, and are slowed.
     behind: Vec<u32>,
@@ -205,9 +205,6 @@ impl Predictions {
         (dt, reach): (f32, f32),
         held: impl Fn(u32, bool) -> Option<Held>,
     ) -> bool {
-        if ways.forced.is_empty() && joints.driven.is_empty() {
-            return false;
-        }
         self.courses.resize(bodies.rows.len());
         for &body in &ways.forced {
             driven::by_force(bodies, body, dt, &mut self.courses);
@@ -340,7 +337,7 @@ impl Predictions {
         let mut pushed = self.put_forward(hit, fraction, scene.dt, &mut impact);
         for (arms, pushed) in hit.arms.into_iter().zip(&mut pushed) {
             let (speed, mass) = impact.approach(hit.normal, arms.normal);
-            if speed * scene.dt < -HARD * thinner {
+            if speed * scene.dt < -HARD * thinner && self.hard.last() != Some(&hit.contact) {
                 self.hard.push(hit.contact);
             }
             if speed < 0.0 {
