@@ -378,12 +378,6 @@ impl Graph {
         &self.buckets[key(place, class)]
     }
 
-    /// Where in the list that is.
-    pub(crate) fn index_of(&self, place: usize, class: PairClass) -> usize {
-        let key = key(place, class);
-        self.buckets.range(key..key).start
-    }
-
     /// The same, to change.
     pub(crate) fn bucket_mut(&mut self, place: usize, class: PairClass) -> &mut Bucket {
         &mut self.buckets[key(place, class)]

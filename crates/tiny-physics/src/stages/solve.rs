@@ -9,8 +9,7 @@ use super::contact_solver::{self, Bounces, Parameters, Pass, Softness};
 use super::islands::Stores;
 use super::joint_solver::Substep;
 use super::rests::Compliance;
-use super::tree_contacts::TreeContacts;
-use super::{integrate, joint_solver, paces, passivity};
+use super::{integrate, joint_solver, paces, passivity, tree_contacts};
 use crate::describe::Settings;
 use crate::dynamics::{
     Chosen, JointBlocks, JointPlaces, PACES, PLAIN, REFINEMENT, ROUNDS, Schedule,
@@ -151,7 +150,7 @@ pub(crate) struct Solver {
     jointed: Chosen,
     torn: Vec<joint_solver::torn::Found>,
     arcs: Arcs,
-    tree_contacts: TreeContacts,
+    tree_contacts: tree_contacts::TreeContacts,
     bounces: Bounces,
     pub(crate) passivity: passivity::Memory,
     listed: Vec<u32>,
@@ -264,28 +263,28 @@ impl Solver {
         let again = |stores: &mut Stores<'_>, pass, chosen: &Chosen, rounds| {
             (0..rounds).for_each(|_| in_lanes(stores, pass, &chosen.schedule));
         };
-        let contacts = |stores: &mut Stores<'_>, of_trees: &mut TreeContacts, pass| {
+        let mut contacts = |stores: &mut Stores<'_>, pass| {
             let trees = &mut stores.joint_graph.forest.trees;
-            of_trees.run(level, pass, &parameters, &mut stores.bodies.rows, trees);
+            tree_contacts.run(level, pass, &parameters, &mut stores.bodies.rows, trees);
             let of_joints = pass == Pass::WarmStartJointed;
             in_lanes(stores, pass, if of_joints { &jointed.schedule } else { schedule });
         };
         for substep in 0..lengths.substeps {
             let first = substep == 0;
             self.arcs.renew((stores.bodies, stores.graph), scope, (pace, h), first);
-            bounces.run((team, level), &parameters, stores, tree_contacts, pace);
+            bounces.run((team, level), &parameters, stores, pace);
             integrate::velocities(team, level, listed, stores.bodies, first);
             joints(stores, joint_solver::Pass::WarmStart);
             if first {
-                contacts(stores, tree_contacts, Pass::WarmStart);
+                contacts(stores, Pass::WarmStart);
             } else if any_jointed {
-                contacts(stores, tree_contacts, Pass::WarmStartJointed);
+                contacts(stores, Pass::WarmStartJointed);
             }
             let relaxed = |stores: &mut Stores<'_>| joints(stores, joint_solver::Pass::Relax);
             bounces.hand_on((team, level), &parameters, stores, relaxed);
             for _ in 0..lengths.iterations {
                 joints(stores, joint_solver::Pass::Solve);
-                contacts(stores, tree_contacts, Pass::Solve);
+                contacts(stores, Pass::Solve);
                 again(stores, Pass::Solve, hit, hit_rounds);
                 again(stores, Pass::Relax, squeezed, squeezed_rounds);
             }
@@ -294,8 +293,7 @@ impl Solver {
                 let last = round == lengths.relaxations;
                 joints(stores, joint_solver::Pass::Relax);
                 again(stores, Pass::Relax, squeezed, squeezed_rounds);
-                let pass = if last { Pass::RelaxLast } else { Pass::Relax };
-                contacts(stores, tree_contacts, pass);
+                contacts(stores, if last { Pass::RelaxLast } else { Pass::Relax });
             }
             passivity.run(stores.bodies);
             broken.note(stores.joint_graph, 1.0 / h);

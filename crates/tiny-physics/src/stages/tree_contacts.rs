@@ -101,9 +101,8 @@ struct Side {
 struct Line {
     /// On A and on B.
     on: [Planar; 2],
-    /// Effective mass of the two bodies alone, and with all that hangs on them: as it is, and as it counts.
+    /// Effective mass of the two bodies alone, and with all that hangs on them.
     alone: f32,
-    whole: f32,
     mass: f32,
     /// Where the answers of their trees to an impulse of one on A, and on B, begin.
     answers: [u32; 2],
@@ -121,8 +120,6 @@ struct Point {
     rub: f32,
     load: f32,
     total: f32,
-    /// It bounces in this substep, and leaves at this speed.
-    leaves: f32,
 }
 
 /// A contact with a body of a tree.
@@ -230,17 +227,6 @@ impl TreeContacts {
         fits
     }
 
-    /// Lets the points of a contact leave at these speeds in the next substep, with all that hangs on its bodies; says whether it is
-    /// here.
-    pub(crate) fn bounce(&mut self, at: (usize, usize), speeds: [f32; 2]) -> bool {
-        let found = self.touches.binary_search_by_key(&at, |touch| touch.at);
-        if let Ok(index) = found {
-            let points = self.touches[index].points.iter_mut().zip(speeds);
-            points.for_each(|(point, speed)| point.leaves = speed);
-        }
-        found.is_ok()
-    }
-
     /// Puts the contacts back into their lanes.
     pub(crate) fn give_back(&self, stores: &mut Stores<'_>) {
         for touch in &self.touches {
@@ -322,20 +308,10 @@ impl FourKernel for RunPass<'_, '_> {
             touch.solve::<false>(constants, velocities);
             for point in &mut touch.points {
                 point.load = point.impulse;
-                if pass == Pass::RelaxLast {
-                    point.total += if touch.hit { point.impulse } else { 0.0 };
-                    point.end_bounce();
+                if touch.hit && pass == Pass::RelaxLast {
+                    point.total += point.impulse;
                 }
             }
-        }
-    }
-}
-
-impl Point {
-    /// What has bounced is on its way: no impulse of that is one to begin the next substep with.
-    fn end_bounce(&mut self) {
-        if core::mem::take(&mut self.leaves) > 0.0 {
-            (self.impulse, self.rub, self.load) = (0.0, 0.0, 0.0);
         }
     }
 }
@@ -404,8 +380,7 @@ impl Touch {
         for line in points.flat_map(|point| [&mut point.normal, &mut point.tangent]) {
             let give = line.respond(&sides, answers, responses, rows);
             let most = heaviest * line.alone;
-            line.whole = if give > 0.0 { 1.0 / give } else { 0.0 };
-            line.mass = if line.whole < most { line.whole } else { most };
+            line.mass = if give * most > 1.0 { 1.0 / give } else { most };
         }
         if self.rolling > 0.0 {
             self.about.respond(&sides, answers, responses, rows);
@@ -453,13 +428,8 @@ impl Touch {
                 continue;
             }
             let (line, old) = (&point.normal, point.impulse);
-            let velocity = velocities.along(sides, line);
-            point.impulse = if point.leaves > 0.0 {
-                Lanes::max(old - line.whole * (velocity - point.leaves), 0.0)
-            } else {
-                let at = [point.now, velocity, 0.0];
-                normal_impulse::<f32, BIAS>(constants, soft, at, line.mass, old)
-            };
+            let at = [point.now, velocities.along(sides, line), 0.0];
+            point.impulse = normal_impulse::<f32, BIAS>(constants, soft, at, line.mass, old);
             velocities.push(sides, line, point.impulse - old);
         }
     }

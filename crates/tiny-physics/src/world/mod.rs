@@ -68,6 +68,8 @@ use std::sync::OnceLock;
 const SPECULATIVE_DISTANCE: f32 = 0.02;
 /// Metres; multiplied by [`Settings::length_unit`]. Room around a shape in its fat box.
 const FAT_MARGIN: f32 = 0.1;
+/// What sleeps is not woken by a foreseen hit that changes speeds by less, length units a second.
+const FELT: f32 = 0.01;
 /// Bodies awake and contacts between them from which a step is shared among threads: a thousand crates gain nothing yet, fewer
 /// lose. Tests share every step, so that small worlds try the threads, too.
 const LEAST_SHARED: usize = if cfg!(debug_assertions) { 1 } else { 2048 };
@@ -320,7 +322,7 @@ impl World {
         for &index in &scratch.predictions.missed {
             graph.mark_touching(&contacts.records[index as usize], false);
         }
-        scratch.predictions.leave_asleep(bodies, contacts, self.settings.length_unit);
+        scratch.predictions.leave_asleep(bodies, contacts, FELT * self.settings.length_unit);
         let ahead::Predictions { contacts: predicted, fresh, .. } = &mut scratch.predictions;
         for &index in &*predicted {
             let contact = &contacts.records[index as usize];

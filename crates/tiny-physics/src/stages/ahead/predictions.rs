@@ -31,8 +31,6 @@ const NEAR: f32 = 0.02;
 /// first that were taken the furthest. The others have to wait for the next step.
 const BUDGET: usize = 256;
 const SHARE: usize = 32;
-/// What sleeps is not woken by a hit that changes speeds by less, length units a second.
-const FELT: f32 = 0.01;
 /// A hit is hard if its bodies would go so far into each other in the step: a part of the thinner one's half thickness.
 const HARD: f32 = 0.2;
 /// Cosine of the angle by which the normal of what is near turns at most until it is hit: 11 degrees.
@@ -404,22 +402,19 @@ impl Predictions {
     }
 
     /// Forgets hits on what sleeps that others have kept from it: no shot wakes what lies behind the wall that stops it.
-    pub(crate) fn leave_asleep(&mut self, bodies: &Bodies, contacts: &Contacts, length_unit: f32) {
+    pub(crate) fn leave_asleep(&mut self, bodies: &Bodies, contacts: &Contacts, least: f32) {
         let Self { contacts: predicted, list, places, .. } = self;
-        let sleeps = |body: u32| bodies.is_dynamic(body) && !bodies.infos[body as usize].awake;
-        let mut at = 0;
         predicted.retain(|&index| {
-            let (contact, prediction) = (&contacts.records[index as usize], &list[at]);
-            let asleep = sleeps(contact.body_a) || sleeps(contact.body_b);
-            let give =
-                bodies.inverse_masses(contact.body_a).0 + bodies.inverse_masses(contact.body_b).0;
-            let felt = (prediction.pushed[0] + prediction.pushed[1]) * give > FELT * length_unit;
-            let kept = contact.touching || !asleep || felt;
-            at += 1;
-            if !kept {
-                places[index as usize] = 0;
-            }
-            kept
+            let contact = &contacts.records[index as usize];
+            let place = &mut places[index as usize];
+            let both = [contact.body_a, contact.body_b];
+            let give: f32 = both.iter().map(|&body| bodies.inverse_masses(body).0).sum();
+            let pushed: f32 = list[*place as usize - 1].pushed.iter().sum();
+            let sleeps =
+                |&body: &u32| bodies.is_dynamic(body) && !bodies.infos[body as usize].awake;
+            let left = !contact.touching && both.iter().any(sleeps) && pushed * give <= least;
+            *place = if left { 0 } else { *place };
+            !left
         });
     }
 

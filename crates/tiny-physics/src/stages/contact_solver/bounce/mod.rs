@@ -21,7 +21,6 @@ use crate::footprint::footprint;
 use crate::math::Vec2;
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_narrow};
 use crate::stages::islands::Stores;
-use crate::stages::tree_contacts::TreeContacts;
 use crate::threads::{SharedRows, SharedSlice, Team};
 use search::{At, Hit, Search, leaves};
 
@@ -77,7 +76,7 @@ pub(crate) struct Bounces {
     changes: Vec<(u32, [f32; 3])>,
     /// Bodies that wait for what they hit first: they are looked at in the second round.
     pub(crate) waiting: Vec<u32>,
-    /// What bounced off bodies with joints that are no tree's.
+    /// What bounced off bodies with joints.
     joined: Vec<Hit>,
     /// Impulses of bounces that events of hits tell.
     told: Vec<(At, [f32; 2])>,
@@ -98,7 +97,6 @@ impl Bounces {
         (team, level): (&Team, SimdLevel),
         parameters: &Parameters,
         Stores { bodies, contacts, graph, .. }: &mut Stores<'_>,
-        trees: &mut TreeContacts,
         pace: usize,
     ) {
         self.joined.clear();
@@ -116,10 +114,6 @@ impl Bounces {
             if self.hits.is_empty() && (!first || self.waiting.is_empty()) {
                 return;
             }
-            // What hits a tree leaves it as the contacts of that are solved.
-            self.hits.retain(|&Hit { at: At { place, class, slot }, targets }| {
-                !trees.bounce((graph.index_of(place, class), slot), targets)
-            });
             let is_joined = |body: u32| bodies.infos[body as usize].first_joint != NULL;
             self.joined.extend(self.hits.iter().filter(|hit| {
                 let (a, b) = graph.bucket(hit.at.place, hit.at.class).bodies(hit.at.slot);
