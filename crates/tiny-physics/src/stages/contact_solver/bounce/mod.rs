@@ -143,6 +143,8 @@ impl Bounces {
         self.hits.clone_from(&self.joined);
         self.hits.sort_by_key(|hit| hit.at.key());
         self.hits.dedup_by_key(|hit| hit.at.key());
+        let rows = SharedRows::new(&mut stores.bodies.rows);
+        self.hits.iter_mut().for_each(|hit| hit.keep(stores.graph, rows));
         for _ in 0..ITERATIONS {
             joints(stores);
             self.changes.clear();

@@ -104,6 +104,30 @@ pub(super) fn leaves(restitution: f32, velocity: f32, threshold: f32) -> bool {
     restitution * restitution * velocity < -HANDED_ON * threshold
 }
 
+/// The bodies of a contact: not those of the lane, since trees take contacts out of these.
+fn pair_of(graph: &Graph, rows: SharedRows<'_>, at: At) -> Pair<f32> {
+    let bucket = graph.bucket(at.place, at.class);
+    let (constraint, lane) = (&bucket.constraints[at.slot / BLOCK], at.slot % BLOCK);
+    let (body_a, body_b) = bucket.bodies(at.slot);
+    let mut a = f32::gather((), rows, &[body_a]);
+    let mut b = f32::gather((), rows, &[body_b]);
+    let locked = locked((), [&mut a, &mut b]);
+    Pair { a, b, normal: [constraint.normal_x[lane], constraint.normal_y[lane]], locked }
+}
+
+impl Hit {
+    /// Its points are to leave no faster than they do now: what was handed on is theirs no longer.
+    pub(super) fn keep(&mut self, graph: &Graph, rows: SharedRows<'_>) {
+        let bucket = graph.bucket(self.at.place, self.at.class);
+        let (block, lane) = (self.at.slot / BLOCK, self.at.slot % BLOCK);
+        let pair = pair_of(graph, rows, self.at);
+        for (target, point) in self.targets.iter_mut().zip(&bucket.constraints[block].points) {
+            let speed = pair.normal_velocity(point.normal_arm_a[lane], point.normal_arm_b[lane]);
+            *target = target.min(speed.max(0.0));
+        }
+    }
+}
+
 /// What bounces in a round.
 #[derive(Clone, Copy)]
 pub(super) struct Search<'a> {
@@ -163,13 +187,8 @@ impl Search<'_> {
         let bucket = self.graph.bucket(at.place, at.class);
         let constraint = &bucket.constraints[block];
         let restitution = bucket.surfaces[block].restitution[lane];
-        // Not the bodies of the lane: trees take contacts out of those.
         let (body_a, body_b) = bucket.bodies(at.slot);
-        let mut a = f32::gather((), self.rows, &[body_a]);
-        let mut b = f32::gather((), self.rows, &[body_b]);
-        let locked = locked((), [&mut a, &mut b]);
-        let normal = [constraint.normal_x[lane], constraint.normal_y[lane]];
-        let pair = Pair { a, b, normal, locked };
+        let pair = pair_of(self.graph, self.rows, at);
         let (mut targets, mut any) = ([0.0; 2], false);
         for (point, target) in
             constraint.points.iter().zip(&mut targets).take(at.class.max_points())
