@@ -46,7 +46,7 @@ pub(crate) fn read(
         scene.colliders_below(entity, &mut asked);
     }
     if physics.fresh {
-        asked.extend(all.iter().filter(|entity| !physics.maps.shapes.contains_key(entity)));
+        asked.extend(&all);
     }
     asked.extend(physics.maps.refused.asked_again(
         Role::Lone,
@@ -106,11 +106,13 @@ fn add_lone(
     let ids: Vec<ShapeId> =
         physics.world.body(id).into_iter().flat_map(|body| body.shapes()).collect();
     let written = scene.transform(entity).map(Written::of);
-    physics.enter_body(entity, BodyRecord { id, role: Role::Lone, written, told: None });
+    let role = Role::Lone;
+    physics.enter_body(entity, BodyRecord { id, role, written, told: None, said: None });
     physics.enter_shapes(
         entity,
         ShapesRecord { body: id, shapes: ids.into_iter().zip(shapes).collect() },
     );
+    place_lone(physics, scene, entity);
     Ok(())
 }
 
@@ -151,6 +153,9 @@ fn change(
 
 /// A lone collider below something goes with it.
 fn place_lone(physics: &mut PhysicsWorld, scene: &Scene, entity: Entity) {
+    if !scene.is_below(entity) {
+        return;
+    }
     let (Some(frame), Some(id)) = (scene.frame(entity), physics.lone(entity)) else { return };
     if let Some(mut body) = physics.world.body_mut(id).filter(|body| body.pose() != frame.pose()) {
         body.set_pose(frame.pose());

@@ -1,13 +1,15 @@
 //! What is taken off entities, or despawned, leaves the world.
 
+use super::joints::{self, BrokenHere};
 use crate::components::*;
-use crate::world::{PhysicsWorld, Role};
+use crate::world::{JointRecord, PhysicsWorld, Role};
 use bevy_app::prelude::*;
 use bevy_ecs::prelude::*;
 
 /// Components are watched by observers: those of fixed schedules must not miss what happens in frames without a step.
 pub(crate) fn watch(app: &mut App) {
-    app.add_observer(gone::<RigidBody>)
+    app.add_observer(joints::mended)
+        .add_observer(gone::<RigidBody>)
         .add_observer(gone::<Collider>)
         .add_observer(gone::<Joint>)
         .add_observer(gone::<Character>)
@@ -51,7 +53,7 @@ fn taken_off(removed: On<Remove, ChildOf>, mut physics: ResMut<PhysicsWorld>) {
     physics.notes.placed.extend(body);
 }
 
-/// Removes what nothing asks for any more. In a copy that has just come in everybody is looked at.
+/// Removes what nothing asks for any more. In a copy that has just come in everybody is looked at, and has again what broke since.
 pub(crate) fn remove_gone(
     mut physics: ResMut<PhysicsWorld>,
     bodies: Query<(), With<RigidBody>>,
@@ -59,6 +61,8 @@ pub(crate) fn remove_gone(
     characters: Query<(), With<Character>>,
     joints: Query<(), With<Joint>>,
     tiles: Query<(), With<TileMap>>,
+    broken: Query<(), With<BrokenHere>>,
+    mut commands: Commands,
 ) {
     let physics = &mut *physics;
     for entity in physics.notes.taken_off() {
@@ -86,7 +90,12 @@ pub(crate) fn remove_gone(
             physics.remove_shapes(entity);
         }
         if !joints.contains(entity) {
-            physics.remove_joint(entity);
+            match physics.maps.joints.get(&entity) {
+                Some(JointRecord { bodies: (a, b), def, .. }) if broken.contains(entity) => {
+                    commands.entity(entity).insert(Joint::new(*a, *b, *def));
+                }
+                _ => physics.remove_joint(entity),
+            }
         }
         if !tiles.contains(entity) {
             physics.remove_tiles(entity);
