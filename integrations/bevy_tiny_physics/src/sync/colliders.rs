@@ -100,6 +100,7 @@ fn add_lone(
     entity: Entity,
     body: tiny_physics::RigidBody,
 ) -> Result<(), Error> {
+    body.validate()?;
     physics.remove_shapes(entity);
     let shapes = body.shapes.clone();
     let id = physics.world.add_body(body)?;
@@ -124,6 +125,7 @@ fn change(
     (owner, body): (Entity, BodyId),
     shapes: &[ShapeDef],
 ) -> Result<(), Error> {
+    shapes.iter().try_for_each(ShapeDef::validate)?;
     if owner != entity && physics.lone(entity).is_some() {
         physics.remove_body(entity);
     }

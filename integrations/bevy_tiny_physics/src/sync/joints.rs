@@ -62,8 +62,8 @@ fn add(
     (a, b): (BodyId, BodyId),
     joint: &Joint,
 ) -> Result<(), Error> {
-    physics.remove_joint(entity);
     let id = physics.world.add_joint(a, b, joint.def)?;
+    physics.remove_joint(entity);
     physics.enter_joint(entity, JointRecord { id, bodies: (joint.a, joint.b), def: joint.def });
     Ok(())
 }
