@@ -435,7 +435,10 @@ export declare class World {
   addOutline(body: BodyId, outline: readonly Vec[], like?: ShapeDef): ShapeId[];
   shape(id: ShapeId): (ShapeDef & { id: ShapeId; body: BodyId }) | undefined;
   shapeIds(): ShapeId[];
-  /** For example `{ set_material: { friction: 0 } }`, `{ set_shape: { circle: { radius: 2 } } }`, `{ set_sensor: true }`. */
+  /**
+   * For example `{ set_material: { friction: 0 } }`, `{ set_shape: { circle: { radius: 2 } } }`, `{ set_sensor: true }`. What is
+   * not said of a material or filter stays as it is.
+   */
   changeShape(id: ShapeId, change: Record<string, unknown>): void;
   removeShape(id: ShapeId): void;
   addJoint(a: BodyId, b: BodyId, joint: JointDef): JointId;

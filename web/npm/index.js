@@ -78,11 +78,14 @@ function writable(name, value) {
   return value;
 }
 
+/** What is said in a description. */
+const said = (data) => Object.fromEntries(Object.entries(data).filter(([, value]) => value !== undefined));
+
 /** A filter as the module takes it. */
 function sees({ category, mask, group, sensors, excludeBody } = {}) {
-  const kinds = Object.entries({ category, mask, group }).filter(([, value]) => value !== undefined);
+  const kinds = said({ category, mask, group });
   const seen = { sensors: !!sensors };
-  if (kinds.length) seen.filter = { category: ALL, mask: ALL, ...Object.fromEntries(kinds) };
+  if (Object.keys(kinds).length) seen.filter = { category: ALL, mask: ALL, ...kinds };
   if (excludeBody !== undefined) seen.exclude_body = parts(excludeBody);
   return seen;
 }
@@ -271,7 +274,13 @@ export class World {
   }
 
   changeShape(id, change) {
-    this.apply({ shape: [parts(id), change] });
+    const now = this.shape(id);
+    const command = { ...change };
+    // Commands are whole descriptions; what is not said stays as it is.
+    for (const [name, before] of [["set_material", now?.material], ["set_filter", now?.filter]]) {
+      if (command[name]) command[name] = { ...before, ...said(command[name]) };
+    }
+    this.apply({ shape: [parts(id), command] });
   }
 
   removeShape(id) {

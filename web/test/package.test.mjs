@@ -271,6 +271,26 @@ test("filters have 64 bits, and what is read can be written", () => {
   assert.equal(world.shape(shape).filter.mask, 2n ** 64n - 1n);
 });
 
+test("what is not said of a material or filter stays", () => {
+  const world = new World();
+  const material = { density: 3, friction: 0.25, restitution: 0.5, friction_mix: "max" };
+  const filter = { category: 4, mask: 2n ** 63n, group: -1 };
+  const body = world.body(world.addBody({ shapes: [{ shape: { circle: { radius: 1 } }, material, filter }] }));
+  const [shape] = body.shapes;
+  const mass = body.mass;
+  world.changeShape(shape, { set_material: { friction: 0, density: undefined } });
+  world.changeShape(shape, { set_filter: { group: 7 } });
+  const now = world.shape(shape);
+  assert.deepEqual([now.material.density, now.material.friction, now.material.restitution], [3, 0, 0.5]);
+  assert.equal(now.material.friction_mix, "max");
+  assert.deepEqual([now.filter.category, now.filter.mask, now.filter.group], [4, 2n ** 63n, 7]);
+  assert.equal(body.mass, mass);
+  assert.throws(() => world.changeShape(shape, { set_material: { slippery: 1 } }), /slippery/);
+  assert.throws(() => world.changeShape(shape, { set_material: null }), PhysicsError);
+  body.remove();
+  assert.throws(() => world.changeShape(shape, { set_material: { friction: 0 } }), PhysicsError);
+});
+
 test("questions are answered", () => {
   const { world, balls } = pile();
   const hit = world.rayCast(0, 30, 0, -40);
