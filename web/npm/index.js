@@ -144,6 +144,8 @@ const EVENTS = {
 export class World {
   #session;
   #token = {};
+  /** Does the module keep what is done to it? */
+  #kept = false;
 
   constructor(def = {}, from) {
     if (from?.[0] === own) {
@@ -158,15 +160,17 @@ export class World {
     this.sceneBodies = from?.[2] ?? [];
   }
 
-  static #of(session, bodies) {
+  static #of(session, { bodies, kept = false } = {}) {
     check(session);
-    return new World({}, [own, session, bodies]);
+    const world = new World({}, [own, session, bodies]);
+    world.#kept = kept;
+    return world;
   }
 
   static loadScene(scene) {
     giveText(typeof scene === "string" ? scene : write(scene));
     const session = wasm.tp_new_scene();
-    return World.#of(session, session ? list() : []);
+    return World.#of(session, { bodies: session ? list() : [] });
   }
 
   static fromBytes(bytes) {
@@ -176,7 +180,7 @@ export class World {
 
   static openRecording(bytes, budget = 64 * 2 ** 20) {
     give(bytes);
-    return World.#of(wasm.tp_new_recording(budget));
+    return World.#of(wasm.tp_new_recording(budget), { kept: true });
   }
 
   /** Number of the session, for code that calls the module itself. */
@@ -186,7 +190,7 @@ export class World {
   }
 
   clone() {
-    return World.#of(wasm.tp_clone(this.session), this.sceneBodies);
+    return World.#of(wasm.tp_clone(this.session), { bodies: this.sceneBodies, kept: this.#kept });
   }
 
   free() {
@@ -462,6 +466,17 @@ export class World {
   }
 
   restoreDelta(frame, delta) {
+    if (this.#kept) {
+      // What is kept is whole frames.
+      const there = new World();
+      try {
+        there.restoreDelta(frame, delta);
+        this.restore(there.save());
+      } finally {
+        there.free();
+      }
+      return;
+    }
     const both = new Uint8Array(frame.length + delta.length);
     both.set(frame);
     both.set(delta, frame.length);
@@ -471,6 +486,7 @@ export class World {
 
   startRecording() {
     check(wasm.tp_record(this.session));
+    this.#kept = true;
   }
 
   recording() {
@@ -480,6 +496,7 @@ export class World {
 
   keepHistory(budget = 64 * 2 ** 20) {
     check(wasm.tp_keep(this.session, budget));
+    this.#kept = true;
   }
 
   get history() {

@@ -328,6 +328,27 @@ test("saved worlds go on bit for bit, whole and as differences", () => {
   assert.equal(copy.hash(), world.hash());
 });
 
+test("differences are restored in worlds that are recorded or keep their history, too", () => {
+  const { world } = pile();
+  const [recorded, kept] = [world.clone(), world.clone()];
+  run(world, 40);
+  const frame = world.save();
+  run(world, 50);
+  const delta = world.deltaFrom(frame);
+  recorded.startRecording();
+  kept.keepHistory();
+  for (const other of [recorded, kept, kept.clone(), World.openRecording(recorded.recording())]) {
+    other.step(1 / 60);
+    assert.throws(() => other.restoreDelta(frame, delta.slice(0, 9)), PhysicsError);
+    other.restoreDelta(frame, delta);
+    assert.equal(other.hash(), world.hash());
+  }
+  run(kept, 1);
+  kept.goTo(1);
+  assert.notEqual(kept.hash(), world.hash());
+  assert.equal(checkRecording(recorded.recording()), 1);
+});
+
 test("recordings are checked, opened and gone back in", () => {
   const { world, balls } = pile();
   world.startRecording();
