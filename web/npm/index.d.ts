@@ -400,8 +400,11 @@ export declare class World {
   constructor(def?: WorldDef);
   /** A scene file, as text or object, at its beginning; its script goes on with every step. */
   static loadScene(scene: string | Scene): World;
-  /** The world of {@link World.save}: it goes on bit for bit as the original does, and handles are valid in it. */
-  static fromBytes(frame: Uint8Array): World;
+  /**
+   * The world of {@link World.save}: it goes on bit for bit as the original does, and handles are valid in it. The length of a step
+   * is not in a frame: pass the {@link World.dt} of the original where it is not 1/60 s.
+   */
+  static fromBytes(frame: Uint8Array, dt?: number): World;
   /** A recording at its beginning; {@link World.goTo} plays it. `budget` is for its history, bytes. */
   static openRecording(recording: Uint8Array, budget?: number): World;
 
@@ -409,7 +412,7 @@ export declare class World {
   readonly sceneBodies: readonly BodyId[];
   /** Its number in the module. */
   readonly session: number;
-  /** Length of a step of its scene, seconds. */
+  /** Length of a step of its scene, or as {@link World.fromBytes} was told; seconds. */
   readonly dt: number;
 
   /** Moves on by `dt` seconds; by the scene's own step (1/60 s) where it is not said. */

@@ -173,9 +173,10 @@ export class World {
     return World.#of(session, { bodies: session ? list() : [] });
   }
 
-  static fromBytes(bytes) {
+  static fromBytes(bytes, dt = 1 / 60) {
+    if (!(Number.isFinite(dt) && dt >= LEAST)) throw new PhysicsError(`dt is ${dt}; it has to be above 0, and ${LEAST} or more`);
     give(bytes);
-    return World.#of(wasm.tp_new_frame());
+    return World.#of(wasm.tp_new_frame(dt));
   }
 
   static openRecording(bytes, budget = 64 * 2 ** 20) {

@@ -349,6 +349,20 @@ test("differences are restored in worlds that are recorded or keep their history
   assert.equal(checkRecording(recorded.recording()), 1);
 });
 
+test("a saved world has the length of its step from who loads it", () => {
+  const { world } = pile();
+  const frame = world.save();
+  assert.equal(World.fromBytes(frame).dt, Math.fround(1 / 60));
+  const slow = World.fromBytes(frame, 1 / 30);
+  assert.equal(slow.clone().dt, Math.fround(1 / 30));
+  for (let step = 0; step < 9; step += 1) {
+    world.step(1 / 30);
+    slow.step();
+  }
+  assert.equal(slow.hash(), world.hash());
+  for (const dt of [0, -1, NaN, Infinity, "1"]) assert.throws(() => World.fromBytes(frame, dt), /dt is/);
+});
+
 test("recordings are checked, opened and gone back in", () => {
   const { world, balls } = pile();
   world.startRecording();
