@@ -395,6 +395,13 @@ export interface WorldDef {
   settings?: Partial<Settings>;
 }
 
+declare global {
+  /** As in TypeScript's own library of later years. */
+  interface SymbolConstructor {
+    readonly dispose: unique symbol;
+  }
+}
+
 /** A world of bodies. */
 export declare class World {
   constructor(def?: WorldDef);
@@ -421,6 +428,8 @@ export declare class World {
   clone(): World;
   /** Gives the memory back; the garbage collector does it late, or never. */
   free(): void;
+  /** The same: `using world = new World()` frees it at the end of the block. */
+  [Symbol.dispose](): void;
 
   readonly gravity: Point;
   setGravity(x: number, y: number): void;
