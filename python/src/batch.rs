@@ -19,8 +19,9 @@ use tiny_physics_batch::{Actuator, Reading, Sight, WorldBatch as Inner};
 /// "thrust", "velocity_x", "velocity_y", "angular_velocity", "position_x", "position_y", "angle" with a body;
 /// "motor_speed", "motor_max" with a joint; ("gravity_y",).
 /// readings: what the numbers of an observation are: ("position_x", body), "position_y", "angle", "velocity_x",
-/// "velocity_y", "angular_velocity", "awake", "touching" with a body; "joint_angle", "joint_speed" with a joint;
+/// "velocity_y", "angular_velocity", "awake", "touching" with a body; "joint_angle", "joint_speed", "joint_holds" with a joint;
 /// ("ray", body, (offset x, y), (translation x, y)) or with a mask after it. Bodies and joints are those of a template.
+/// A joint that has broken in a world heeds no action there, its angle and speed are 0, and "joint_holds" is 0 in place of 1.
 ///
 /// Raises ValueError where there is no template or a name is unknown.
 #[pyclass(module = "tiny_physics")]
@@ -91,6 +92,7 @@ impl<'py> Named<'py> {
             "touching" => Reading::Touching(self.body()?),
             "joint_angle" => Reading::JointAngle(self.joint()?),
             "joint_speed" => Reading::JointSpeed(self.joint()?),
+            "joint_holds" => Reading::JointHolds(self.joint()?),
             "ray" => Reading::Ray(self.sight()?),
             _ => return Err(self.unknown("reading")),
         })
@@ -162,7 +164,7 @@ impl WorldBatch {
     /// actions: float32, shape (worlds, actuators); may be left out where nothing is to be done.
     ///
     /// Raises ValueError where the shape is another, a number is not finite, or `dt` is not above 0; nothing has changed
-    /// then. Raises it, too, where a body does not take a number; worlds before it have had their actions then.
+    /// then. Raises it, too, where a body does not take a number, and says in which world; the others have had their actions then.
     #[pyo3(signature = (actions=None, dt=1.0 / 60.0, steps=1))]
     fn step<'py>(
         &mut self,

@@ -20,9 +20,13 @@ create_exception!(
 
 /// The engine's error as Python's.
 pub fn error(error: Error) -> PyErr {
+    told(&error, error.to_string())
+}
+
+fn told(error: &Error, words: String) -> PyErr {
     match error {
-        Error::StaleHandle { .. } => StaleHandleError::new_err(error.to_string()),
-        _ => PyValueError::new_err(error.to_string()),
+        Error::StaleHandle { .. } => StaleHandleError::new_err(words),
+        _ => PyValueError::new_err(words),
     }
 }
 
@@ -44,7 +48,9 @@ pub fn locked(error: numpy::BorrowError) -> PyErr {
 /// The batch's error as Python's.
 pub fn batch_error(error: BatchError) -> PyErr {
     match error {
-        BatchError::Engine(error) => self::error(error),
+        BatchError::Engine(ref engine) | BatchError::InWorld { error: ref engine, .. } => {
+            told(engine, error.to_string())
+        }
         BatchError::World { .. } => pyo3::exceptions::PyIndexError::new_err(error.to_string()),
         BatchError::Threads(_) => PyRuntimeError::new_err(error.to_string()),
         _ => PyValueError::new_err(error.to_string()),
