@@ -49,7 +49,7 @@ impl<'de> Deserialize<'de> for Frame {
     }
 }
 
-pub(crate) const VERSION: u32 = 1;
+pub(crate) const VERSION: u32 = 2;
 
 impl WorldBatch {
     /// `count` copies of the templates, stepped on so many threads; 0 is one a core. World `i` has seed `i`.
@@ -326,8 +326,21 @@ pub(crate) fn encode(value: &impl Serialize) -> Result<Vec<u8>, BatchError> {
     postcard::to_stdvec(value).map_err(|error| BatchError::BadSave { reason: error.to_string() })
 }
 
+/// All of the bytes.
 pub(crate) fn decode<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, BatchError> {
-    postcard::from_bytes(bytes).map_err(|error| BatchError::BadSave { reason: error.to_string() })
+    let (value, rest) = decode_start(bytes)?;
+    if rest.is_empty() {
+        return Ok(value);
+    }
+    Err(BatchError::BadSave { reason: format!("{} bytes too many", rest.len()) })
+}
+
+/// What the bytes begin with, and the rest.
+pub(crate) fn decode_start<'a, T: Deserialize<'a>>(
+    bytes: &'a [u8],
+) -> Result<(T, &'a [u8]), BatchError> {
+    let bad = |error: postcard::Error| BatchError::BadSave { reason: error.to_string() };
+    postcard::take_from_bytes(bytes).map_err(bad)
 }
 
 pub(crate) fn check_version(version: u32) -> Result<(), BatchError> {

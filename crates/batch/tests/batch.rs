@@ -339,3 +339,33 @@ fn bad_actions_are_refused() {
         assert_eq!(batch.state_hashes(), before);
     }
 }
+
+/// Of the same form or not: another task, or the same with other options, or something behind the end.
+#[test]
+fn what_another_task_saved_is_refused() {
+    let lander = |continuous, gravity, wind| {
+        let task = LunarLander::new(continuous, gravity, wind).unwrap();
+        Box::new(TaskBatch::new(task, 2, 1, Autoreset::NextStep).unwrap()) as Box<dyn Tasks>
+    };
+    let mut all = batches(2, 1, Autoreset::NextStep);
+    all.push(lander(false, -10.0, None));
+    all.push(lander(false, -9.0, None));
+    all.push(lander(false, -10.0, Some((15.0, 1.0))));
+    let saves: Vec<_> = all.iter_mut().map(|batch| batch.to_bytes().unwrap()).collect();
+    for (i, batch) in all.iter_mut().enumerate() {
+        for (j, save) in saves.iter().enumerate() {
+            let before = batch.state_hashes();
+            let told = batch.restore_bytes(save);
+            assert_eq!(told.is_ok(), i == j, "{i} of {j}: {told:?}");
+            assert_eq!(batch.state_hashes(), before);
+        }
+        let longer = [&saves[i][..], &[0]].concat();
+        assert!(matches!(batch.restore_bytes(&longer), Err(BatchError::BadSave { .. })));
+    }
+    let told = all[2].restore_bytes(&saves[3]).unwrap_err().to_string();
+    assert!(told.contains("hardcore"), "{told}");
+    let (world, _, _) = template(1);
+    let mut batch = WorldBatch::new(&[world], 2, 1).unwrap();
+    let longer = [&batch.to_bytes().unwrap()[..], &[0]].concat();
+    assert!(batch.restore_bytes(&longer).is_err());
+}
