@@ -62,6 +62,17 @@ pub fn read<T: DeserializeOwned>(value: &Bound<'_, PyAny>) -> PyResult<T> {
     depythonize(&plain(value)?).map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
+/// The same, where what is not said stays as it is now.
+pub fn read_over<T: Serialize + DeserializeOwned>(
+    now: &T,
+    value: &Bound<'_, PyAny>,
+) -> PyResult<T> {
+    let Ok(said) = value.cast::<PyDict>() else { return read(value) };
+    let whole = write(value.py(), now)?;
+    whole.call_method1("update", (said,))?;
+    read(&whole)
+}
+
 /// A description as dictionaries, lists and numbers.
 pub fn write<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
     pythonize(py, value).map_err(|error| PyValueError::new_err(error.to_string()))
