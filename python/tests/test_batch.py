@@ -112,6 +112,25 @@ def test_resets_and_scatter():
         many.reset([6])
 
 
+def test_a_mask_says_which_worlds_begin_again():
+    many = batch(4)
+    fresh = many.state_hashes()
+    for mask in [[False, True, False, True], np.array([False, True, False, True])]:
+        many.step(push(4, 1), steps=5)
+        many.reset(mask)
+        assert (many.state_hashes() == fresh).tolist() == [False, True, False, True]
+        many.reset()
+    many.reset(np.array([1, 3]))
+    many.step(push(4, 1), steps=5)
+    moved = many.state_hashes()
+    for wrong in [[True], [True] * 5, [True, 2, False, False], np.ones(3, dtype=bool)]:
+        with pytest.raises(ValueError, match="mask"):
+            many.reset(wrong)
+    with pytest.raises(ValueError, match="bool"):
+        many.scatter([("gravity_y",)], [-1.0], [1.0], indices=[True, False, False, False])
+    assert (many.state_hashes() == moved).all()
+
+
 def test_a_joint_that_broke_stands_still_and_the_others_go_on():
     world = tp.World()
     base = world.add_body(tp.box(1, 1), kind="static")
