@@ -53,15 +53,17 @@ fn taken_off(removed: On<Remove, ChildOf>, mut physics: ResMut<PhysicsWorld>) {
     physics.notes.placed.extend(body);
 }
 
+/// Has a joint, or one broke there.
+type HadJoint = Or<(With<Joint>, With<BrokenHere>)>;
+
 /// Removes what nothing asks for any more. In a copy that has just come in everybody is looked at, and has again what broke since.
 pub(crate) fn remove_gone(
     mut physics: ResMut<PhysicsWorld>,
     bodies: Query<(), With<RigidBody>>,
     colliders: Query<(), With<Collider>>,
     characters: Query<(), With<Character>>,
-    joints: Query<(), With<Joint>>,
+    joints: Query<Has<Joint>, HadJoint>,
     tiles: Query<(), With<TileMap>>,
-    broken: Query<(), With<BrokenHere>>,
     mut commands: Commands,
 ) {
     let physics = &mut *physics;
@@ -89,13 +91,12 @@ pub(crate) fn remove_gone(
         if !colliders.contains(entity) {
             physics.remove_shapes(entity);
         }
-        if !joints.contains(entity) {
-            match physics.maps.joints.get(&entity) {
-                Some(JointRecord { bodies: (a, b), def, .. }) if broken.contains(entity) => {
-                    commands.entity(entity).insert(Joint::new(*a, *b, *def));
-                }
-                _ => physics.remove_joint(entity),
+        match (joints.get(entity), physics.maps.joints.get(&entity)) {
+            (Ok(true), _) => {}
+            (Ok(false), Some(JointRecord { bodies: (a, b), def, .. })) => {
+                commands.entity(entity).insert(Joint::new(*a, *b, *def));
             }
+            _ => physics.remove_joint(entity),
         }
         if !tiles.contains(entity) {
             physics.remove_tiles(entity);
