@@ -19,8 +19,9 @@ use tiny_physics_batch::{Actuator, Reading, Sight, WorldBatch as Inner};
 /// "thrust", "velocity_x", "velocity_y", "angular_velocity", "position_x", "position_y", "angle" with a body;
 /// "motor_speed", "motor_max" with a joint; ("gravity_y",).
 /// readings: what the numbers of an observation are: ("position_x", body), "position_y", "angle", "velocity_x",
-/// "velocity_y", "angular_velocity", "awake", "touching" with a body; "joint_angle", "joint_speed" with a joint;
+/// "velocity_y", "angular_velocity", "awake", "touching" with a body; "joint_angle", "joint_speed", "joint_holds" with a joint;
 /// ("ray", body, (offset x, y), (translation x, y)) or with a mask after it. Bodies and joints are those of a template.
+/// A joint that has broken in a world heeds no action there, its angle and speed are 0, and "joint_holds" is 0 in place of 1.
 ///
 /// Raises ValueError where there is no template or a name is unknown.
 #[pyclass(module = "tiny_physics")]
@@ -91,6 +92,7 @@ impl<'py> Named<'py> {
             "touching" => Reading::Touching(self.body()?),
             "joint_angle" => Reading::JointAngle(self.joint()?),
             "joint_speed" => Reading::JointSpeed(self.joint()?),
+            "joint_holds" => Reading::JointHolds(self.joint()?),
             "ray" => Reading::Ray(self.sight()?),
             _ => return Err(self.unknown("reading")),
         })
@@ -162,7 +164,7 @@ impl WorldBatch {
     /// actions: float32, shape (worlds, actuators); may be left out where nothing is to be done.
     ///
     /// Raises ValueError where the shape is another, a number is not finite, or `dt` is not above 0; nothing has changed
-    /// then. Raises it, too, where a body does not take a number; worlds before it have had their actions then.
+    /// then. Raises it, too, where a body does not take a number, and says in which world; the others have had their actions then.
     #[pyo3(signature = (actions=None, dt=1.0 / 60.0, steps=1))]
     fn step<'py>(
         &mut self,
@@ -190,12 +192,13 @@ impl WorldBatch {
         Ok(self.observations(py))
     }
 
-    /// Makes worlds copies of their templates again: all, or those of `indices`.
+    /// Makes worlds copies of their templates again: all, or those of `indices`, or where a mask of a bool for each world
+    /// says so.
     ///
-    /// Raises IndexError where a world is not there; nothing has changed then.
+    /// Raises IndexError where a world is not there, ValueError where a mask has another length; nothing has changed then.
     #[pyo3(signature = (indices=None))]
-    fn reset(&mut self, py: Python<'_>, indices: Option<Vec<usize>>) -> PyResult<()> {
-        let indices = indices.unwrap_or_else(|| (0..self.inner.len()).collect());
+    fn reset(&mut self, py: Python<'_>, indices: Option<Vec<Bound<'_, PyAny>>>) -> PyResult<()> {
+        let indices = self.indices(indices, true)?;
         self.inner.reset(&indices).map_err(batch_error)?;
         self.observe(py)
     }
@@ -214,9 +217,9 @@ impl WorldBatch {
         actuators: Vec<Bound<'_, PyAny>>,
         low: Vec<f32>,
         high: Vec<f32>,
-        indices: Option<Vec<usize>>,
+        indices: Option<Vec<Bound<'_, PyAny>>>,
     ) -> PyResult<()> {
-        let indices = indices.unwrap_or_else(|| (0..self.inner.len()).collect());
+        let indices = self.indices(indices, false)?;
         let actuators = self::actuators(&actuators)?;
         self.inner.scatter(&indices, &actuators, &low, &high).map_err(batch_error)?;
         self.observe(py)
@@ -311,6 +314,29 @@ impl WorldBatch {
         let mut batch = Self { inner, actuators, readings, observations };
         batch.observe(py)?;
         Ok(batch)
+    }
+
+    /// The worlds that are meant: all where nothing is said. Python takes bools for the numbers 0 and 1; here they are a mask.
+    fn indices(
+        &self,
+        given: Option<Vec<Bound<'_, PyAny>>>,
+        may_be_mask: bool,
+    ) -> PyResult<Vec<usize>> {
+        let Some(given) = given else { return Ok((0..self.inner.len()).collect()) };
+        let mask: Vec<bool> = given.iter().map_while(|item| item.extract().ok()).collect();
+        let any_bool = given.iter().any(|item| item.extract::<bool>().is_ok());
+        if !any_bool {
+            return given.iter().map(|item| item.extract()).collect();
+        }
+        let (count, worlds) = (given.len(), self.inner.len());
+        if !may_be_mask {
+            return Err(PyValueError::new_err("indices are whole numbers, and no bools"));
+        }
+        if mask.len() != count || count != worlds {
+            let words = format!("a mask is a bool for each of the {worlds} worlds; got {count}");
+            return Err(PyValueError::new_err(words));
+        }
+        Ok((0..worlds).filter(|&i| mask[i]).collect())
     }
 
     /// The actions, world after world, however the array lies in memory. A copy: it may be the array that is written

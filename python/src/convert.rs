@@ -20,9 +20,13 @@ create_exception!(
 
 /// The engine's error as Python's.
 pub fn error(error: Error) -> PyErr {
+    told(&error, error.to_string())
+}
+
+fn told(error: &Error, words: String) -> PyErr {
     match error {
-        Error::StaleHandle { .. } => StaleHandleError::new_err(error.to_string()),
-        _ => PyValueError::new_err(error.to_string()),
+        Error::StaleHandle { .. } => StaleHandleError::new_err(words),
+        _ => PyValueError::new_err(words),
     }
 }
 
@@ -44,7 +48,9 @@ pub fn locked(error: numpy::BorrowError) -> PyErr {
 /// The batch's error as Python's.
 pub fn batch_error(error: BatchError) -> PyErr {
     match error {
-        BatchError::Engine(error) => self::error(error),
+        BatchError::Engine(ref engine) | BatchError::InWorld { error: ref engine, .. } => {
+            told(engine, error.to_string())
+        }
         BatchError::World { .. } => pyo3::exceptions::PyIndexError::new_err(error.to_string()),
         BatchError::Threads(_) => PyRuntimeError::new_err(error.to_string()),
         _ => PyValueError::new_err(error.to_string()),
@@ -54,6 +60,17 @@ pub fn batch_error(error: BatchError) -> PyErr {
 /// A description from dictionaries, lists and numbers; NumPy's arrays and numbers count as lists and numbers.
 pub fn read<T: DeserializeOwned>(value: &Bound<'_, PyAny>) -> PyResult<T> {
     depythonize(&plain(value)?).map_err(|error| PyValueError::new_err(error.to_string()))
+}
+
+/// The same, where what is not said stays as it is now.
+pub fn read_over<T: Serialize + DeserializeOwned>(
+    now: &T,
+    value: &Bound<'_, PyAny>,
+) -> PyResult<T> {
+    let Ok(said) = value.cast::<PyDict>() else { return read(value) };
+    let whole = write(value.py(), now)?;
+    whole.call_method1("update", (said,))?;
+    read(&whole)
 }
 
 /// A description as dictionaries, lists and numbers.

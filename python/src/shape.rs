@@ -1,6 +1,6 @@
 //! Shapes.
 
-use crate::convert::{StaleHandleError, error, read, write};
+use crate::convert::{StaleHandleError, error, read, read_over, write};
 use crate::handles::{Body, Shape};
 use pyo3::prelude::*;
 use tiny_physics::{self as engine, Filter, Material};
@@ -66,7 +66,7 @@ impl Shape {
         self.get(py, |shape| (shape.local().p.x, shape.local().p.y, shape.local().q.angle()))
     }
 
-    /// Density, friction, restitution and so on, as a dictionary.
+    /// Density, friction, restitution and so on, as a dictionary. What one that is set does not have stays as it is.
     #[getter]
     fn material<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         write(py, &self.get(py, |shape| shape.material())?)
@@ -74,11 +74,11 @@ impl Shape {
 
     #[setter]
     fn set_material(&self, py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<()> {
-        let material: Material = read(value)?;
+        let material: Material = read_over(&self.get(py, |shape| shape.material())?, value)?;
         self.set(py, |mut shape| shape.set_material(material))?.map_err(error)
     }
 
-    /// Category, mask and group, as a dictionary.
+    /// Category, mask and group, as a dictionary. What one that is set does not have stays as it is.
     #[getter]
     fn filter<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         write(py, &self.get(py, |shape| shape.filter())?)
@@ -86,7 +86,7 @@ impl Shape {
 
     #[setter]
     fn set_filter(&self, py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<()> {
-        let filter: Filter = read(value)?;
+        let filter: Filter = read_over(&self.get(py, |shape| shape.filter())?, value)?;
         self.set(py, |mut shape| shape.set_filter(filter))
     }
 

@@ -112,6 +112,47 @@ def test_resets_and_scatter():
         many.reset([6])
 
 
+def test_a_mask_says_which_worlds_begin_again():
+    many = batch(4)
+    fresh = many.state_hashes()
+    for mask in [[False, True, False, True], np.array([False, True, False, True])]:
+        many.step(push(4, 1), steps=5)
+        many.reset(mask)
+        assert (many.state_hashes() == fresh).tolist() == [False, True, False, True]
+        many.reset()
+    many.reset(np.array([1, 3]))
+    many.step(push(4, 1), steps=5)
+    moved = many.state_hashes()
+    for wrong in [[True], [True] * 5, [True, 2, False, False], np.ones(3, dtype=bool)]:
+        with pytest.raises(ValueError, match="mask"):
+            many.reset(wrong)
+    with pytest.raises(ValueError, match="bool"):
+        many.scatter([("gravity_y",)], [-1.0], [1.0], indices=[True, False, False, False])
+    assert (many.state_hashes() == moved).all()
+
+
+def test_a_joint_that_broke_stands_still_and_the_others_go_on():
+    world = tp.World()
+    base = world.add_body(tp.box(1, 1), kind="static")
+    arm = world.add_body(tp.box(0.5, 0.1), position=(1, 3))
+    hinge = world.add_joint(
+        base, arm, tp.revolute((0, 3), (-1, 0), motor=(1.0, 5.0), break_at=(100.0, 1e9))
+    )
+    readings = [("joint_holds", hinge), ("joint_speed", hinge), ("position_y", arm)]
+    actuators = [("motor_speed", hinge), ("impulse_y", arm)]
+    many = tp.WorldBatch(world, 3, 1, actuators, readings)
+    actions = np.ones((3, 2), dtype=np.float32)
+    actions[1, 1] = -1000.0
+    for _ in range(3):
+        seen = many.step(actions)
+        actions[:, 1] = 0.0
+    assert seen[:, 0].tolist() == [1, 0, 1]
+    assert seen[1, 1] == 0 and seen[0, 1] != 0 and seen[1, 2] < seen[0, 2]
+    actions[2, 1] = 3e38
+    with pytest.raises(ValueError, match="world 2"):
+        many.step(actions)
+
+
 def test_rays_of_all_worlds():
     many = batch(4)
     rays = np.array([[0, 3, 0, -4], [8, 3, 0, -6], [0, 3, 0, 2]], dtype=float)

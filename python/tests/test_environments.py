@@ -134,6 +134,20 @@ def test_bad_arguments_are_named():
         env.step(7)
 
 
+@pytest.mark.parametrize("name, shape", [("BipedalWalker-v0", (4,)), ("LunarLander-v0", ())])
+def test_actions_have_the_shape_of_their_space(name, shape):
+    one = gymnasium.make(f"tiny_physics/{name}", disable_env_checker=True)
+    many = gymnasium.make_vec(f"tiny_physics/{name}", num_envs=3)
+    for env, right in [(one, shape), (many, (3, *shape))]:
+        env.reset(seed=1)
+        env.step(np.zeros(right))
+        env.step(np.zeros(right).tolist())
+        env.step(np.zeros((*right, 2))[..., 0])
+        for wrong in {right[::-1], (*right, 1), (1, *right), (int(np.prod(right)),)} - {right}:
+            with pytest.raises(ValueError, match="shape"):
+                env.unwrapped.step(np.zeros(wrong))
+
+
 def test_spaces_say_what_comes():
     for task, options, _ in TASKS.values():
         batch = tp.TaskBatch(task, 2, threads=1, **options)

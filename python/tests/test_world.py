@@ -388,3 +388,19 @@ def test_a_picture_of_a_lone_turned_circle_shows_it():
     picture = world.draw(60, 60)
     covered = (picture != picture[0, 0]).any(axis=2).mean()
     assert 0.2 < covered < 0.95
+
+
+def test_what_is_not_said_of_a_material_or_filter_stays():
+    world = tp.World()
+    body = world.add_body(tp.circle(1, density=3, friction=0.25, restitution=0.5, category=4, mask=2**63, group=-1))
+    (shape,), mass = body.shapes, body.mass
+    shape.material = {"friction": 0}
+    shape.filter = {"group": 7}
+    assert {**shape.material, "density": 3, "friction": 0, "restitution": 0.5} == shape.material
+    assert shape.filter == {"category": 4, "mask": 2**63, "group": 7}
+    assert body.mass == mass
+    for wrong in [{"slippery": 1}, 5, {"friction": -1}]:
+        with pytest.raises(ValueError):
+            shape.material = wrong
+    shape.material = shape.material
+    assert shape.material["friction"] == 0

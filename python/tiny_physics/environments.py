@@ -76,8 +76,12 @@ def _action_space(spec: dict[str, Any]) -> spaces.Space:
     return spaces.Box(-1.0, 1.0, (spec["action"],), dtype=np.float32)
 
 
-def _flat(actions: Any) -> np.ndarray:
-    return np.ascontiguousarray(actions, dtype=np.float32).reshape(-1)
+def _flat(actions: Any, space: spaces.Space) -> np.ndarray:
+    """Actions of the shape of their space, one after the other."""
+    given = np.asarray(actions, dtype=np.float32)
+    if given.shape != space.shape:
+        raise ValueError(f"actions has the shape {given.shape}; needed is {space.shape}")
+    return np.ascontiguousarray(given).reshape(-1)
 
 
 class TaskEnv(gymnasium.Env[np.ndarray, Any]):
@@ -116,7 +120,7 @@ class TaskEnv(gymnasium.Env[np.ndarray, Any]):
 
     def step(self, action: Any) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
         """One step of the task. Raises ValueError where the action makes no sense or the episode is over."""
-        reward, terminated, truncated = self.batch.step(_flat(action))
+        reward, terminated, truncated = self.batch.step(_flat(action, self.action_space))
         if self.render_mode == "human":
             self.render()
         seen = self.batch.observations[0].copy()
@@ -236,7 +240,7 @@ class TaskVectorEnv(VectorEnv):
         self, actions: Any
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]:
         """One step of all worlds. With AutoresetMode.SAME_STEP, info has "final_obs" where episodes ended."""
-        rewards, terminated, truncated = self.batch.step(_flat(actions))
+        rewards, terminated, truncated = self.batch.step(_flat(actions, self.action_space))
         infos: dict[str, Any] = {}
         if self.mode == AutoresetMode.SAME_STEP and (over := terminated | truncated).any():
             last = np.full(self.num_envs, None, dtype=object)

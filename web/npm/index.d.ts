@@ -395,13 +395,23 @@ export interface WorldDef {
   settings?: Partial<Settings>;
 }
 
+declare global {
+  /** As in TypeScript's own library of later years. */
+  interface SymbolConstructor {
+    readonly dispose: unique symbol;
+  }
+}
+
 /** A world of bodies. */
 export declare class World {
   constructor(def?: WorldDef);
   /** A scene file, as text or object, at its beginning; its script goes on with every step. */
   static loadScene(scene: string | Scene): World;
-  /** The world of {@link World.save}: it goes on bit for bit as the original does, and handles are valid in it. */
-  static fromBytes(frame: Uint8Array): World;
+  /**
+   * The world of {@link World.save}: it goes on bit for bit as the original does, and handles are valid in it. The length of a step
+   * is not in a frame: pass the {@link World.dt} of the original where it is not 1/60 s.
+   */
+  static fromBytes(frame: Uint8Array, dt?: number): World;
   /** A recording at its beginning; {@link World.goTo} plays it. `budget` is for its history, bytes. */
   static openRecording(recording: Uint8Array, budget?: number): World;
 
@@ -409,7 +419,7 @@ export declare class World {
   readonly sceneBodies: readonly BodyId[];
   /** Its number in the module. */
   readonly session: number;
-  /** Length of a step of its scene, seconds. */
+  /** Length of a step of its scene, or as {@link World.fromBytes} was told; seconds. */
   readonly dt: number;
 
   /** Moves on by `dt` seconds; by the scene's own step (1/60 s) where it is not said. */
@@ -418,6 +428,8 @@ export declare class World {
   clone(): World;
   /** Gives the memory back; the garbage collector does it late, or never. */
   free(): void;
+  /** The same: `using world = new World()` frees it at the end of the block. */
+  [Symbol.dispose](): void;
 
   readonly gravity: Point;
   setGravity(x: number, y: number): void;
@@ -435,7 +447,10 @@ export declare class World {
   addOutline(body: BodyId, outline: readonly Vec[], like?: ShapeDef): ShapeId[];
   shape(id: ShapeId): (ShapeDef & { id: ShapeId; body: BodyId }) | undefined;
   shapeIds(): ShapeId[];
-  /** For example `{ set_material: { friction: 0 } }`, `{ set_shape: { circle: { radius: 2 } } }`, `{ set_sensor: true }`. */
+  /**
+   * For example `{ set_material: { friction: 0 } }`, `{ set_shape: { circle: { radius: 2 } } }`, `{ set_sensor: true }`. What is
+   * not said of a material or filter stays as it is.
+   */
   changeShape(id: ShapeId, change: Record<string, unknown>): void;
   removeShape(id: ShapeId): void;
   addJoint(a: BodyId, b: BodyId, joint: JointDef): JointId;

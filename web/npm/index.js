@@ -78,11 +78,14 @@ function writable(name, value) {
   return value;
 }
 
+/** What is said in a description. */
+const said = (data) => Object.fromEntries(Object.entries(data).filter(([, value]) => value !== undefined));
+
 /** A filter as the module takes it. */
 function sees({ category, mask, group, sensors, excludeBody } = {}) {
-  const kinds = Object.entries({ category, mask, group }).filter(([, value]) => value !== undefined);
+  const kinds = said({ category, mask, group });
   const seen = { sensors: !!sensors };
-  if (kinds.length) seen.filter = { category: ALL, mask: ALL, ...Object.fromEntries(kinds) };
+  if (Object.keys(kinds).length) seen.filter = { category: ALL, mask: ALL, ...kinds };
   if (excludeBody !== undefined) seen.exclude_body = parts(excludeBody);
   return seen;
 }
@@ -141,6 +144,8 @@ const EVENTS = {
 export class World {
   #session;
   #token = {};
+  /** Does the module keep what is done to it? */
+  #kept = false;
 
   constructor(def = {}, from) {
     if (from?.[0] === own) {
@@ -155,25 +160,28 @@ export class World {
     this.sceneBodies = from?.[2] ?? [];
   }
 
-  static #of(session, bodies) {
+  static #of(session, { bodies, kept = false } = {}) {
     check(session);
-    return new World({}, [own, session, bodies]);
+    const world = new World({}, [own, session, bodies]);
+    world.#kept = kept;
+    return world;
   }
 
   static loadScene(scene) {
     giveText(typeof scene === "string" ? scene : write(scene));
     const session = wasm.tp_new_scene();
-    return World.#of(session, session ? list() : []);
+    return World.#of(session, { bodies: session ? list() : [] });
   }
 
-  static fromBytes(bytes) {
+  static fromBytes(bytes, dt = 1 / 60) {
+    if (!(Number.isFinite(dt) && dt >= LEAST)) throw new PhysicsError(`dt is ${dt}; it has to be above 0, and ${LEAST} or more`);
     give(bytes);
-    return World.#of(wasm.tp_new_frame());
+    return World.#of(wasm.tp_new_frame(dt));
   }
 
   static openRecording(bytes, budget = 64 * 2 ** 20) {
     give(bytes);
-    return World.#of(wasm.tp_new_recording(budget));
+    return World.#of(wasm.tp_new_recording(budget), { kept: true });
   }
 
   /** Number of the session, for code that calls the module itself. */
@@ -183,7 +191,7 @@ export class World {
   }
 
   clone() {
-    return World.#of(wasm.tp_clone(this.session), this.sceneBodies);
+    return World.#of(wasm.tp_clone(this.session), { bodies: this.sceneBodies, kept: this.#kept });
   }
 
   free() {
@@ -271,7 +279,13 @@ export class World {
   }
 
   changeShape(id, change) {
-    this.apply({ shape: [parts(id), change] });
+    const now = this.shape(id);
+    const command = { ...change };
+    // Commands are whole descriptions; what is not said stays as it is.
+    for (const [name, before] of [["set_material", now?.material], ["set_filter", now?.filter]]) {
+      if (command[name]) command[name] = { ...before, ...said(command[name]) };
+    }
+    this.apply({ shape: [parts(id), command] });
   }
 
   removeShape(id) {
@@ -453,6 +467,17 @@ export class World {
   }
 
   restoreDelta(frame, delta) {
+    if (this.#kept) {
+      // What is kept is whole frames.
+      const there = new World();
+      try {
+        there.restoreDelta(frame, delta);
+        this.restore(there.save());
+      } finally {
+        there.free();
+      }
+      return;
+    }
     const both = new Uint8Array(frame.length + delta.length);
     both.set(frame);
     both.set(delta, frame.length);
@@ -462,6 +487,7 @@ export class World {
 
   startRecording() {
     check(wasm.tp_record(this.session));
+    this.#kept = true;
   }
 
   recording() {
@@ -471,6 +497,7 @@ export class World {
 
   keepHistory(budget = 64 * 2 ** 20) {
     check(wasm.tp_keep(this.session, budget));
+    this.#kept = true;
   }
 
   get history() {

@@ -205,12 +205,12 @@ pub extern "C" fn tp_new_scene() -> u32 {
     })
 }
 
-/// The saved frame in the input.
+/// The saved frame in the input, whose steps take `dt` seconds.
 #[unsafe(no_mangle)]
-pub extern "C" fn tp_new_frame() -> u32 {
+pub extern "C" fn tp_new_frame(dt: f32) -> u32 {
     with_shelf(|shelf| {
-        let session = World::from_bytes(&shelf.input).map(Session::of_world).map_err(words);
-        shelf.put(session)
+        let world = World::from_bytes(&shelf.input).map_err(words);
+        shelf.put(world.map(|world| Session { dt, ..Session::of_world(world) }))
     })
 }
 

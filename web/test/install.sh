@@ -62,6 +62,7 @@ let hero: Character = { ...character(0, 2, 1.8, 0.3), mass: 80, body: id };
 hero = world.moveCharacter(hero, { walk: 1 });
 if (hero.ground) world.body(hero.ground.body)?.applyImpulseToCenter(0, -hero.velocity[1]);
 console.log(scene.view?.[0][1], hero.hits?.[0]?.normal[0]);
+world[Symbol.dispose]();
 // @ts-expect-error a zone has one of four forces
 world.applyZone({ shape: { circle: { radius: 1 } }, pose: { p: [0, 0], q: { c: 1, s: 0 } }, force: { push: 1 }, wakes: true });
 // @ts-expect-error a character is made by character
@@ -72,6 +73,8 @@ world.addShape(id, { shape: { circle: {} } });
 body?.setKind("liquid");
 TS
 "$here/node_modules/.bin/tsc" --strict --noEmit --target es2022 --module nodenext --moduleResolution nodenext --lib es2022,dom types.ts
+echo "{ using other = new World(); other.step(); }" >> types.ts
+"$here/node_modules/.bin/tsc" --strict --noEmit --target es2022 --module nodenext --moduleResolution nodenext --lib esnext,dom types.ts
 echo "ok      tsc --strict"
 
 mkdir vite && cp first.js vite/main.js

@@ -271,6 +271,26 @@ test("filters have 64 bits, and what is read can be written", () => {
   assert.equal(world.shape(shape).filter.mask, 2n ** 64n - 1n);
 });
 
+test("what is not said of a material or filter stays", () => {
+  const world = new World();
+  const material = { density: 3, friction: 0.25, restitution: 0.5, friction_mix: "max" };
+  const filter = { category: 4, mask: 2n ** 63n, group: -1 };
+  const body = world.body(world.addBody({ shapes: [{ shape: { circle: { radius: 1 } }, material, filter }] }));
+  const [shape] = body.shapes;
+  const mass = body.mass;
+  world.changeShape(shape, { set_material: { friction: 0, density: undefined } });
+  world.changeShape(shape, { set_filter: { group: 7 } });
+  const now = world.shape(shape);
+  assert.deepEqual([now.material.density, now.material.friction, now.material.restitution], [3, 0, 0.5]);
+  assert.equal(now.material.friction_mix, "max");
+  assert.deepEqual([now.filter.category, now.filter.mask, now.filter.group], [4, 2n ** 63n, 7]);
+  assert.equal(body.mass, mass);
+  assert.throws(() => world.changeShape(shape, { set_material: { slippery: 1 } }), /slippery/);
+  assert.throws(() => world.changeShape(shape, { set_material: null }), PhysicsError);
+  body.remove();
+  assert.throws(() => world.changeShape(shape, { set_material: { friction: 0 } }), PhysicsError);
+});
+
 test("questions are answered", () => {
   const { world, balls } = pile();
   const hit = world.rayCast(0, 30, 0, -40);
@@ -306,6 +326,41 @@ test("saved worlds go on bit for bit, whole and as differences", () => {
   run(copy, 10);
   run(world, 10);
   assert.equal(copy.hash(), world.hash());
+});
+
+test("differences are restored in worlds that are recorded or keep their history, too", () => {
+  const { world } = pile();
+  const [recorded, kept] = [world.clone(), world.clone()];
+  run(world, 40);
+  const frame = world.save();
+  run(world, 50);
+  const delta = world.deltaFrom(frame);
+  recorded.startRecording();
+  kept.keepHistory();
+  for (const other of [recorded, kept, kept.clone(), World.openRecording(recorded.recording())]) {
+    other.step(1 / 60);
+    assert.throws(() => other.restoreDelta(frame, delta.slice(0, 9)), PhysicsError);
+    other.restoreDelta(frame, delta);
+    assert.equal(other.hash(), world.hash());
+  }
+  run(kept, 1);
+  kept.goTo(1);
+  assert.notEqual(kept.hash(), world.hash());
+  assert.equal(checkRecording(recorded.recording()), 1);
+});
+
+test("a saved world has the length of its step from who loads it", () => {
+  const { world } = pile();
+  const frame = world.save();
+  assert.equal(World.fromBytes(frame).dt, Math.fround(1 / 60));
+  const slow = World.fromBytes(frame, 1 / 30);
+  assert.equal(slow.clone().dt, Math.fround(1 / 30));
+  for (let step = 0; step < 9; step += 1) {
+    world.step(1 / 30);
+    slow.step();
+  }
+  assert.equal(slow.hash(), world.hash());
+  for (const dt of [0, -1, NaN, Infinity, "1"]) assert.throws(() => World.fromBytes(frame, dt), /dt is/);
 });
 
 test("recordings are checked, opened and gone back in", () => {

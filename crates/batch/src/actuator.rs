@@ -1,10 +1,11 @@
 //! What the numbers of an action do.
 
+use crate::reading::is_lost;
 use serde::{Deserialize, Serialize};
 use tiny_physics::{BodyId, DVec2, Error, JointDef, JointId, JointKind, Motor, Vec2, World};
 
 /// What one number does to a world. Handles are those of the template. A handle that is stale in a world is an
-/// error; a number that makes no sense for the thing is one, too.
+/// error; a number that makes no sense for the thing is one, too. A joint that has broken in a world (or was removed from it) heeds none.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Actuator {
@@ -41,9 +42,17 @@ pub enum Actuator {
 }
 
 impl Actuator {
-    /// Does it.
-    pub(crate) fn apply(self, world: &mut World, value: f32) -> Result<(), Error> {
+    /// Does it to a copy of a template.
+    pub(crate) fn apply(
+        self,
+        world: &mut World,
+        template: &World,
+        value: f32,
+    ) -> Result<(), Error> {
         match self {
+            Self::MotorSpeed(joint) | Self::MotorMax(joint) if is_lost(world, template, joint) => {
+                Ok(())
+            }
             Self::MotorSpeed(joint) => set_motor(world, joint, |motor| motor.speed = value),
             Self::MotorMax(joint) => set_motor(world, joint, |motor| motor.max = value),
             Self::GravityY => {

@@ -49,7 +49,7 @@ impl<'de> Deserialize<'de> for Frame {
     }
 }
 
-pub(crate) const VERSION: u32 = 1;
+pub(crate) const VERSION: u32 = 2;
 
 impl WorldBatch {
     /// `count` copies of the templates, stepped on so many threads; 0 is one a core. World `i` has seed `i`.
@@ -120,17 +120,16 @@ impl WorldBatch {
     ///
     /// # Errors
     /// Another number of actions than worlds times actuators, one that is not finite (nothing has changed then), or
-    /// an actuator that a world cannot do.
+    /// an actuator that a world cannot do. The other worlds have had their actions then.
     pub fn apply(&mut self, actuators: &[Actuator], actions: &[f32]) -> Result<(), BatchError> {
         let each = actuators.len();
         BatchError::check_length("actions", self.len() * each, actions.len())?;
         BatchError::check_finite("actions", actions)?;
-        self.threads.each(&mut self.slots, |i, slot| {
-            let actions = &actions[i * each..(i + 1) * each];
-            actuators
-                .iter()
-                .zip(actions)
-                .try_for_each(|(actuator, &value)| Ok(actuator.apply(&mut slot.world, value)?))
+        let templates = &self.templates;
+        self.threads.each(&mut self.slots, |i, Slot { world, .. }| {
+            let mut pairs = actuators.iter().zip(&actions[i * each..(i + 1) * each]);
+            let template = &templates[i % templates.len()];
+            pairs.try_for_each(|(actuator, &value)| Ok(actuator.apply(world, template, value)?))
         })
     }
 
@@ -152,24 +151,30 @@ impl WorldBatch {
             BatchError::check_finite(name, ends)?;
         }
         self.check_indices(indices)?;
+        let mut result = Ok(());
         for &index in indices {
             let Slot { world, random } = &mut self.slots[index];
-            for ((actuator, &low), &high) in actuators.iter().zip(low).zip(high) {
-                actuator.apply(world, random.uniform(low, high))?;
-            }
+            let template = &self.templates[index % self.templates.len()];
+            let mut ranges = actuators.iter().zip(low.iter().zip(high));
+            let done = ranges.try_for_each(|(actuator, (&low, &high))| {
+                actuator.apply(world, template, random.uniform(low, high))
+            });
+            result = result.and(done.map_err(|error| BatchError::InWorld { index, error }));
         }
-        Ok(())
+        result
     }
 
     /// Reads all worlds into `out`: for each world in order one number for each reading, in order.
     ///
     /// # Errors
-    /// `out` has another length than worlds times readings, or a reading's handle is stale in a world.
+    /// `out` has another length than worlds times readings, or a reading's handle is stale in a world. The other worlds have
+    /// been read then.
     pub fn read(&mut self, readings: &[Reading], out: &mut [f32]) -> Result<(), BatchError> {
         BatchError::check_length("out", self.len() * readings.len(), out.len())?;
-        self.threads.each_with(&mut self.slots, (out, readings.len()), |_, slot, out| {
+        let templates = &self.templates;
+        self.threads.each_with(&mut self.slots, (out, readings.len()), |i, slot, out| {
             readings.iter().zip(out).try_for_each(|(reading, out)| {
-                *out = reading.read(&slot.world)?;
+                *out = reading.read(&slot.world, &templates[i % templates.len()])?;
                 Ok(())
             })
         })
@@ -227,7 +232,7 @@ impl WorldBatch {
         let mut hashes = vec![0; self.len()];
         self.threads.each_with(&mut self.slots, (&mut hashes, 1), |_, slot, hash| {
             hash[0] = slot.world.state_hash();
-            Ok::<_, BatchError>(())
+            Ok(())
         })?;
         Ok(hashes)
     }
@@ -301,7 +306,7 @@ pub(crate) fn frames<S: Send + Sync>(
     let mut frames: Vec<Frame> = slots.iter().map(|_| Frame(Vec::new())).collect();
     threads.each_with(slots, (&mut frames, 1), |_, slot, frame| {
         frame[0].0 = world(slot).to_bytes();
-        Ok::<_, BatchError>(())
+        Ok(())
     })?;
     Ok(frames)
 }
@@ -310,7 +315,7 @@ pub(crate) fn frames<S: Send + Sync>(
 pub(crate) fn restore(threads: &Threads, frames: &[Frame]) -> Result<Vec<World>, BatchError> {
     let mut worlds: Vec<World> = Vec::new();
     worlds.resize_with(frames.len(), || World::new(tiny_physics::Vec2::ZERO));
-    threads.each(&mut worlds, |i, world| -> Result<(), BatchError> {
+    threads.each(&mut worlds, |i, world| {
         *world = World::from_bytes(&frames[i].0)?;
         Ok(())
     })?;
@@ -321,8 +326,21 @@ pub(crate) fn encode(value: &impl Serialize) -> Result<Vec<u8>, BatchError> {
     postcard::to_stdvec(value).map_err(|error| BatchError::BadSave { reason: error.to_string() })
 }
 
+/// All of the bytes.
 pub(crate) fn decode<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, BatchError> {
-    postcard::from_bytes(bytes).map_err(|error| BatchError::BadSave { reason: error.to_string() })
+    let (value, rest) = decode_start(bytes)?;
+    if rest.is_empty() {
+        return Ok(value);
+    }
+    Err(BatchError::BadSave { reason: format!("{} bytes too many", rest.len()) })
+}
+
+/// What the bytes begin with, and the rest.
+pub(crate) fn decode_start<'a, T: Deserialize<'a>>(
+    bytes: &'a [u8],
+) -> Result<(T, &'a [u8]), BatchError> {
+    let bad = |error: postcard::Error| BatchError::BadSave { reason: error.to_string() };
+    postcard::take_from_bytes(bytes).map_err(bad)
 }
 
 pub(crate) fn check_version(version: u32) -> Result<(), BatchError> {

@@ -3,7 +3,7 @@
 use core::fmt;
 use tiny_physics::Error;
 
-/// What was wrong. Nothing has changed when an argument is refused.
+/// What was wrong. Nothing has changed when an argument is refused; of what is wrong in a world by itself the others know nothing.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum BatchError {
@@ -43,9 +43,24 @@ pub enum BatchError {
     Threads(String),
     /// The engine's.
     Engine(Error),
+    /// The engine's, about one world of the batch: the first of those where something was wrong.
+    InWorld {
+        /// Which.
+        index: usize,
+        /// What was wrong.
+        error: Error,
+    },
 }
 
 impl BatchError {
+    /// The same, where it is the engine's, of a world of the batch.
+    pub(crate) fn in_world(self, index: usize) -> Self {
+        match self {
+            Self::Engine(error) => Self::InWorld { index, error },
+            other => other,
+        }
+    }
+
     /// `Ok` where an array has the length that is needed.
     pub(crate) fn check_length(
         name: &'static str,
@@ -80,6 +95,7 @@ impl fmt::Display for BatchError {
             Self::BadSave { reason } => write!(f, "not a saved batch that can be read: {reason}"),
             Self::Threads(reason) => write!(f, "no threads: {reason}"),
             Self::Engine(error) => error.fmt(f),
+            Self::InWorld { index, error } => write!(f, "world {index}: {error}"),
         }
     }
 }

@@ -26,7 +26,8 @@ impl Sight {
     }
 }
 
-/// What one number tells of a world. Handles are those of the template; one that is stale in a world is an error.
+/// What one number tells of a world. Handles are those of the template; one that is stale in a world is an error. A joint that
+/// has broken in a world (or was removed from it) stands still: its angle and speed are 0, and [`Reading::JointHolds`] tells.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Reading {
@@ -53,11 +54,13 @@ pub enum Reading {
     JointSpeed(JointId),
     /// Part of a ray until it enters a shape, 0 to 1; 1 where it meets nothing.
     Ray(Sight),
+    /// 1 where the joint is there, 0 where it has broken.
+    JointHolds(JointId),
 }
 
 impl Reading {
-    /// Reads it.
-    pub(crate) fn read(&self, world: &World) -> Result<f32, Error> {
+    /// Reads it from a copy of a template.
+    pub(crate) fn read(&self, world: &World, template: &World) -> Result<f32, Error> {
         let body = |id: BodyId| world.body(id).ok_or_else(|| stale(id));
         Ok(match self {
             Self::PositionX(id) => body(*id)?.position().x,
@@ -71,8 +74,14 @@ impl Reading {
                 body(*id)?;
                 world.contacts().filter(|c| c.body_a == *id || c.body_b == *id).count() as f32
             }
+            Self::JointAngle(id) | Self::JointSpeed(id) | Self::JointHolds(id)
+                if is_lost(world, template, *id) =>
+            {
+                0.0
+            }
             Self::JointAngle(id) => joint_motion(world, *id)?.0,
             Self::JointSpeed(id) => joint_motion(world, *id)?.1,
+            Self::JointHolds(id) => joint_motion(world, *id).map(|_| 1.0)?,
             Self::Ray(sight) => sight.look(world)?.map_or(1.0, |hit| hit.fraction),
         })
     }
@@ -80,6 +89,11 @@ impl Reading {
 
 fn stale(handle: impl core::fmt::Debug) -> Error {
     Error::StaleHandle { handle: format!("{handle:?}") }
+}
+
+/// Has a copy lost a joint that its template has?
+pub(crate) fn is_lost(world: &World, template: &World, joint: JointId) -> bool {
+    world.joint(joint).is_none() && template.joint(joint).is_some()
 }
 
 /// Angle (radians) and angular speed (radians a second) of a joint's body B against A, as the joint counts them.

@@ -47,6 +47,9 @@ pub trait Task: Send + Sync {
     /// What an episode has to remember besides its world.
     type Episode: Clone + core::fmt::Debug + Send + Sync + Serialize + DeserializeOwned;
 
+    /// What it is called, with its options: what another task has saved is refused.
+    fn title(&self) -> String;
+
     /// Its form.
     fn spec(&self) -> Spec;
 

@@ -1,6 +1,6 @@
 //! Many episodes of one task at once.
 
-use crate::batch::{Frame, VERSION, check_version, decode, encode, frames, restore};
+use crate::batch::{Frame, VERSION, check_version, decode, decode_start, encode, frames, restore};
 use crate::error::BatchError;
 use crate::random::Random;
 use crate::task::{Outcome, Spec, Task, View};
@@ -56,6 +56,7 @@ struct SavedSlot<E> {
 #[derive(Serialize, Deserialize)]
 struct Saved<E> {
     version: u32,
+    task: String,
     worlds: Vec<Frame>,
     slots: Vec<SavedSlot<E>>,
 }
@@ -284,12 +285,19 @@ impl<T: Task> Tasks for TaskBatch<T> {
             steps: slot.steps,
             over: slot.over,
         };
-        encode(&Saved { version: VERSION, worlds, slots: self.slots.iter().map(saved).collect() })
+        let (task, slots) = (self.task.title(), self.slots.iter().map(saved).collect());
+        encode(&Saved { version: VERSION, task, worlds, slots })
     }
 
     fn restore_bytes(&mut self, bytes: &[u8]) -> Result<(), BatchError> {
+        // Episodes of another task cannot be read.
+        let (version, task): (u32, String) = decode_start(bytes)?.0;
+        check_version(version)?;
+        if task != self.task.title() {
+            let reason = format!("it is of \"{task}\", this is \"{}\"", self.task.title());
+            return Err(BatchError::BadSave { reason });
+        }
         let saved: Saved<T::Episode> = decode(bytes)?;
-        check_version(saved.version)?;
         BatchError::check_length("worlds", self.slots.len(), saved.worlds.len())?;
         BatchError::check_length("episodes", self.slots.len(), saved.slots.len())?;
         let worlds = restore(&self.threads, &saved.worlds)?;

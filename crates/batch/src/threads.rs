@@ -28,34 +28,31 @@ impl Threads {
         self.0.as_ref().map_or(1, |pool| pool.current_num_threads())
     }
 
-    /// Works on every item.
-    pub(crate) fn each<T: Send, E: Send>(
+    /// Works on every item, a world or what has one. Of errors the first in order is given, on any number of threads.
+    pub(crate) fn each<T: Send>(
         &self,
         items: &mut [T],
-        work: impl Fn(usize, &mut T) -> Result<(), E> + Send + Sync,
-    ) -> Result<(), E> {
+        work: impl Fn(usize, &mut T) -> Result<(), BatchError> + Send + Sync,
+    ) -> Result<(), BatchError> {
+        let work = |(i, item)| work(i, item).map_err(|error| error.in_world(i));
         let Some(pool) = &self.0 else {
-            return items.iter_mut().enumerate().try_for_each(|(i, item)| work(i, item));
+            return items.iter_mut().enumerate().map(work).fold(Ok(()), Result::and);
         };
         let items = items.par_iter_mut().with_min_len(CHUNK).enumerate();
-        pool.install(|| items.try_for_each(|(i, item)| work(i, item)))
+        pool.install(|| items.map(work).reduce(|| Ok(()), Result::and))
     }
 
-    /// Works on every item, each with its own `stride` numbers of `out`.
-    pub(crate) fn each_with<T: Send, N: Send, E: Send>(
+    /// The same, each with its own `stride` numbers of `out`.
+    pub(crate) fn each_with<T: Send, N: Send>(
         &self,
         items: &mut [T],
         (out, stride): (&mut [N], usize),
-        work: impl Fn(usize, &mut T, &mut [N]) -> Result<(), E> + Send + Sync,
-    ) -> Result<(), E> {
+        work: impl Fn(usize, &mut T, &mut [N]) -> Result<(), BatchError> + Send + Sync,
+    ) -> Result<(), BatchError> {
         if stride == 0 {
             return self.each(items, |i, item| work(i, item, &mut []));
         }
-        let Some(pool) = &self.0 else {
-            let mut pairs = items.iter_mut().zip(out.chunks_mut(stride)).enumerate();
-            return pairs.try_for_each(|(i, (item, out))| work(i, item, out));
-        };
-        let pairs = items.par_iter_mut().with_min_len(CHUNK).zip(out.par_chunks_mut(stride));
-        pool.install(|| pairs.enumerate().try_for_each(|(i, (item, out))| work(i, item, out)))
+        let mut pairs: Vec<_> = items.iter_mut().zip(out.chunks_mut(stride)).collect();
+        self.each(&mut pairs, |i, (item, out)| work(i, item, out))
     }
 }

@@ -62,6 +62,50 @@ fn joints_are_read_as_they_count() {
     assert!(out[0].abs() < 1e-6 && out[1] == -0.5, "{out:?}");
 }
 
+/// A joint that broke in one world stands still there; what is wrong elsewhere is told with the first such world, and the others have
+/// had their actions.
+#[test]
+fn a_broken_joint_and_an_error_are_matters_of_their_worlds() {
+    let (mut world, actuators, readings) = template(2);
+    let Actuator::MotorSpeed(joint) = actuators[0] else { unreachable!() };
+    let Actuator::ForceX(last) = actuators[1] else { unreachable!() };
+    let Reading::PositionX(bob) = readings[0] else { unreachable!() };
+    let removed = world.add_joint(last, bob, JointDef::weld()).unwrap();
+    world.remove_joint(removed).unwrap();
+    for threads in [1, 3] {
+        let mut batch = WorldBatch::new(&[world.clone()], 40, threads).unwrap();
+        batch.world_mut(17).unwrap().remove_joint(joint).unwrap();
+        batch.apply(&[actuators[0], Actuator::MotorMax(joint)], &[2.0; 80]).unwrap();
+        let joint_too = [Reading::JointHolds(joint), readings[1], readings[2], readings[0]];
+        let mut out = [f32::NAN; 160];
+        batch.step(1.0 / 60.0).unwrap();
+        batch.read(&joint_too, &mut out).unwrap();
+        assert_eq!(out[17 * 4..17 * 4 + 3], [0.0; 3]);
+        assert!(out[..4].iter().all(|x| *x != 0.0) && out[0] == 1.0, "{:?}", &out[..4]);
+        assert!(out.iter().all(|x| x.is_finite()));
+
+        let speeds: Vec<f32> =
+            (0..40).map(|i| if i == 9 || i == 30 { 1e20 } else { 1.0 }).collect();
+        let error = batch.apply(&[Actuator::VelocityX(last)], &speeds).unwrap_err();
+        assert!(matches!(error, BatchError::InWorld { index: 9, .. }), "{error:?}");
+        assert!(error.to_string().starts_with("world 9: action is "), "{error}");
+        for (i, world) in batch.worlds().enumerate() {
+            let is_moved = world.body(last).unwrap().velocity().x == 1.0;
+            assert_eq!(is_moved, i != 9 && i != 30, "world {i}");
+        }
+        // What no template has is no joint that broke.
+        let error = batch.apply(&[Actuator::MotorSpeed(removed)], &[1.0; 40]).unwrap_err();
+        assert!(matches!(error, BatchError::InWorld { index: 0, .. }), "{error:?}");
+        assert!(batch.read(&[Reading::JointAngle(removed)], &mut out[..40]).is_err());
+        assert!(batch.read(&[Reading::JointHolds(removed)], &mut out[..40]).is_err());
+        let all: Vec<usize> = (0..40).rev().collect();
+        batch.world_mut(5).unwrap().remove_body(last).unwrap();
+        let error = batch.scatter(&all, &[Actuator::VelocityY(last)], &[4.0], &[4.0]).unwrap_err();
+        assert!(matches!(error, BatchError::InWorld { index: 5, .. }), "{error:?}");
+        assert_eq!(batch.world(0).unwrap().body(last).unwrap().velocity().y, 4.0);
+    }
+}
+
 /// A finite number that the engine refuses is told, and changes nothing.
 #[test]
 fn actions_that_are_too_large_are_errors() {
@@ -80,7 +124,10 @@ fn actions_that_are_too_large_are_errors() {
     ];
     for actuator in each.map(|actuator| actuator(ball)) {
         let told = batch.apply(&[actuator], &[f32::MAX, 0.0]);
-        assert!(matches!(told, Err(BatchError::Engine(_))), "{actuator:?}: {told:?}");
+        assert!(
+            matches!(told, Err(BatchError::InWorld { index: 0, .. })),
+            "{actuator:?}: {told:?}"
+        );
     }
     assert_eq!(batch.state_hashes().unwrap(), before);
 }
@@ -177,7 +224,7 @@ fn bad_input_is_named_and_changes_nothing() {
     assert_eq!(batch.state_hashes().unwrap(), before);
     let Actuator::ForceX(body) = actuators[1] else { unreachable!() };
     batch.world_mut(2).unwrap().remove_body(body).unwrap();
-    assert!(matches!(batch.apply(&force, &[0.0; 4]), Err(BatchError::Engine(_))));
+    assert!(matches!(batch.apply(&force, &[0.0; 4]), Err(BatchError::InWorld { index: 2, .. })));
 }
 
 /// Random actions for a batch of any task.
@@ -291,4 +338,34 @@ fn bad_actions_are_refused() {
         }
         assert_eq!(batch.state_hashes(), before);
     }
+}
+
+/// Of the same form or not: another task, or the same with other options, or something behind the end.
+#[test]
+fn what_another_task_saved_is_refused() {
+    let lander = |continuous, gravity, wind| {
+        let task = LunarLander::new(continuous, gravity, wind).unwrap();
+        Box::new(TaskBatch::new(task, 2, 1, Autoreset::NextStep).unwrap()) as Box<dyn Tasks>
+    };
+    let mut all = batches(2, 1, Autoreset::NextStep);
+    all.push(lander(false, -10.0, None));
+    all.push(lander(false, -9.0, None));
+    all.push(lander(false, -10.0, Some((15.0, 1.0))));
+    let saves: Vec<_> = all.iter_mut().map(|batch| batch.to_bytes().unwrap()).collect();
+    for (i, batch) in all.iter_mut().enumerate() {
+        for (j, save) in saves.iter().enumerate() {
+            let before = batch.state_hashes();
+            let told = batch.restore_bytes(save);
+            assert_eq!(told.is_ok(), i == j, "{i} of {j}: {told:?}");
+            assert_eq!(batch.state_hashes(), before);
+        }
+        let longer = [&saves[i][..], &[0]].concat();
+        assert!(matches!(batch.restore_bytes(&longer), Err(BatchError::BadSave { .. })));
+    }
+    let told = all[2].restore_bytes(&saves[3]).unwrap_err().to_string();
+    assert!(told.contains("hardcore"), "{told}");
+    let (world, _, _) = template(1);
+    let mut batch = WorldBatch::new(&[world], 2, 1).unwrap();
+    let longer = [&batch.to_bytes().unwrap()[..], &[0]].concat();
+    assert!(batch.restore_bytes(&longer).is_err());
 }

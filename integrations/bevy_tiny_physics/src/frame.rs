@@ -104,14 +104,14 @@ fn turn_about_z(rotation: Quat) -> Rot {
     Rot { c: w * w - z * z, s: 2.0 * z * w }.normalized()
 }
 
-/// Where an entity is: through all its parents. `None` where it has no transform.
-pub(crate) fn world_frame<'a>(
+/// Where an entity is: through those above it, from the nearest on. `None` where it has no transform.
+pub(crate) fn frame_through<'a>(
     entity: Entity,
+    above: impl Iterator<Item = Entity>,
     transform: impl Fn(Entity) -> Option<&'a Transform>,
-    parents: &Query<&ChildOf>,
 ) -> Option<Frame> {
     let mut frame = Frame::of(transform(entity)?);
-    for ancestor in parents.iter_ancestors(entity) {
+    for ancestor in above {
         if let Some(outer) = transform(ancestor) {
             frame = Frame::of(outer).compose(&frame);
         }

@@ -1,6 +1,7 @@
 //! Bad input is told with the entity, and nothing panics.
 
 mod common;
+use bevy_app::App;
 use bevy_ecs::prelude::*;
 use bevy_math::{Vec2, Vec3};
 use bevy_tiny_physics::prelude::*;
@@ -209,4 +210,54 @@ fn what_stays_bad_is_told_when_it_is_bad_in_another_way() {
     app.world_mut().despawn(ball);
     steps(&mut app, 1);
     assert_eq!(physics(&app).world.body_count(), 0);
+}
+
+/// Edits something, steps, and wants one problem and the world as it was.
+#[track_caller]
+fn is_left<T: Component<Mutability = bevy_ecs::component::Mutable>>(
+    app: &mut App,
+    entity: Entity,
+    edit: impl FnOnce(&mut T),
+) {
+    let parts = |app: &App| {
+        let world = &physics(app).world;
+        let of_bodies: Vec<_> = world.bodies().map(|body| body.describe()).collect();
+        let of_joints: Vec<_> = world.joints().map(|joint| (joint.id(), *joint.def())).collect();
+        let shapes: Vec<_> = world.shape_ids().collect();
+        (of_bodies, of_joints, shapes)
+    };
+    let (before, told) = (parts(app), messages::<PhysicsProblem>(app).len());
+    edit(&mut app.world_mut().get_mut::<T>(entity).unwrap());
+    steps(app, 1);
+    assert_eq!(messages::<PhysicsProblem>(app).len(), told + 1);
+    assert_eq!(parts(app), before);
+    assert_eq!(physics(app).world.validate(), Ok(()));
+}
+
+#[test]
+fn bad_edits_leave_all_as_it_was() {
+    let mut app = app();
+    app.world_mut().resource_mut::<PhysicsWorld>().world.gravity = tiny_physics::Vec2::ZERO;
+    let grid = TileGrid::parse(1.0, &["#..#", "####"]).unwrap();
+    let tiles = app.world_mut().spawn(TileMap(grid)).id();
+    let (a, b) = (ball(&mut app, 0.0, 5.0), ball(&mut app, 3.0, 5.0));
+    let two = || Collider::circle(0.5).and(Collider::rect(0.3, 0.3));
+    let body = (RigidBody::Dynamic, two(), Friction(0.5), Transform::from_xyz(9.0, 5.0, 0.0));
+    let body = app.world_mut().spawn(body).id();
+    let joint = app.world_mut().spawn(Joint::new(a, b, JointDef::rope(9.0))).id();
+    steps(&mut app, 2);
+
+    is_left::<TileMap>(&mut app, tiles, |map| map.0.cells.truncate(3));
+    is_left::<TileMap>(&mut app, tiles, |map| map.0.cells = vec![0, 0, 0, 0, 99, 99, 99, 99]);
+    is_left::<TileMap>(&mut app, tiles, |map| map.0.width = 0);
+    is_left::<TileMap>(&mut app, tiles, |map| map.0.cell_size = f32::NAN);
+    is_left::<Joint>(&mut app, joint, |joint| joint.a = b);
+    is_left::<Joint>(&mut app, joint, |joint| *joint = Joint::new(b, a, JointDef::rope(-1.0)));
+    // As many shapes as before, and others.
+    app.world_mut().entity_mut(body).insert(Collider::circle(0.7));
+    is_left::<Friction>(&mut app, body, |friction| friction.0 = f32::NAN);
+    app.world_mut().entity_mut(body).insert((two(), Friction(0.5)));
+    steps(&mut app, 1);
+    app.world_mut().entity_mut(body).insert(two().at(0.5, 0.0));
+    is_left::<Friction>(&mut app, body, |friction| friction.0 = -1.0);
 }

@@ -106,3 +106,104 @@ fn a_copy_goes_to_other_entities() {
     steps(&mut app, 1);
     assert!((place(&app, twin) - bevy_math::Vec2::new(before.x, before.y)).length() < 0.2);
 }
+
+/// A weight on a weld that breaks within a second.
+fn lamp(app: &mut App) -> (Entity, Entity) {
+    let hook = (RigidBody::Static, Transform::from_xyz(0.0, 9.0, 0.0));
+    let hook = app.world_mut().spawn(hook).id();
+    let lamp = ball(app, 0.0, 8.0);
+    let joint = Joint::new(
+        hook,
+        lamp,
+        JointDef {
+            break_at: Some(tiny_physics::Break { force: 20.0, torque: f32::MAX }),
+            ..JointDef::rope(1.5)
+        },
+    );
+    (lamp, app.world_mut().spawn(joint).id())
+}
+
+#[test]
+fn a_joint_that_broke_since_is_there_again() {
+    let mut app = app();
+    let (lamp, joint) = lamp(&mut app);
+    steps(&mut app, 5);
+    let frame = physics(&app).clone();
+    steps(&mut app, 60);
+    assert!(app.world().get::<Joint>(joint).is_none(), "it broke");
+    let (future, at) = (physics(&app).world.state_hash(), place(&app, lamp));
+
+    for _ in 0..2 {
+        app.world_mut().resource_mut::<PhysicsWorld>().clone_from(&frame);
+        steps(&mut app, 1);
+        assert!(app.world().get::<Joint>(joint).is_some());
+        assert!(physics(&app).joint(joint).is_some());
+        steps(&mut app, 59);
+        assert!(app.world().get::<Joint>(joint).is_none(), "it breaks again");
+        assert_eq!((physics(&app).world.state_hash(), place(&app, lamp)), (future, at));
+    }
+
+    // One that the game takes off is not put on again.
+    app.world_mut().resource_mut::<PhysicsWorld>().clone_from(&frame);
+    steps(&mut app, 1);
+    app.world_mut().entity_mut(joint).remove::<Joint>();
+    steps(&mut app, 1);
+    app.world_mut().resource_mut::<PhysicsWorld>().clone_from(&frame);
+    steps(&mut app, 1);
+    assert!(app.world().get::<Joint>(joint).is_none());
+    assert_eq!(physics(&app).world.joint_count(), 0);
+}
+
+#[test]
+fn what_components_say_since_is_told_to_a_copy() {
+    let (mut app, balls, hero) = game();
+    let below = (Collider::circle(0.2), Transform::from_xyz(0.3, 0.4, 0.0), ChildOf(balls[1]));
+    let below = app.world_mut().spawn(below).id();
+    let rope = Joint::new(balls[7], balls[8], JointDef::rope(3.0));
+    let rope = app.world_mut().spawn(rope).id();
+    play(&mut app, hero, 30);
+    let frame = physics(&app).clone();
+    let mut world = app.world_mut();
+    world.entity_mut(balls[0]).insert((GravityScale(0.5), Enabled(false)));
+    *world.get_mut::<RigidBody>(balls[2]).unwrap() = RigidBody::Kinematic;
+    *world.get_mut::<Collider>(balls[3]).unwrap() = Collider::circle(0.25);
+    world.entity_mut(below).insert(Friction(0.125));
+    world.get_mut::<Joint>(rope).unwrap().def = JointDef::rope(2.0);
+    play(&mut app, hero, 3);
+    world = app.world_mut();
+    world.resource_mut::<PhysicsWorld>().clone_from(&frame);
+    play(&mut app, hero, 1);
+    let physics = physics(&app);
+    let body = physics.body(balls[0]).unwrap();
+    assert_eq!((body.gravity_scale(), body.is_enabled()), (0.5, false));
+    assert_eq!(physics.body(balls[2]).unwrap().kind(), tiny_physics::BodyKind::Kinematic);
+    let shape = |entity| physics.world.shape(physics.shape_ids(entity).next().unwrap()).unwrap();
+    assert_eq!(*shape(balls[3]).shape(), tiny_physics::Shape::circle(0.25).unwrap());
+    assert_eq!(shape(below).material().friction, 0.125);
+    assert_eq!(*physics.joint(rope).unwrap().def(), JointDef::rope(2.0));
+}
+
+/// A copy whose components say what they said is not touched: what turned meanwhile, with colliders below it, and what was set by hand.
+#[test]
+fn what_components_said_before_is_not_told_again() {
+    let mut app = app();
+    let top = (RigidBody::Dynamic, Velocity { angular: 3.0, ..Velocity::linear(1.7, 2.3) });
+    let top = app.world_mut().spawn((top, Transform::from_xyz(0.3, 5.1, 0.0))).id();
+    for at in 0..5 {
+        let at = Transform::from_xyz(0.37 * at as f32, 0.21, 0.0)
+            .with_rotation(bevy_math::Quat::from_rotation_z(0.3 * at as f32));
+        app.world_mut().spawn((Collider::rect(0.2, 0.1), at, ChildOf(top)));
+    }
+    let turned =
+        Transform::from_xyz(0.1, -3.0, 0.0).with_rotation(bevy_math::Quat::from_rotation_z(0.1234));
+    app.world_mut().spawn((Collider::rect(9.0, 0.3), turned));
+    steps(&mut app, 17);
+    app.world_mut().resource_mut::<PhysicsWorld>().body_mut(top).unwrap().set_gravity_scale(0.7);
+    steps(&mut app, 1);
+    let frame = physics(&app).clone();
+    steps(&mut app, 40);
+    let future = physics(&app).world.state_hash();
+    app.world_mut().resource_mut::<PhysicsWorld>().clone_from(&frame);
+    steps(&mut app, 40);
+    assert_eq!(physics(&app).world.state_hash(), future);
+}

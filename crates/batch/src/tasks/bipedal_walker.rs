@@ -128,6 +128,10 @@ impl BipedalWalker {
 impl Task for BipedalWalker {
     type Episode = Episode;
 
+    fn title(&self) -> String {
+        if self.hardcore { "bipedal walker, hardcore" } else { "bipedal walker" }.into()
+    }
+
     fn spec(&self) -> Spec {
         let time_limit = if self.hardcore { 2000 } else { 1600 };
         let dt = 1.0 / STEPS_PER_SECOND;

@@ -152,6 +152,10 @@ impl Driving {
 impl Task for Driving {
     type Episode = Episode;
 
+    fn title(&self) -> String {
+        "driving".into()
+    }
+
     fn spec(&self) -> Spec {
         let observation = 14 + 2 * AHEAD;
         Spec { observation, action: 3, choices: None, time_limit: 1000, dt: DT }

@@ -187,6 +187,12 @@ impl LunarLander {
 impl Task for LunarLander {
     type Episode = Episode;
 
+    fn title(&self) -> String {
+        let (gravity, wind) = (self.template.gravity.y, self.wind);
+        let engines = if self.continuous { "continuous" } else { "on or off" };
+        format!("lunar lander, engines {engines}, gravity {gravity}, wind {wind:?}")
+    }
+
     fn spec(&self) -> Spec {
         let (action, choices) = if self.continuous { (2, None) } else { (1, Some(4)) };
         Spec { observation: 8, action, choices, time_limit: 1000, dt: 1.0 / STEPS_PER_SECOND }

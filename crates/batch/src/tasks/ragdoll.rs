@@ -165,6 +165,10 @@ impl Bone {
 impl Task for Ragdoll {
     type Episode = Episode;
 
+    fn title(&self) -> String {
+        "ragdoll".into()
+    }
+
     fn spec(&self) -> Spec {
         let observation = 11 + 2 * DRIVEN;
         Spec { observation, action: DRIVEN, choices: None, time_limit: 500, dt: DT }

@@ -123,6 +123,10 @@ impl Stacking {
 impl Task for Stacking {
     type Episode = Episode;
 
+    fn title(&self) -> String {
+        "stacking".into()
+    }
+
     fn spec(&self) -> Spec {
         Spec { observation: 12 + RAYS, action: 3, choices: None, time_limit: 900, dt: DT }
     }

@@ -51,7 +51,8 @@ impl ChainDef {
     }
 
     /// Ground of which the heights at even distances are known, from left to right: a height field. The first is at
-    /// x = 0, all in metres.
+    /// x = 0, all in metres. The chain goes from right to left, as hills do: its first segment, that of `materials[0]`, is
+    /// the rightmost.
     ///
     /// ```
     /// use tiny_physics::prelude::*;

@@ -5,7 +5,7 @@ use super::scene::{Moved, Scene};
 use crate::components::*;
 use crate::frame::{Frame, Parts};
 use crate::order;
-use crate::world::{BodyRecord, PhysicsWorld, Role, ShapesRecord, Written};
+use crate::world::{BodyRecord, PhysicsWorld, Role, Said, ShapesRecord, Written};
 use bevy_ecs::prelude::*;
 use bevy_transform::prelude::Transform;
 use tiny_physics::{Error, ShapeDef};
@@ -72,6 +72,7 @@ fn add_one(physics: &mut PhysicsWorld, scene: &Scene, new: New, problems: &mut P
     for (collider, _) in &colliders {
         physics.leave(*collider);
     }
+    let said = Said::of(&body);
     let shapes = core::mem::take(&mut body.shapes);
     let whole = tiny_physics::RigidBody { shapes, ..body.clone() };
     // Where one shape is bad the others are added one by one, when colliders are read.
@@ -100,7 +101,8 @@ fn add_one(physics: &mut PhysicsWorld, scene: &Scene, new: New, problems: &mut P
         }
     };
     let written = scene.transform(entity).map(Written::of);
-    physics.enter_body(entity, BodyRecord { id, role: Role::Body, written, told: None });
+    let (role, said) = (Role::Body, Some(said));
+    physics.enter_body(entity, BodyRecord { id, role, written, told: None, said });
 }
 
 /// Bodies of which some component changed.
@@ -114,11 +116,12 @@ type BodyChange = Or<(
     Changed<CanSleep>,
 )>;
 
-/// Tells bodies what their components say, where that is something else.
+/// Tells bodies what their components say, where that is something else. In a copy that has just come in: than it was when that was made.
 pub(crate) fn read(
     mut physics: ResMut<PhysicsWorld>,
     scene: Scene,
     changed: Query<Entity, BodyChange>,
+    all: Query<Entity, With<RigidBody>>,
     moved: Query<(Entity, &Transform), Changed<Transform>>,
     velocities: Query<(Entity, Ref<Velocity>), Changed<Velocity>>,
     mut problems: Problems,
@@ -126,6 +129,9 @@ pub(crate) fn read(
     let physics = &mut *physics;
     let mut told = core::mem::take(&mut physics.notes.bodies);
     told.extend(&changed);
+    if physics.fresh {
+        told.extend(all.iter().filter(|entity| says_else(physics, &scene, *entity)));
+    }
     for entity in told {
         let result = tell(physics, &scene, entity);
         problems.check(entity, "body", result);
@@ -140,8 +146,17 @@ pub(crate) fn read(
     }
 }
 
+/// Do components say something else than the body was told?
+fn says_else(physics: &PhysicsWorld, scene: &Scene, entity: Entity) -> bool {
+    let told = physics.maps.bodies.get(&entity).and_then(|record| record.said);
+    told != scene.body(entity).map(|body| Said::of(&body))
+}
+
 fn tell(physics: &mut PhysicsWorld, scene: &Scene, entity: Entity) -> Result<(), Error> {
     let Some(said) = scene.body(entity) else { return Ok(()) };
+    if let Some(record) = physics.maps.bodies.get_mut(&entity) {
+        record.said = Some(Said::of(&said));
+    }
     let Some(mut body) = physics.own_body_mut(entity) else { return Ok(()) };
     let is = body.as_ref().describe();
     if said.kind != is.kind {

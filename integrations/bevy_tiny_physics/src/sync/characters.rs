@@ -57,7 +57,8 @@ pub(crate) fn add(
         mover.body = Some(id);
         let written = scene.transform(entity).map(Written::of);
         physics.maps.characters.insert(entity, mover);
-        physics.enter_body(entity, BodyRecord { id, role: Role::Character, written, told: None });
+        let role = Role::Character;
+        physics.enter_body(entity, BodyRecord { id, role, written, told: None, said: None });
     }
 }
 

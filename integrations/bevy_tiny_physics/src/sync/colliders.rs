@@ -46,7 +46,7 @@ pub(crate) fn read(
         scene.colliders_below(entity, &mut asked);
     }
     if physics.fresh {
-        asked.extend(all.iter().filter(|entity| !physics.maps.shapes.contains_key(entity)));
+        asked.extend(&all);
     }
     asked.extend(physics.maps.refused.asked_again(
         Role::Lone,
@@ -100,17 +100,20 @@ fn add_lone(
     entity: Entity,
     body: tiny_physics::RigidBody,
 ) -> Result<(), Error> {
+    body.validate()?;
     physics.remove_shapes(entity);
     let shapes = body.shapes.clone();
     let id = physics.world.add_body(body)?;
     let ids: Vec<ShapeId> =
         physics.world.body(id).into_iter().flat_map(|body| body.shapes()).collect();
     let written = scene.transform(entity).map(Written::of);
-    physics.enter_body(entity, BodyRecord { id, role: Role::Lone, written, told: None });
+    let role = Role::Lone;
+    physics.enter_body(entity, BodyRecord { id, role, written, told: None, said: None });
     physics.enter_shapes(
         entity,
         ShapesRecord { body: id, shapes: ids.into_iter().zip(shapes).collect() },
     );
+    place_lone(physics, scene, entity);
     Ok(())
 }
 
@@ -122,6 +125,7 @@ fn change(
     (owner, body): (Entity, BodyId),
     shapes: &[ShapeDef],
 ) -> Result<(), Error> {
+    shapes.iter().try_for_each(ShapeDef::validate)?;
     if owner != entity && physics.lone(entity).is_some() {
         physics.remove_body(entity);
     }
@@ -151,6 +155,9 @@ fn change(
 
 /// A lone collider below something goes with it.
 fn place_lone(physics: &mut PhysicsWorld, scene: &Scene, entity: Entity) {
+    if !scene.is_below(entity) {
+        return;
+    }
     let (Some(frame), Some(id)) = (scene.frame(entity), physics.lone(entity)) else { return };
     if let Some(mut body) = physics.world.body_mut(id).filter(|body| body.pose() != frame.pose()) {
         body.set_pose(frame.pose());

@@ -20,7 +20,7 @@ pub(crate) fn read(
     let mut asked: Vec<_> = waiting.iter().filter_map(|entity| all.get(*entity).ok()).collect();
     asked.extend(&changed);
     if physics.fresh {
-        asked.extend(all.iter().filter(|(entity, _)| !physics.maps.joints.contains_key(entity)));
+        asked.extend(&all);
     }
     asked.sort_unstable_by_key(|(entity, _)| *entity);
     asked.dedup_by_key(|(entity, _)| *entity);
@@ -62,8 +62,8 @@ fn add(
     (a, b): (BodyId, BodyId),
     joint: &Joint,
 ) -> Result<(), Error> {
-    physics.remove_joint(entity);
     let id = physics.world.add_joint(a, b, joint.def)?;
+    physics.remove_joint(entity);
     physics.enter_joint(entity, JointRecord { id, bodies: (joint.a, joint.b), def: joint.def });
     Ok(())
 }
@@ -99,16 +99,26 @@ fn kept_anchors(said: &JointDef, before: &JointDef, now: Option<JointDef>) -> Jo
     }
 }
 
+/// Is on an entity whose joint broke, until it gets another: a copy from before that has it again.
+#[derive(Component)]
+pub(crate) struct BrokenHere;
+
 /// A joint that broke is no longer on its entity.
 pub(crate) fn take_off_broken(
     mut physics: ResMut<PhysicsWorld>,
     mut broken: MessageReader<JointBroke>,
+    joints: Query<(), With<Joint>>,
     mut commands: Commands,
 ) {
     for joint in broken.read() {
         physics.remove_joint(joint.joint);
-        if let Ok(mut entity) = commands.get_entity(joint.joint) {
-            entity.try_remove::<Joint>();
+        if joints.contains(joint.joint) {
+            commands.entity(joint.joint).try_remove::<Joint>().try_insert(BrokenHere);
         }
     }
+}
+
+/// What has a joint anew has none that broke.
+pub(crate) fn mended(joined: On<Insert, Joint>, mut commands: Commands) {
+    commands.entity(joined.entity).try_remove::<BrokenHere>();
 }

@@ -1,13 +1,15 @@
 //! What is taken off entities, or despawned, leaves the world.
 
+use super::joints::{self, BrokenHere};
 use crate::components::*;
-use crate::world::{PhysicsWorld, Role};
+use crate::world::{JointRecord, PhysicsWorld, Role};
 use bevy_app::prelude::*;
 use bevy_ecs::prelude::*;
 
 /// Components are watched by observers: those of fixed schedules must not miss what happens in frames without a step.
 pub(crate) fn watch(app: &mut App) {
-    app.add_observer(gone::<RigidBody>)
+    app.add_observer(joints::mended)
+        .add_observer(gone::<RigidBody>)
         .add_observer(gone::<Collider>)
         .add_observer(gone::<Joint>)
         .add_observer(gone::<Character>)
@@ -51,14 +53,18 @@ fn taken_off(removed: On<Remove, ChildOf>, mut physics: ResMut<PhysicsWorld>) {
     physics.notes.placed.extend(body);
 }
 
-/// Removes what nothing asks for any more. In a copy that has just come in everybody is looked at.
+/// Has a joint, or one broke there.
+type HadJoint = Or<(With<Joint>, With<BrokenHere>)>;
+
+/// Removes what nothing asks for any more. In a copy that has just come in everybody is looked at, and has again what broke since.
 pub(crate) fn remove_gone(
     mut physics: ResMut<PhysicsWorld>,
     bodies: Query<(), With<RigidBody>>,
     colliders: Query<(), With<Collider>>,
     characters: Query<(), With<Character>>,
-    joints: Query<(), With<Joint>>,
+    joints: Query<Has<Joint>, HadJoint>,
     tiles: Query<(), With<TileMap>>,
+    mut commands: Commands,
 ) {
     let physics = &mut *physics;
     for entity in physics.notes.taken_off() {
@@ -85,8 +91,12 @@ pub(crate) fn remove_gone(
         if !colliders.contains(entity) {
             physics.remove_shapes(entity);
         }
-        if !joints.contains(entity) {
-            physics.remove_joint(entity);
+        match (joints.get(entity), physics.maps.joints.get(&entity)) {
+            (Ok(true), _) => {}
+            (Ok(false), Some(JointRecord { bodies: (a, b), def, .. })) => {
+                commands.entity(entity).insert(Joint::new(*a, *b, *def));
+            }
+            _ => physics.remove_joint(entity),
         }
         if !tiles.contains(entity) {
             physics.remove_tiles(entity);

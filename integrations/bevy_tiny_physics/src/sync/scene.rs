@@ -1,7 +1,7 @@
 //! The entities as physics sees them: who is a body, whose collider is whose, and where.
 
 use crate::components::*;
-use crate::frame::{Frame, scaled, world_frame};
+use crate::frame::{Frame, frame_through, scaled};
 use bevy_ecs::prelude::*;
 use bevy_ecs::query::QueryData;
 use bevy_ecs::system::SystemParam;
@@ -81,7 +81,26 @@ impl Scene<'_, '_> {
 
     /// Place in the world.
     pub fn frame(&self, entity: Entity) -> Option<Frame> {
-        world_frame(entity, |entity| self.transforms.get(entity).ok(), &self.parents)
+        self.frame_through(entity, self.parents.iter_ancestors(entity))
+    }
+
+    fn frame_through(&self, entity: Entity, above: impl Iterator<Item = Entity>) -> Option<Frame> {
+        frame_through(entity, above, |entity| self.transforms.get(entity).ok())
+    }
+
+    /// Place in a body at or above an entity, scaled as the body is: the same to the last bit wherever that is.
+    fn frame_in(&self, body: Entity, entity: Entity) -> Option<Frame> {
+        let outer = Frame { scale: self.frame(body)?.scale, ..Frame::IDENTITY };
+        if entity == body {
+            return Some(outer);
+        }
+        let above = self.parents.iter_ancestors(entity).take_while(|above| *above != body);
+        Some(outer.compose(&self.frame_through(entity, above)?))
+    }
+
+    /// Is something above it?
+    pub fn is_below(&self, entity: Entity) -> bool {
+        self.parents.contains(entity)
     }
 
     /// The nearest body at or above an entity.
@@ -131,14 +150,13 @@ impl Scene<'_, '_> {
 
     /// The shapes of a collider in the frame of its body, scaled as the entity is; without an owner in the collider's own.
     pub fn shapes(&self, collider: Entity, owner: Option<Entity>) -> Result<Vec<ShapeDef>, Error> {
-        let (Ok(parts), Some(frame)) = (self.colliders.get(collider), self.frame(collider)) else {
+        let local = self.frame_in(owner.unwrap_or(collider), collider);
+        let (Ok(parts), Some(local)) = (self.colliders.get(collider), local) else {
             return Ok(Vec::new());
         };
         if let Some(error) = parts.collider.error() {
             return Err(error.clone());
         }
-        let body = owner.and_then(|owner| self.frame(owner)).unwrap_or(frame);
-        let local = Frame { scale: bevy_math::Vec2::ONE, ..body }.relative(&frame);
         parts.collider.shapes().iter().map(|shape| parts.shape(shape, &local)).collect()
     }
 }

@@ -35,8 +35,8 @@ fn key(tiles: &TileMap) -> (f64, f64, &[u16]) {
 }
 
 fn add(physics: &mut PhysicsWorld, entity: Entity, grid: &TileGrid) -> Result<(), Error> {
-    physics.remove_tiles(entity);
     let id = physics.world.add_tiles(grid.clone())?;
+    physics.remove_tiles(entity);
     physics.maps.tiles.insert(entity, id);
     Ok(())
 }
@@ -54,6 +54,7 @@ fn set_cells(
     id: TileGridId,
     said: &TileGrid,
 ) -> Result<(), Error> {
+    said.validate()?;
     for y in 0..said.height {
         for x in 0..said.width {
             world.set_tile(id, x, y, said.get(x, y))?;

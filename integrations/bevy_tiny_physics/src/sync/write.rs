@@ -1,7 +1,7 @@
 //! Components follow the world: transforms and velocities.
 
 use crate::components::{RigidBody, Velocity};
-use crate::frame::{Frame, Parts, world_frame};
+use crate::frame::{Frame, Parts, frame_through};
 use crate::world::{BodyRecord, PhysicsWorld, Role, Written};
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemParam;
@@ -79,10 +79,10 @@ impl Places<'_, '_> {
         let local = match self.parents.get(entity) {
             Err(_) => frame,
             Ok(above) => {
-                let outer = world_frame(
+                let outer = frame_through(
                     above.parent(),
+                    self.parents.iter_ancestors(above.parent()),
                     |entity| self.transforms.get(entity).ok(),
-                    &self.parents,
                 );
                 outer.map_or(frame, |outer| outer.relative(&frame))
             }

@@ -12,8 +12,8 @@ use bevy_transform::prelude::Transform;
 use refused::Refused;
 use std::collections::BTreeSet;
 use tiny_physics::{
-    Body, BodyId, BodyMut, CharacterMover, JointDef, JointId, JointRef, ShapeDef, ShapeId,
-    TileGridId,
+    Body, BodyId, BodyKind, BodyMut, CharacterMover, JointDef, JointId, JointRef, Locks, ShapeDef,
+    ShapeId, TileGridId,
 };
 
 /// All of physics: bodies, joints, characters, and which entity is which. A plain value, so that a frame to go back to is a copy:
@@ -26,7 +26,8 @@ use tiny_physics::{
 /// ```
 ///
 /// A copy that takes the place of the resource writes place and velocity of every body to its entity at the next step; what entities
-/// say in the meantime of places and velocities is dropped. Bodies whose entities are gone go; entities that the copy does not know are added as
+/// say in the meantime of places and velocities is dropped. Whatever else the components of bodies, colliders and joints say by now holds, and a
+/// joint that broke since is on its entity again. Bodies whose entities are gone go; entities that the copy does not know are added as
 /// new ones. Where a rollback despawns and spawns again, [`MapEntities`] takes the copy to the new entities.
 #[derive(Resource, Debug)]
 pub struct PhysicsWorld {
@@ -90,6 +91,34 @@ pub(crate) struct BodyRecord {
     pub written: Option<Written>,
     /// What stands in the entity's velocity, likewise.
     pub told: Option<Velocity>,
+    /// What its other components said last.
+    pub said: Option<Said>,
+}
+
+/// What components say of a body, but for place and velocity.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Said {
+    kind: BodyKind,
+    damping: [f32; 2],
+    gravity_scale: f32,
+    locks: Locks,
+    mass: Option<f32>,
+    enabled: bool,
+    can_sleep: bool,
+}
+
+impl Said {
+    pub fn of(body: &tiny_physics::RigidBody) -> Self {
+        Self {
+            kind: body.kind,
+            damping: [body.linear_damping, body.angular_damping],
+            gravity_scale: body.gravity_scale,
+            locks: body.locks,
+            mass: body.mass,
+            enabled: body.enabled,
+            can_sleep: body.can_sleep,
+        }
+    }
 }
 
 /// What counts of a transform.
