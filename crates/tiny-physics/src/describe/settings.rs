@@ -83,7 +83,7 @@ described! {
         pub push_speed: f32 = 0.4,
         /// Approach speed below which nothing bounces that lay on the other already, or that forces would soon bring back,
         /// metres a second. What just touches and has nothing to press it on, as a ball on a table without gravity or one
-        /// that touches a wall aslant, bounces from a tenth of it on.
+        /// that touches a wall aslant, bounces from a tenth of it on, if it leaves at a twentieth of it.
         pub restitution_threshold: f32 = 1.0,
         /// Approach speed above which a hit event is sent, metres a second.
         pub hit_event_threshold: f32 = 1.0,

@@ -96,7 +96,7 @@ impl Bounces {
         &mut self,
         (team, level): (&Team, SimdLevel),
         parameters: &Parameters,
-        Stores { bodies, contacts, graph, .. }: &mut Stores<'_>,
+        stores: &mut Stores<'_>,
         pace: usize,
     ) {
         self.joined.clear();
@@ -106,6 +106,7 @@ impl Bounces {
         self.changes.clear();
         self.list.clone_from(&self.approaching);
         for round in 0..ROUNDS {
+            let Stores { bodies, graph, .. } = stores;
             let rows = SharedRows::new(&mut bodies.rows);
             let (motions, first) = (&bodies.motions, round == 0);
             let search = Search { graph, rows, parameters, motions, first };
@@ -119,7 +120,8 @@ impl Bounces {
                 let (a, b) = graph.bucket(hit.at.place, hit.at.class).bodies(hit.at.slot);
                 is_joined(a) || is_joined(b)
             }));
-            self.leave((team, level), parameters, (bodies, graph));
+            self.leave((team, level), parameters, stores, |_| {});
+            let Stores { bodies, contacts, graph, .. } = stores;
             if first {
                 let waiting = self.waiting.iter().filter(|&&body| bodies.is_dynamic(body));
                 self.changes.extend(waiting.map(|&body| (body, [f32::INFINITY; 3])));
@@ -145,11 +147,8 @@ impl Bounces {
         self.hits.dedup_by_key(|hit| hit.at.key());
         let rows = SharedRows::new(&mut stores.bodies.rows);
         self.hits.iter_mut().for_each(|hit| hit.keep(stores.graph, rows));
-        for _ in 0..ITERATIONS {
-            joints(stores);
-            self.changes.clear();
-            self.leave((team, level), parameters, (stores.bodies, stores.graph));
-        }
+        self.changes.clear();
+        self.leave((team, level), parameters, stores, joints);
     }
 
     /// Adds the impulses of the bounces to those that events of hits tell.
@@ -183,14 +182,16 @@ impl Bounces {
         }
     }
 
-    /// Lets what hits leave, and notes how that changes its bodies.
+    /// Lets what hits leave, and notes how that changes its bodies. `joints` is run before each iteration.
     fn leave(
         &mut self,
         (team, level): (&Team, SimdLevel),
         parameters: &Parameters,
-        (bodies, graph): (&mut Bodies, &Graph),
+        stores: &mut Stores<'_>,
+        joints: impl Fn(&mut Stores<'_>),
     ) {
         let Self { hits, batches, changes, told, .. } = self;
+        let Stores { bodies, graph, .. } = stores;
         let count = copy_out(team, graph, hits, batches);
         let batches = &mut batches[..count];
         let both = batches.iter().flat_map(Batch::bodies).filter(|&body| bodies.is_dynamic(body));
@@ -198,10 +199,12 @@ impl Bounces {
             let (row, start) = (&bodies.rows[body as usize], &bodies.starts[body as usize]);
             (body, [0, 1, 2].map(|k| row[k] - start[k]))
         }));
-        let rows = SharedRows::new(&mut bodies.rows);
         for _ in 0..ITERATIONS {
+            joints(stores);
+            let rows = SharedRows::new(&mut stores.bodies.rows);
             batches.iter_mut().for_each(|batch| batch.run(team, level, parameters, rows));
         }
+        let Stores { bodies, graph, .. } = stores;
         batches.iter().for_each(|batch| batch.tell(graph, told));
         for (body, change) in changes {
             let at = *body as usize;
