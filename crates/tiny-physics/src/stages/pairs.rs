@@ -420,9 +420,13 @@ pub(crate) fn mix_materials(contact: &mut Contact, settings: &Settings, shapes: 
     let (material_a, material_b) = (&shape_a.material, &shape_b.material);
     // A general polygon rolls like the disk around it, about its own centre of mass, on what is not round itself: there it is ground.
     let radius = |i: u32| shapes.rows[i as usize][6];
+    let is_round = |i: u32| {
+        let class = shapes.records[i as usize].class;
+        matches!(class, ShapeClass::Circle | ShapeClass::Capsule) && radius(i) > 0.0
+    };
     let rolling = |i: u32, other: u32| match shapes.records[i as usize] {
         ShapeRecord { material, .. } if material.rolling_resistance == 0.0 => 0.0,
-        ShapeRecord { class: ShapeClass::General, shape, material, .. } if radius(other) == 0.0 => {
+        ShapeRecord { class: ShapeClass::General, shape, material, .. } if !is_round(other) => {
             let core = shape.core();
             let center = shape.mass_properties(1.0).center;
             material.rolling_resistance * (core.reach(center) + core.radius)

@@ -250,4 +250,25 @@ fn ground_of_any_shape_resists_rolling_alike() {
         let bank = speed(bank, 0.0, resistance);
         assert!((slab - bank).abs() < 0.02, "{resistance:?}: {slab} {bank}");
     }
+    // A hexagon resists as far as its corners reach, on what is sharp, rounded or a line.
+    let corners =
+        [0, 1, 2, 3, 4, 5].map(|k| Rot::from_angle(f32::from(k as u8) * 1.0472).rotate(Vec2::X));
+    let hexagon = Shape::hull(&corners.map(|corner| corner * 0.5)).unwrap();
+    let line = Shape::segment((-20.0, 0.0), (20.0, 0.0)).unwrap();
+    let rounded = Shape::from(Polygon::rect(20.0, 0.9).unwrap().rounded(0.1).unwrap());
+    let turned = [(Shape::rect(20.0, 1.0).unwrap(), -1.0), (rounded, -1.0), (line, 0.0)].map(
+        |(ground, y)| {
+            let mut world = World::new((0.0, -10.0));
+            world.add_body(RigidBody::fixed().position((0.0, y)).shape(ground)).unwrap();
+            let body = RigidBody::dynamic()
+                .position((0.0, 0.45))
+                .angular_velocity(6.0)
+                .velocity((-3.0, 0.0));
+            let shape = ShapeDef::new(hexagon).friction(1.0).rolling_resistance(2.0);
+            let body = world.add_body(body.shape(shape)).unwrap();
+            steps(&mut world, 60);
+            world.body(body).unwrap().position().x
+        },
+    );
+    assert!(turned.iter().all(|x| (x - turned[0]).abs() < 0.05), "{turned:?}");
 }

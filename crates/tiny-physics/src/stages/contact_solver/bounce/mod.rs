@@ -139,16 +139,15 @@ impl Bounces {
         stores: &mut Stores<'_>,
         joints: impl Fn(&mut Stores<'_>),
     ) {
-        if self.joined.is_empty() {
-            return;
-        }
         self.hits.clone_from(&self.joined);
         self.hits.sort_by_key(|hit| hit.at.key());
         self.hits.dedup_by_key(|hit| hit.at.key());
         let rows = SharedRows::new(&mut stores.bodies.rows);
-        self.hits.iter_mut().for_each(|hit| hit.keep(stores.graph, rows));
-        self.changes.clear();
-        self.leave((team, level), parameters, stores, joints);
+        self.hits.retain_mut(|hit| hit.keep(stores.graph, rows));
+        if !self.hits.is_empty() {
+            self.changes.clear();
+            self.leave((team, level), parameters, stores, joints);
+        }
     }
 
     /// Adds the impulses of the bounces to those that events of hits tell.

@@ -126,8 +126,8 @@ fn pair_of(graph: &Graph, rows: SharedRows<'_>, at: At) -> Pair<f32> {
 }
 
 impl Hit {
-    /// Its points are to leave no faster than they do now: what was handed on is theirs no longer.
-    pub(super) fn keep(&mut self, graph: &Graph, rows: SharedRows<'_>) {
+    /// Its points are to leave no faster than they do now: what was handed on is theirs no longer. Is any of it left?
+    pub(super) fn keep(&mut self, graph: &Graph, rows: SharedRows<'_>) -> bool {
         let bucket = graph.bucket(self.at.place, self.at.class);
         let (block, lane) = (self.at.slot / BLOCK, self.at.slot % BLOCK);
         let pair = pair_of(graph, rows, self.at);
@@ -135,6 +135,7 @@ impl Hit {
             let speed = pair.normal_velocity(point.normal_arm_a[lane], point.normal_arm_b[lane]);
             *target = target.min(speed.max(0.0));
         }
+        self.targets != [0.0; 2]
     }
 }
 
