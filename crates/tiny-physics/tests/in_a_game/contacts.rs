@@ -251,8 +251,9 @@ fn ground_of_any_shape_resists_rolling_alike() {
         assert!((slab - bank).abs() < 0.02, "{resistance:?}: {slab} {bank}");
     }
     // A hexagon resists as far as its corners reach, on what is sharp, rounded or a line.
-    let corners =
-        [0, 1, 2, 3, 4, 5].map(|k| Rot::from_angle(f32::from(k as u8) * 1.0472).rotate(Vec2::X));
+    let corners = [0, 1, 2, 3, 4, 5].map(|k| {
+        Rot::from_angle(f32::from(k as u8) * core::f32::consts::FRAC_PI_3).rotate(Vec2::X)
+    });
     let hexagon = Shape::hull(&corners.map(|corner| corner * 0.5)).unwrap();
     let line = Shape::segment((-20.0, 0.0), (20.0, 0.0)).unwrap();
     let rounded = Shape::from(Polygon::rect(20.0, 0.9).unwrap().rounded(0.1).unwrap());
