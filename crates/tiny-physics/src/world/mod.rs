@@ -56,8 +56,8 @@ use crate::stages::narrow_context::{Context, Ground};
 use crate::stages::solve::{Lengths, Solver};
 use crate::stages::touching::Changes;
 use crate::stages::{
-    ahead, arcs, boxes, continuous, finalize, narrow_phase, paces, pairs, rocking, sleep, solve,
-    surfaces, sway, touching,
+    ahead, arcs, boxes, continuous, finalize, narrow_phase, paces, pairs, rocking, sleep, slips,
+    solve, surfaces, sway, touching,
 };
 use crate::threads::{Habit, Pool, Team};
 use state::State;
@@ -121,6 +121,7 @@ struct Scratch {
     fast: Vec<FastBody>,
     carriers: Vec<FastBody>,
     moved: Vec<Moved>,
+    slipped: slips::Found,
     islands: Vec<u32>,
     sets: sleep::Sets,
     paces: paces::Memory,
@@ -192,6 +193,10 @@ impl World {
         self.wake_disturbed();
         let lengths = self.follow_lengths(lengths);
         self.refresh_surfaces();
+        if self.is_at_rest() {
+            self.stay_at_rest(lengths);
+            return self.stats.rest();
+        }
 
         self.reach_ahead(team, lengths);
         self.update_pairs(team);
@@ -217,6 +222,18 @@ impl World {
         // A hook may have asked in the middle of the step.
         self.moved.take();
         watch.lap(&mut self.stats, Stage::Sleep);
+    }
+
+    /// Is there nothing that a step could move or see move?
+    fn is_at_rest(&self) -> bool {
+        let State { bodies, broad_phase, waiting, sensors, events, .. } = &self.state;
+        let sees = !sensors.shapes.is_empty() || !sensors.overlaps.is_empty();
+        bodies.awake.is_empty()
+            && bodies.pressed.is_empty()
+            && broad_phase.moved().is_empty()
+            && waiting.pairs.is_empty()
+            && !(sees && sensors.any_changed)
+            && events.sensor_end.is_empty()
     }
 
     /// Checks the step's numbers and divides them up.
@@ -515,16 +532,18 @@ impl World {
 
     /// Stops fast bodies where they would have gone through something.
     fn sweep_fast_bodies(&mut self, team: &Team, lengths: Lengths) {
-        let State { bodies, shapes, broad_phase, joints, .. } = &mut self.state;
-        let Scratch { fast, carriers, moved, switched_off, .. } = &mut self.scratch;
+        let State { bodies, shapes, broad_phase, joints, contacts, .. } = &mut self.state;
+        let Scratch { fast, carriers, moved, slipped, switched_off, .. } = &mut self.scratch;
         let rules = continuous::Rules {
             joints,
+            contacts,
             custom: self.hooks.pair_filter(),
             off: switched_off,
             length_unit: self.settings.length_unit,
             dt: lengths.dt,
         };
-        continuous::run(team, (fast, carriers), bodies, shapes, broad_phase, rules, moved);
+        let memory = (moved, slipped);
+        continuous::run(team, (fast, carriers), bodies, shapes, broad_phase, rules, memory);
     }
 
     /// Looks for islands at rest now and then, and lets them sleep.

@@ -88,6 +88,13 @@ pub struct Stats {
 }
 
 impl Stats {
+    /// Of a step in which nothing moved.
+    pub(crate) fn rest(&mut self) {
+        let Self { timed, dt, refused_steps, pushes, refused_numbers, stale_handles, .. } = *self;
+        let counted = Self { timed, dt, refused_steps, pushes, refused_numbers, ..Self::default() };
+        *self = Self { stale_handles, ..counted };
+    }
+
     /// Seconds that a stage took; 0 where no clock is available, or [`World::time_stages`](super::World::time_stages) has
     /// not been asked for.
     pub fn seconds(&self, stage: Stage) -> f64 {

@@ -567,3 +567,33 @@ fn springs_that_are_held_sleep() {
         assert!(awake == 0, "{case}: {hertz} Hz, {zeta}: {awake} awake");
     }
 }
+
+/// Where all sleeps and nothing was changed a step does nothing, and what is changed between steps is told and felt all the same.
+#[test]
+fn a_world_at_rest_sees_what_is_changed() {
+    let mut world = world();
+    add_ground(&mut world);
+    let coin = RigidBody::fixed().position(Vec2::new(0.0, 0.5)).shape(circle(0.3).sensor());
+    let coin = world.add_body(coin).unwrap();
+    let sensor = shape_of(&world, coin);
+    let [crate_, other] = [0.0, 5.0].map(|x| add(&mut world, x, 0.5, rect(0.5, 0.5)));
+    run(&mut world, 200);
+    assert_eq!(world.awake_body_count(), 0);
+    assert_eq!(world.sensor_overlaps(sensor).count(), 1);
+    let hash = world.state_hash();
+    world.step(DT);
+    assert_eq!(world.sensor_overlaps(sensor).count(), 1);
+    assert!(world.events().sensor_begin().is_empty() && world.moved_bodies().is_empty());
+    let stats = world.stats();
+    assert_eq!((stats.dt, stats.candidate_pairs, stats.moved_shapes), (DT, 0, 0));
+    assert_ne!(world.state_hash(), hash, "steps are counted");
+    // What goes is told of by the next step, what comes is seen in it, and what a support leaves falls.
+    world.remove_body(crate_).unwrap();
+    let ball = RigidBody::fixed().position(Vec2::new(0.2, 0.5)).shape(circle(0.1));
+    world.add_body(ball).unwrap();
+    world.step(DT);
+    assert_eq!(world.events().sensor_end().len(), 1);
+    world.body_mut(other).unwrap().set_position(Vec2::new(5.0, 3.0));
+    run(&mut world, 30);
+    assert!(y(&world, other) < 2.0 && world.body(other).unwrap().is_awake());
+}
