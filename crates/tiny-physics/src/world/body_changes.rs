@@ -41,12 +41,13 @@ impl Body<'_> {
     /// velocity made before anybody set another.
     pub(super) fn turns_of_last_step(&self) -> i32 {
         let (World { state, last, .. }, i) = (self.world, self.index as usize);
-        if let Some((_, turns)) = last.turns.iter().find(|(body, _)| *body == self.index) {
-            return *turns;
-        }
         let part = state.bodies.poses[i].q.angle_from(state.bodies.previous[i].q);
-        let turns = (self.angular_velocity() * self.world.last_dt() - part) / TAU;
-        if part == 0.0 { 0 } else { turns.round() as i32 }
+        if part == 0.0 {
+            return 0;
+        }
+        let known = last.turns.iter().find(|(body, _)| *body == self.index);
+        let turns = || (self.angular_velocity() * self.world.last_dt() - part) / TAU;
+        known.map_or_else(|| turns().round() as i32, |known| known.1)
     }
 }
 

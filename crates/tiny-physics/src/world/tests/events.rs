@@ -316,6 +316,10 @@ fn a_spin_set_after_the_step_is_not_drawn_in_it() {
             world.settings.substeps = 8;
             assert_eq!(drawn(&world), before, "other substeps");
             world.settings.substeps = 4;
+            // What is placed since is drawn there.
+            let mut placed = world.clone();
+            placed.body_mut(body).unwrap().set_angle(0.5);
+            assert!(drawn(&placed).iter().all(|pose| *pose == drawn(&placed)[0]));
         }
         world.step(DT);
         let turn = world.body(body).unwrap().interpolated_pose(0.5).q;
