@@ -179,6 +179,29 @@ fn bad_numbers_change_nothing() {
     mover.update(&mut world, MoverInput::default(), 0.0);
     mover.update(&mut world, MoverInput::default(), f32::INFINITY);
     assert_eq!(mover, before);
+    // Its own numbers, whoever moves it: it goes through no wall.
+    let wall =
+        RigidBody::fixed().position(Vec2::new(2.0, 1.0)).shape(Shape::rect(0.5, 5.0).unwrap());
+    world.add_body(wall).unwrap();
+    world.step(1.0 / 60.0);
+    let spoil: [fn(&mut CharacterMover); 4] = [
+        |mover| mover.radius = f32::NAN,
+        |mover| mover.skin = f32::NAN,
+        |mover| mover.height = f32::INFINITY,
+        |mover| mover.max_slope = f32::NAN,
+    ];
+    for (i, spoil) in spoil.into_iter().enumerate() {
+        let mut mover = before.clone();
+        spoil(&mut mover);
+        assert_eq!(mover.move_by(&world, (4.0, 0.0)), Vec2::ZERO, "{i}");
+        mover.update(&mut world, MoverInput { walk: 5.0, ..MoverInput::default() }, 1.0);
+        assert_eq!(mover.position, before.position, "{i}");
+    }
+    let mut mover = before.clone();
+    for height in [-1.0, 0.0, 0.2, 0.59] {
+        assert!(!mover.resize(&world, height, 0.3), "a capsule of radius 0.3 and height {height}");
+    }
+    assert!(mover.resize(&world, 0.6, 0.3));
 }
 
 /// Walks to the right, and says how far it came.
@@ -374,5 +397,133 @@ fn one_way_platforms_hold_it_whatever_the_length_of_their_direction() {
         let mut mover = CharacterMover::new(Vec2::new(0.0, 1.5), 1.8, 0.3);
         settle(&mut world, &mut mover, 60, 1.0 / 60.0);
         assert!((mover.position.y - 1.01).abs() < 0.01, "{length}: {}", mover.position);
+    }
+}
+
+/// Who comes through a chain from behind comes out of it by himself: nothing throws him up.
+#[test]
+fn chains_let_it_through_from_behind() {
+    for dt in [1.0 / 30.0, 1.0 / 60.0, 1.0 / 144.0] {
+        for k in 0..20 {
+            let speed = 6.0 + 0.23 * k as f32;
+            let mut world = World::new(Vec2::new(0.0, -10.0));
+            let floor = RigidBody::fixed().position(Vec2::new(0.0, -1.0));
+            world.add_body(floor.shape(Shape::rect(20.0, 1.0).unwrap())).unwrap();
+            let chain = ChainDef::open(&[Vec2::new(5.0, 2.0), Vec2::new(-5.0, 2.0)]);
+            world.add_body(RigidBody::fixed().chain(&chain).unwrap()).unwrap();
+            let mut mover = CharacterMover::new(Vec2::new(0.0, 0.91), 1.8, 0.3);
+            settle(&mut world, &mut mover, 5, dt);
+            for step in 0..(3.0 / dt) as u32 {
+                let before = mover.position.y;
+                world.step(dt);
+                let jump = if step == 0 { speed } else { 0.0 };
+                mover.update(&mut world, MoverInput { jump, ..MoverInput::default() }, dt);
+                // Out of the last bit he is helped.
+                let most = f64::from((speed * dt).max(0.09)) + 1.0e-3;
+                let rise = mover.position.y - before;
+                assert!(rise < most, "{dt} {speed}: rises by {rise} in step {step}");
+            }
+            let top = 0.05 * speed * speed + 0.01;
+            if (top - 2.0).abs() > 0.1 {
+                let stands = if top > 2.0 { 2.0 + FLOOR } else { FLOOR };
+                assert!(
+                    (mover.position.y - stands).abs() < 0.01,
+                    "{dt} {speed}: {}",
+                    mover.position
+                );
+            }
+        }
+    }
+}
+
+/// What stands on a chain, or is put a little into it, is held by it.
+#[test]
+fn chains_hold_it_from_before() {
+    for depth in [-0.05, 0.0, 0.004, 0.02, 0.07] {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let chain = ChainDef::open(&[Vec2::new(5.0, 2.0), Vec2::new(-5.0, 2.0)]);
+        world.add_body(RigidBody::fixed().chain(&chain).unwrap()).unwrap();
+        let mut mover = CharacterMover::new(Vec2::new(0.0, 2.9 - depth), 1.8, 0.3);
+        settle(&mut world, &mut mover, 30, 1.0 / 60.0);
+        assert!((mover.position.y - 2.91).abs() < 0.01, "{depth}: {}", mover.position);
+    }
+}
+
+/// A lift that drops away leaves it behind, or does not, at any step length.
+#[test]
+fn lifts_drop_away_at_any_step_length() {
+    for (speed, falls) in [(10.0_f32, true), (8.0, true), (4.0, false), (1.0, false)] {
+        let fell = [30.0, 60.0, 240.0, 600.0].map(|hertz: f32| {
+            let mut world = World::new(Vec2::new(0.0, -10.0));
+            let lift = RigidBody::kinematic().shape(Shape::rect(2.0, 0.5).unwrap());
+            let lift = world.add_body(lift).unwrap();
+            let mut mover = CharacterMover::new(Vec2::new(0.0, 1.41), 1.8, 0.3);
+            settle(&mut world, &mut mover, 10, 1.0 / hertz);
+            world.body_mut(lift).unwrap().set_velocity(Vec2::new(0.0, -speed));
+            settle(&mut world, &mut mover, (0.1 * hertz) as u32, 1.0 / hertz);
+            1.41 - mover.position.y
+        });
+        let expected = if falls { 0.05 } else { 0.1 * f64::from(speed) };
+        for fell in fell {
+            assert!((fell - expected).abs() < 0.03, "{speed} m/s: {fell} in place of {expected}");
+        }
+    }
+}
+
+/// What is moved by hand for long keeps no endless list of what stopped it.
+#[test]
+fn it_remembers_no_more_than_it_can() {
+    let mut world = World::new(Vec2::new(0.0, -10.0));
+    world.add_body(RigidBody::fixed().shape(Shape::rect(20.0, 0.5).unwrap())).unwrap();
+    let mut mover = CharacterMover::new(Vec2::new(0.0, 1.5), 1.8, 0.3);
+    for _ in 0..5000 {
+        mover.move_by(&world, (0.001, -0.1));
+    }
+    assert!(mover.ground().is_some() && (1..100).contains(&mover.hits().len()));
+}
+
+/// A floor and a one-way ramp on it, which begins at x = 2; `sunk` so far that its upper side begins at the floor.
+fn ramp(angle: f32, thick: f32, sunk: bool) -> World {
+    let mut world = World::new(Vec2::new(0.0, -10.0));
+    let floor = RigidBody::fixed().position(Vec2::new(0.0, -1.0));
+    world.add_body(floor.shape(Shape::rect(20.0, 1.0).unwrap())).unwrap();
+    let (along, up) = (Vec2::new(angle.cos(), angle.sin()), Vec2::new(-angle.sin(), angle.cos()));
+    let middle =
+        Vec2::new(2.0, 0.0) + along * 2.0 + up * if sunk { -0.5 * thick } else { 0.5 * thick };
+    let form = if thick == 0.0 {
+        Shape::segment(Vec2::X * -2.0, Vec2::X * 2.0).unwrap()
+    } else {
+        Shape::rect(2.0, 0.5 * thick).unwrap()
+    };
+    let form = ShapeDef::new(form).one_way(Vec2::Y);
+    world.add_body(RigidBody::fixed().position(middle).angle(angle).shape(form)).unwrap();
+    world
+}
+
+/// One-way ramps carry it up from their low ends and down again, however thick and steep they are and however fast it
+/// comes.
+#[test]
+fn one_way_ramps_are_walked_up_and_down() {
+    let forms = [0.0, 0.1, 0.3].map(|thick| [(thick, false), (thick, true)]).concat();
+    let ways = [1.0, 3.0, 6.0].map(|speed| [30.0, 60.0, 144.0].map(|hertz| (speed, hertz)));
+    for (degrees, (thick, sunk)) in
+        [20.0_f32, 32.0, 45.0].iter().flat_map(|degrees| forms.iter().map(move |f| (degrees, f)))
+    {
+        for &(speed, hertz) in ways.iter().flatten() {
+            let mut world = ramp(degrees.to_radians(), *thick, *sunk);
+            let mut mover = CharacterMover::new(Vec2::new(0.0, 0.91), 1.8, 0.3);
+            for (walk, end) in [(speed, 4.0), (-speed, 0.0)] {
+                let name = format!("{degrees} degrees, {thick} m, {sunk}, {walk} m/s, {hertz} Hz");
+                let mut left = (9.0 / speed * hertz) as u32;
+                while (end - mover.position.x) * f64::from(walk) > 0.0 {
+                    world.step(1.0 / hertz);
+                    let input = MoverInput { walk, ..MoverInput::default() };
+                    mover.update(&mut world, input, 1.0 / hertz);
+                    let rise = (mover.position.x - 2.0) * f64::from(degrees.to_radians().tan());
+                    assert!(mover.position.y >= 0.9 + rise.max(0.0), "{name}: {}", mover.position);
+                    left = left.checked_sub(1).unwrap_or_else(|| panic!("{name}: held"));
+                }
+            }
+        }
     }
 }

@@ -89,7 +89,8 @@ described! {
         pub hit_event_threshold: f32 = 1.0,
         /// Greatest speed of a body, metres a second.
         pub max_speed: f32 = 400.0,
-        /// Do islands at rest fall asleep? Where this is switched off, what sleeps wakes with the next step.
+        /// Do islands at rest fall asleep? Where this is switched off, what sleeps wakes with the next step; what is put to sleep
+        /// by hand after that, or added asleep, sleeps all the same.
         pub sleep: bool = true,
         /// Time at rest before an island sleeps, seconds.
         pub time_to_sleep: f32 = 0.5,

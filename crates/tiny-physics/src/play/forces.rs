@@ -127,9 +127,10 @@ impl World {
     /// ```
     pub fn explode(&mut self, explosion: &Explosion, filter: &QueryFilter<'_>) {
         let Explosion { center, radius, falloff, impulse_per_metre } = *explosion;
+        let finite = falloff.is_finite() && impulse_per_metre.is_finite() && center.is_finite();
         let falloff = if falloff > 0.0 { falloff } else { 0.0 };
         let reach = radius + falloff;
-        if !(center.is_finite() && reach.is_finite() && radius >= 0.0) {
+        if !(finite && reach.is_finite() && radius >= 0.0) {
             self.refuse();
             return;
         }

@@ -30,6 +30,12 @@ const PARALLEL: f32 = 1.0e-4;
 const THIN_SKIN: f32 = 0.125;
 /// An edge whose normal is at least this much upward may have floor behind it.
 const LEAST_EDGE: f32 = 0.05;
+/// A chain that it is in by up to this part of its radius holds it.
+const HELD: f32 = 0.25;
+/// What it stands on leaves it behind where it sinks faster by its snap distance in this time, seconds.
+const SNAP_TIME: f32 = 1.0 / 60.0;
+/// So many hits of movements without an update are kept.
+const MOST_HITS: usize = 64;
 /// No slope is steeper, radians: what is upright is a wall.
 const STEEPEST: f32 = 1.5;
 
@@ -220,14 +226,8 @@ impl CharacterMover {
     /// number is not finite or `dt` not above 0.
     pub fn update(&mut self, world: &mut World, input: MoverInput, dt: f32) {
         let gravity = world.gravity * self.gravity_scale;
-        let numbers = [dt, input.walk, input.jump, self.height, self.radius, self.skin];
-        let limits = [self.max_slope, self.step_height, self.snap_distance, self.mass];
-        let finite = numbers.iter().chain(&limits).all(|number| number.is_finite())
-            && self.position.is_finite()
-            && self.velocity.is_finite()
-            && gravity.is_finite()
-            && !self.push_force.is_nan();
-        if !finite || dt <= 0.0 || self.radius < MIN_EXTENT {
+        let finite = [dt, input.walk, input.jump].iter().all(|number| number.is_finite());
+        if !finite || dt <= 0.0 || !gravity.is_finite() || !self.is_sound() {
             return;
         }
         let frame = Frame { gravity, dt, pushed: self.pushed.take(), ..Frame::of(world) };
@@ -270,6 +270,17 @@ impl CharacterMover {
         self.lead_body(world);
     }
 
+    /// Are its own numbers such that it can move?
+    fn is_sound(&self) -> bool {
+        let size = [self.height, self.radius, self.skin];
+        let limits = [self.max_slope, self.step_height, self.snap_distance, self.mass];
+        size.iter().chain(&limits).all(|number| number.is_finite())
+            && self.position.is_finite()
+            && self.velocity.is_finite()
+            && !self.push_force.is_nan()
+            && self.radius >= MIN_EXTENT
+    }
+
     /// Goes along with what it stands on.
     fn ride(&mut self, world: &mut World, frame: Frame) {
         let Some(ground) = self.ground else { return };
@@ -290,8 +301,7 @@ impl CharacterMover {
         if moves {
             carry += moved(&body);
             let sinks = (ground.velocity - body.velocity_at(ground.point)).dot(frame.up);
-            if sinks * frame.dt > self.snap_distance + frame.gravity.length() * frame.dt * frame.dt
-            {
+            if sinks > self.snap_distance / SNAP_TIME + frame.gravity.length() * frame.dt {
                 // Faster than it can fall.
                 self.leave(frame, ground.velocity);
                 return;
@@ -690,19 +700,26 @@ impl CharacterMover {
     }
 
     /// Is a shape solid for something that moves this way? One-way platforms are from above, chains from
-    /// outside. `place` is where the shape is, or was.
+    /// outside: who comes through from behind is let out, who is a little in them is held. `place` is where the shape
+    /// is, or was.
     fn is_solid(&self, frame: Frame, obstacle: &ShapeRef<'_>, place: Pose, motion: Vec2) -> bool {
+        let gap = || {
+            let pose = Pose::new(self.position, Rot::IDENTITY).relative_to(place);
+            distance(obstacle.shape(), &self.capsule(frame.up, 0.0), pose)
+        };
         if let (Some(_), Shape::Segment { a, b }) = (obstacle.link(), *obstacle.shape()) {
-            let way = b - a;
-            return Vec2::new(way.y, 0.0 - way.x).dot(place.unapply(self.position) - a) >= 0.0;
+            let way = Vec2::new((b - a).y, 0.0 - (b - a).x);
+            let comes_out = self.ground.is_none() && place.q.rotate(way).dot(self.velocity) > 0.0;
+            let depth = if comes_out { 0.5 * self.skin } else { HELD * self.radius };
+            return way.dot(place.unapply(self.position) - a) >= 0.0
+                && (motion == Vec2::ZERO || gap().separation >= -depth);
         }
         let Some(way) = obstacle.one_way() else { return true };
         let way = place.q.rotate(obstacle.local().q.unrotate(way));
         if self.dropping || way.dot(motion) >= 0.0 {
             return false;
         }
-        let pose = Pose::new(self.position, Rot::IDENTITY);
-        let gap = distance(obstacle.shape(), &self.capsule(frame.up, 0.0), pose.relative_to(place));
+        let gap = gap();
         gap.separation >= -0.5 * self.skin && place.q.rotate(gap.normal).dot(way.normalized()) > 0.3
     }
 }

@@ -172,9 +172,15 @@ impl BodyMut<'_> {
         if kind == BodyKind::Kinematic && before == (Vec2::ZERO, 0.0) {
             self.world.wake_neighbours(index);
         }
+        if turning != before.1 {
+            let turns = self.as_ref().turns_of_last_step();
+            self.world.state.bodies.set_angular_velocity(index, turning);
+            if self.as_ref().turns_of_last_step() != turns {
+                self.world.last.turns.push((index, turns));
+            }
+        }
         let bodies = &mut self.world.state.bodies;
         bodies.set_velocity(index, velocity);
-        bodies.set_angular_velocity(index, turning);
         bodies.disturb(index);
     }
 
@@ -256,6 +262,7 @@ impl BodyMut<'_> {
         if self.info().awake {
             let State { bodies, contacts, joints, .. } = &self.world.state;
             let island = sleep::island_of(self.index, bodies, contacts, joints);
+            island.iter().filter(|&&i| i != NULL).for_each(|&i| self.world.keep_moved(i));
             self.world.put_to_sleep(&island);
             // Sensors have to look once more at what was fast.
             for &body in island.iter().filter(|&&body| body != NULL) {

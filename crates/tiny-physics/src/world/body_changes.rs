@@ -9,6 +9,7 @@ use crate::dynamics::{Given, GivenPoint, NULL, PLAIN};
 use crate::error::Error;
 use crate::math::{Pose, Vec2};
 use crate::work;
+use core::f32::consts::TAU;
 
 impl<'a> Body<'a> {
     /// Handles of its joints, the newest first.
@@ -28,19 +29,25 @@ impl<'a> Body<'a> {
             return self.pose();
         }
         let center = start.p + (end.p - start.p) * f64::from(alpha);
-        let rotation = start.q.integrate(self.turn_of_last_step(end.q.angle_from(start.q)) * alpha);
+        let part = end.q.angle_from(start.q);
+        let turn = part + self.turns_of_last_step() as f32 * TAU;
+        let rotation = start.q.integrate(turn * alpha);
         Pose::new(center - rotation.rotate(self.local_center()), rotation)
     }
 }
 
 impl Body<'_> {
-    /// What it turned in the last step, radians, of which `part` is known but for whole turns: as many of them as
-    /// its angular velocity makes.
-    fn turn_of_last_step(&self, part: f32) -> f32 {
-        let dt = self.world.settings.substeps as f32 / self.world.state.inv_h;
-        let turns = (self.angular_velocity() * dt - part) / core::f32::consts::TAU;
-        let whole = turns.round();
-        if part != 0.0 && whole.is_finite() { part + whole * core::f32::consts::TAU } else { part }
+    /// Whole turns that it made in the last step besides the part of one that its poses tell: as many as its angular
+    /// velocity made before anybody set another.
+    pub(super) fn turns_of_last_step(&self) -> i32 {
+        let (World { state, last, .. }, i) = (self.world, self.index as usize);
+        let part = state.bodies.poses[i].q.angle_from(state.bodies.previous[i].q);
+        if part == 0.0 {
+            return 0;
+        }
+        let known = last.turns.iter().find(|(body, _)| *body == self.index);
+        let turns = || (self.angular_velocity() * self.world.last_dt() - part) / TAU;
+        known.map_or_else(|| turns().round() as i32, |known| known.1)
     }
 }
 
@@ -179,6 +186,7 @@ impl World {
     /// Takes a body out of the simulation: contacts, lanes of joints, leaves, the awake list. What touched it
     /// or was joined to it wakes. [`World::put_in`] is the way back.
     fn take_out(&mut self, index: u32) {
+        self.keep_moved(index);
         self.wake_index(index);
         self.destroy_contacts_of(index, |_, _| true);
         for (joint, partner) in self.joints_and_partners(index) {
@@ -237,7 +245,7 @@ impl World {
 
     /// Handles of the bodies whose pose the last step changed, those that fell asleep in it included. What the
     /// user placed, and what stood still, is not among them. In index order but for bodies that woke in the
-    /// step, which come last, and where bodies have been put to sleep by hand since.
+    /// step, which come last, and those that have been put to sleep, taken out or made another kind since.
     ///
     /// The list is made when it is first asked for after a step, and stays until the next one: a step costs
     /// nothing more where nobody asks. What was removed before is not in it; handles of what is removed
@@ -249,13 +257,15 @@ impl World {
     /// Those, and the kinematic ones of them in index order.
     pub(super) fn moved_lists(&self) -> &[Vec<BodyId>; 2] {
         self.moved.get_or_init(|| {
-            let asleep = self.state.events.fell_asleep.iter().copied();
+            let before = self.last.put_asleep as usize;
+            let asleep = self.state.events.fell_asleep.iter().skip(before).copied();
             let asleep = asleep.filter(|&id| self.body(id).is_some_and(|body| !body.is_awake()));
+            let taken = self.last.moved.iter().copied().filter(|&id| self.body(id).is_some());
             let bodies = &self.state.bodies;
             let moved = |&&i: &&u32| bodies.poses[i as usize] != bodies.previous[i as usize];
             let awake = bodies.awake.iter().inspect(|_| work::note());
             let awake = awake.filter(moved).map(|&i| self.body_id(i));
-            let all: Vec<BodyId> = awake.chain(asleep).collect();
+            let all: Vec<BodyId> = awake.chain(asleep).chain(taken).collect();
             let is_machine = |id: &BodyId| bodies.infos[id.index()].kind == BodyKind::Kinematic;
             let mut machines: Vec<BodyId> = all.iter().copied().filter(is_machine).collect();
             machines.sort_unstable();

@@ -124,7 +124,7 @@ impl World {
             Place::Asleep => PLAIN,
         };
         let refinement = REFINEMENT[pace] as f32;
-        let substeps = refinement * self.settings.substeps as f32;
+        let substeps = refinement * self.last.substeps as f32;
         let surface = &bucket.surfaces[block];
         let totals = contact.hit_events.then_some([surface.total_1[lane], surface.total_2[lane]]);
         let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
@@ -170,7 +170,7 @@ impl World {
             points,
             count: count as u8,
             rate: self.state.inv_h * refinement,
-            dt: self.settings.substeps as f32 / self.state.inv_h,
+            dt: self.last_dt(),
         }
     }
 

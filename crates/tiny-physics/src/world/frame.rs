@@ -34,6 +34,7 @@ impl Clone for World {
             gravity: self.gravity,
             settings: self.settings,
             state: self.state.clone(),
+            last: self.last.clone(),
             hooks: self.hooks.clone(),
             moved: OnceLock::new(),
             level: self.level,
@@ -48,6 +49,7 @@ impl Clone for World {
             gravity,
             settings,
             state,
+            last,
             hooks,
             moved,
             level: _,
@@ -59,6 +61,7 @@ impl Clone for World {
         *gravity = source.gravity;
         *settings = source.settings;
         state.clone_from(&source.state);
+        last.clone_from(&source.last);
         hooks.clone_from(&source.hooks);
     }
 }

@@ -101,7 +101,7 @@ impl World {
             ..
         } = &self.state;
         let moved: MemoryUse = self.moved.get().into_iter().map(Footprint::footprint).sum();
-        let other = [sensors.memory(), tiles.memory(), events.memory(), moved];
+        let other = [sensors.memory(), tiles.memory(), events.memory(), self.last.memory(), moved];
         Memory {
             bodies: bodies.memory(),
             shapes: shapes.memory(),

@@ -15,6 +15,7 @@ mod hooks;
 mod ids;
 mod joint_mut;
 mod joints;
+mod last;
 mod memory;
 mod queries;
 mod reading;
@@ -97,6 +98,7 @@ pub struct World {
     /// Substeps, iterations, thresholds.
     pub settings: Settings,
     state: State,
+    last: last::LastStep,
     hooks: hooks::Hooks,
     /// Which bodies the last step moved, and the kinematic ones of them, once somebody has asked.
     moved: OnceLock<[Vec<BodyId>; 2]>,
@@ -152,6 +154,7 @@ impl World {
             gravity,
             settings,
             state: State::default(),
+            last: last::LastStep::default(),
             hooks: hooks::Hooks::default(),
             moved: OnceLock::new(),
             level: SimdLevel::detect(),
@@ -188,7 +191,7 @@ impl World {
     fn run_stages(&mut self, team: &Team, lengths: Lengths) {
         let mut watch = Stopwatch::start(&self.stats);
         self.state.events.clear();
-        self.moved.take();
+        self.begin_last(lengths.substeps);
         self.state.bodies.sort_awake();
         self.wake_disturbed();
         let lengths = self.follow_lengths(lengths);

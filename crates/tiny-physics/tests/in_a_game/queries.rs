@@ -135,3 +135,40 @@ fn long_rays_miss_what_lies_beside_them() {
         assert!(hits(0.999) && hits(-0.999) && !hits(1.001) && !hits(-1.001), "{length}");
     }
 }
+
+/// However closely a blade goes by, it hits what it touches and nothing else.
+#[test]
+fn blades_that_turn_closely_by_hit_nothing() {
+    let turn = 2.0 * core::f32::consts::PI;
+    let blade = Shape::segment(Vec2::new(0.5, 0.0), Vec2::new(2.0, 0.0)).unwrap();
+    for (radius, hits) in [(0.49, false), (0.498, false), (0.499, false), (0.501, true)] {
+        let mut world = World::new((0.0, 0.0));
+        world.add_body(RigidBody::fixed().shape(circle(radius))).unwrap();
+        let cast = |turn| {
+            let at = Transform::IDENTITY;
+            world.cast_shape_turning(&blade, at, (0.0, 0.0), turn, &QueryFilter::new())
+        };
+        assert_eq!(cast(turn).is_some(), hits, "{radius}: {:?}", cast(turn));
+        assert_eq!(cast(-turn).is_some(), hits, "{radius}");
+    }
+}
+
+/// Turning or not, a cast tells a place on the surface of what it hits, from the beginning on.
+#[test]
+fn casts_that_begin_in_something_tell_a_place_on_its_surface() {
+    let mut world = World::new((0.0, 0.0));
+    world.add_body(RigidBody::fixed().position((1e6, 0.0)).shape(square(1.0))).unwrap();
+    for (x, radius) in [(1.2, 0.5), (-1.3, 0.7), (5.0, 0.5)] {
+        let (ball, at) = (circle(radius), Pose::new(DVec2::new(1e6 + x, 0.1), Rot::IDENTITY));
+        let all = QueryFilter::new();
+        let straight = world.cast_shape(&ball, at, (-6.0, 0.0), &all).unwrap();
+        let turning = world.cast_shape_turning(&ball, at, (-6.0, 0.0), 0.5, &all).unwrap();
+        let apart = (straight.point - turning.point).to_vec2();
+        assert!(apart.length() < 1e-3, "{straight:?} {turning:?}");
+        assert!((turning.point.x - 1e6).abs() - 1.0 < 1e-6, "{turning:?}");
+        assert_eq!(
+            (straight.normal, straight.fraction == 0.0),
+            (turning.normal, turning.fraction == 0.0)
+        );
+    }
+}

@@ -1,8 +1,11 @@
 //! What a game adds to a character: a body that others notice, moves by rules of its own.
 
-use super::{CharacterMover, Frame, MoverHit};
+use super::{CharacterMover, Frame, MOST_HITS, MoverHit};
 use crate::geometry::distance;
 use crate::{DVec2, Pose, RigidBody, Rot, Shape, ShapeDef, ShapeRef, Transform, Vec2, World};
+
+/// What is as high as this many radii is a circle, whatever rounding says.
+const ROUND: f32 = 1.999;
 
 impl CharacterMover {
     /// A body for it to take along: kinematic, with a sensor of the character's form that sees everything, other
@@ -60,7 +63,7 @@ impl CharacterMover {
     }
 
     /// What stopped it in the last update, or in a [`CharacterMover::move_by`] since: walls, ceilings, the ground that
-    /// it fell on, in the order in which it met them.
+    /// it fell on, in the order in which it met them. Of very many the latest are kept.
     pub fn hits(&self) -> &[MoverHit] {
         &self.hits
     }
@@ -88,9 +91,10 @@ impl CharacterMover {
     /// [`CharacterMover::velocity`] to go on falling with it. Nothing happens where a number is not finite.
     pub fn move_by(&mut self, world: &World, motion: impl Into<Vec2>) -> Vec2 {
         let (motion, start) = (motion.into(), self.position);
-        if !motion.is_finite() || !start.is_finite() {
+        if !motion.is_finite() || !self.is_sound() {
             return Vec2::ZERO;
         }
+        self.hits.drain(..self.hits.len().saturating_sub(MOST_HITS));
         let (frame, noted) = (Frame::of(world), self.hits.len());
         (self.previous, self.ground, self.drift) = (start, None, 0.0);
         (self.velocity, self.told) = (Vec2::ZERO, Vec2::ZERO);
@@ -129,8 +133,8 @@ impl CharacterMover {
         for place in [&mut grown.position, &mut grown.previous, &mut grown.arrived] {
             *place += rise;
         }
-        let sound =
-            height.is_finite() && radius > 0.0 && grown.capsule(Vec2::Y, 0.0).validate().is_ok();
+        let is_capsule = height.is_finite() && radius > 0.0 && height >= ROUND * radius;
+        let sound = is_capsule && grown.capsule(Vec2::Y, 0.0).validate().is_ok();
         if sound && grown.has_room(world, self) {
             *self = grown;
             return true;

@@ -39,7 +39,7 @@ impl CharacterMover {
         let solid = shapes.filter(|shape| {
             let meets = !shape.is_sensor() && self.filter.collides(&shape.filter());
             let place = || start.compose(shape.pose().relative_to(end));
-            let one_way = shape.one_way().is_some();
+            let one_way = shape.one_way().is_some() || shape.link().is_some();
             meets && (one_way || !slow) && self.is_solid(frame, shape, place(), -motion)
         });
         let slop = DEPTH * world.settings.length_unit;

@@ -3,9 +3,7 @@
 use super::{ClosestPoint, QueryFilter, RayCastHit, ShapeCastHit, ShapeDistance};
 use crate::broad_phase::{BoxCast, LIMIT, Nearest, clamped};
 use crate::dynamics::ShapeRecord;
-use crate::geometry::{
-    Ray, RayHit, Shape, Sweep, ToiState, distance, shape_cast, time_of_impact_to,
-};
+use crate::geometry::{Ray, RayHit, Shape, Sweep, distance, shape_cast, touch_within};
 use crate::math::{Aabb, DVec2, Pose, Transform, Vec2};
 use crate::work;
 use crate::world::World;
@@ -197,14 +195,14 @@ impl Finder<'_> {
             (place.apply(hit.point), place.q.rotate(hit.normal), hit.fraction)
         } else {
             // Both seen from where the moved shape begins.
-            let still = Sweep::fixed(Transform::new(place.p.relative_to(pose.p), place.q));
+            let seen = Transform::new(place.p.relative_to(pose.p), place.q);
+            let still = Sweep::fixed(seen);
             let frame = Transform::new(Vec2::ZERO, pose.q);
             let moved = Sweep::new(frame, Vec2::ZERO, translation, turn);
-            let toi = time_of_impact_to(&record.shape, &still, shape, &moved, 1.0, 0.5 * TOUCH);
-            if toi.state == ToiState::Separated {
-                return None;
-            }
-            (pose.p + toi.point, toi.normal, toi.fraction)
+            let toi = touch_within(&record.shape, &still, shape, &moved, 0.5 * TOUCH)?;
+            let there = moved.at(toi.fraction).relative_to(seen);
+            let point = distance(&record.shape, shape, there).point_a;
+            (place.apply(point), toi.normal, toi.fraction)
         };
         let (shape, body) = (self.world.shape_id(index), self.world.body_id(record.body));
         Some(ShapeCastHit { shape, body, point, normal, fraction })

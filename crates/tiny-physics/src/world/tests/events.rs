@@ -260,3 +260,96 @@ fn a_fast_sensor_sees_what_crosses_its_way() {
         assert_eq!(begun[0].visitor, shape_of(&world, bird));
     }
 }
+
+/// What is done to a body after a step changes nothing of what the step has done.
+#[test]
+fn what_moved_is_told_whatever_is_done_to_it_since() {
+    let changes: [fn(&mut World, BodyId); 4] = [
+        |world, body| world.body_mut(body).unwrap().set_kind(BodyKind::Static),
+        |world, body| world.body_mut(body).unwrap().set_kind(BodyKind::Kinematic),
+        |world, body| world.body_mut(body).unwrap().set_enabled(false),
+        |world, body| world.body_mut(body).unwrap().sleep(),
+    ];
+    for (i, change) in changes.into_iter().enumerate() {
+        let mut world = World::new(Vec2::ZERO);
+        let bodies = [0.0, 5.0].map(|x| add(&mut world, x, 0.0, circle(0.5)));
+        for body in bodies {
+            world.body_mut(body).unwrap().set_velocity(Vec2::X);
+        }
+        world.step(DT);
+        change(&mut world, bodies[0]);
+        for world in [&world, &world.clone(), &World::from_bytes(&world.to_bytes()).unwrap()] {
+            let mut moved = world.moved_bodies().to_vec();
+            moved.sort_unstable();
+            assert_eq!(moved, bodies, "{i}");
+        }
+        world.step(DT);
+        let moves_on = if i == 1 { &bodies[..] } else { &bodies[1..] };
+        let moved: Vec<BodyId> = world.moved_bodies().to_vec();
+        assert!(moved.iter().all(|body| moves_on.contains(body)), "{i}: {moved:?}");
+        assert_eq!(moved.len(), moves_on.len(), "{i}");
+        let copy = World::from_bytes(&world.to_bytes()).unwrap();
+        assert_eq!(copy.moved_bodies(), world.clone().moved_bodies(), "{i}");
+        assert_eq!(copy.moved_bodies(), moved, "{i}");
+    }
+}
+
+/// How it is drawn between two steps is a matter of the step that was made.
+#[test]
+fn a_spin_set_after_the_step_is_not_drawn_in_it() {
+    for spin in [0.0, 3.0, 150.0, 400.0, -1000.0] {
+        let mut world = World::new(Vec2::ZERO);
+        let body = add(&mut world, 0.0, 0.0, circle(0.5));
+        world.body_mut(body).unwrap().set_angular_velocity(spin);
+        world.step(DT);
+        let drawn = |world: &World| {
+            [0.0, 0.25, 0.5, 0.75].map(|alpha| world.body(body).unwrap().interpolated_pose(alpha))
+        };
+        let before = drawn(&world);
+        assert!((before[1].q.angle_from(Rot::from_angle(0.25 * spin * DT))).abs() < 1e-3, "{spin}");
+        for set in [-spin, 0.0, 500.0, -2000.0, spin] {
+            world.body_mut(body).unwrap().set_angular_velocity(set);
+            assert_eq!(drawn(&world), before, "{spin} and then {set}");
+            assert_eq!(drawn(&world.clone()), before, "{spin} and then {set}, a copy");
+            let saved = World::from_bytes(&world.to_bytes()).unwrap();
+            assert_eq!(drawn(&saved), before, "{spin} and then {set}, saved");
+            world.settings.substeps = 8;
+            assert_eq!(drawn(&world), before, "other substeps");
+            world.settings.substeps = 4;
+            // What is placed since is drawn there.
+            let mut placed = world.clone();
+            placed.body_mut(body).unwrap().set_angle(0.5);
+            assert!(drawn(&placed).iter().all(|pose| *pose == drawn(&placed)[0]));
+        }
+        world.step(DT);
+        let turn = world.body(body).unwrap().interpolated_pose(0.5).q;
+        let turned = turn.angle_from(world.body(body).unwrap().interpolated_pose(0.0).q);
+        let expected = Rot::from_angle(0.5 * spin * DT).angle();
+        assert!((turned - expected).abs() < 1e-3, "{spin}: {turned} in place of {expected}");
+    }
+}
+
+/// What contacts tell of the last step does not change with the settings of the next one.
+#[test]
+fn loads_are_those_of_the_step_that_was_made() {
+    let mut world = world();
+    add_ground(&mut world);
+    let body = add(&mut world, 0.0, 0.5, rect(0.5, 0.5));
+    run(&mut world, 20);
+    let told = |world: &World| {
+        let contact = world.body(body).unwrap().contacts().next().unwrap();
+        (contact.total_impulse(), contact.force())
+    };
+    let before = told(&world);
+    assert!((before.1.length() - 10.0).abs() < 0.1, "{before:?}");
+    for substeps in [1, 8, 0] {
+        world.settings.substeps = substeps;
+        assert_eq!(told(&world), before, "{substeps}");
+        assert_eq!(told(&world.clone()), before, "{substeps}, a copy");
+        assert_eq!(
+            told(&World::from_bytes(&world.to_bytes()).unwrap()),
+            before,
+            "{substeps}, saved"
+        );
+    }
+}

@@ -21,6 +21,25 @@ fn an_explosion_falls_off_and_spares_what_is_far() {
 }
 
 #[test]
+fn an_explosion_without_sense_does_nothing() {
+    let mut world = World::new(Vec2::ZERO);
+    let ball = add(&mut world, 1.0, 0.0, circle(0.5));
+    let blast =
+        Explosion { center: DVec2::ZERO, radius: 2.0, falloff: 2.0, impulse_per_metre: 3.0 };
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        for blast in [
+            Explosion { radius: bad, ..blast },
+            Explosion { falloff: bad, ..blast },
+            Explosion { impulse_per_metre: bad, ..blast },
+        ] {
+            world.explode(&blast, &QueryFilter::new());
+            assert_eq!(world.body(ball).unwrap().velocity(), Vec2::ZERO, "{blast:?}");
+        }
+    }
+    assert_eq!(world.stats().refused_numbers, 9);
+}
+
+#[test]
 fn an_explosion_inside_a_body_pushes_its_center() {
     let mut world = World::new(Vec2::ZERO);
     let crate_ = add(&mut world, 0.5, 0.0, rect(1.0, 1.0));
