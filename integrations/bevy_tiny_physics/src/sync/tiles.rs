@@ -1,25 +1,34 @@
 //! Tile maps.
 
 use super::problems::Problems;
+use super::scene::WithDisabled;
 use crate::components::TileMap;
 use crate::world::PhysicsWorld;
+use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::prelude::*;
 use tiny_physics::{Error, TileGrid, TileGridId};
 
-/// Adds tile maps that are new; of others, sets the cells that changed.
+/// Adds tile maps that are new; of others, sets the cells that changed. Those that are disabled go until they are enabled.
 pub(crate) fn read(
     mut physics: ResMut<PhysicsWorld>,
-    changed: Query<(Entity, &TileMap), Changed<TileMap>>,
-    all: Query<(Entity, &TileMap)>,
+    changed: Query<Entity, (Changed<TileMap>, WithDisabled)>,
+    all: Query<(Entity, &TileMap, Has<Disabled>)>,
     mut problems: Problems,
 ) {
     let physics = &mut *physics;
-    let mut asked: Vec<_> = changed.iter().collect();
+    let told = changed.iter().chain(physics.notes.switched.iter().copied());
+    let mut asked: Vec<_> = told.filter_map(|entity| all.get(entity).ok()).collect();
     if physics.fresh {
-        asked.extend(all.iter().filter(|(entity, _)| !physics.maps.tiles.contains_key(entity)));
+        asked.extend(all.iter().filter(|(entity, _, is_disabled)| {
+            *is_disabled == physics.maps.tiles.contains_key(entity)
+        }));
     }
     asked.sort_by(|a, b| key(a.1).partial_cmp(&key(b.1)).unwrap_or(core::cmp::Ordering::Equal));
-    for (entity, TileMap(grid)) in asked {
+    for (entity, TileMap(grid), is_disabled) in asked {
+        if is_disabled {
+            physics.remove_tiles(entity);
+            continue;
+        }
         let result = match physics.maps.tiles.get(&entity) {
             Some(id) if is_like(&physics.world, *id, grid) => {
                 set_cells(&mut physics.world, *id, grid)

@@ -71,11 +71,20 @@ pub(crate) struct Notes {
     pub bodies: Vec<Entity>,
     /// What a collider is told by, and parents.
     pub colliders: Vec<Entity>,
+    /// What Bevy's `Disabled` came on or went off.
+    pub switched: Vec<Entity>,
     /// Bodies of which the place is to be written, even if they do not move: they may have been placed by hand, or taken off a parent.
     pub placed: BTreeSet<BodyId>,
 }
 
 impl Notes {
+    /// Notes that an entity takes part no longer, or again.
+    pub fn switch(&mut self, entity: Entity) {
+        for list in [&mut self.bodies, &mut self.colliders, &mut self.switched] {
+            list.push(entity);
+        }
+    }
+
     /// All that something was taken off.
     pub fn taken_off(&self) -> impl Iterator<Item = Entity> + '_ {
         self.gone.iter().chain(&self.bodies).chain(&self.colliders).copied()
@@ -195,6 +204,8 @@ pub(crate) struct JointRecord {
     pub id: JointId,
     pub bodies: (Entity, Entity),
     pub def: JointDef,
+    /// Was its entity disabled then?
+    pub is_disabled: bool,
 }
 
 /// From entities to handles and back.
@@ -381,8 +392,8 @@ impl MapEntities for PhysicsWorld {
             handles.map_entities(mapper);
         }
         maps.refused.map_entities(mapper);
-        let Notes { gone, bodies, colliders, placed: _ } = &mut self.notes;
-        for entity in [gone, bodies, colliders].into_iter().flatten() {
+        let Notes { gone, bodies, colliders, switched, placed: _ } = &mut self.notes;
+        for entity in [gone, bodies, colliders, switched].into_iter().flatten() {
             *entity = mapper.get_mapped(*entity);
         }
     }
