@@ -144,8 +144,6 @@ const EVENTS = {
 export class World {
   #session;
   #token = {};
-  /** Does the module keep what is done to it? */
-  #kept = false;
 
   constructor(def = {}, from) {
     if (from?.[0] === own) {
@@ -160,17 +158,15 @@ export class World {
     this.sceneBodies = from?.[2] ?? [];
   }
 
-  static #of(session, { bodies, kept = false } = {}) {
+  static #of(session, bodies) {
     check(session);
-    const world = new World({}, [own, session, bodies]);
-    world.#kept = kept;
-    return world;
+    return new World({}, [own, session, bodies]);
   }
 
   static loadScene(scene) {
     giveText(typeof scene === "string" ? scene : write(scene));
     const session = wasm.tp_new_scene();
-    return World.#of(session, { bodies: session ? list() : [] });
+    return World.#of(session, session ? list() : []);
   }
 
   static fromBytes(bytes, dt = 1 / 60) {
@@ -181,7 +177,7 @@ export class World {
 
   static openRecording(bytes, budget = 64 * 2 ** 20) {
     give(bytes);
-    return World.#of(wasm.tp_new_recording(budget), { kept: true });
+    return World.#of(wasm.tp_new_recording(budget));
   }
 
   /** Number of the session, for code that calls the module itself. */
@@ -191,7 +187,7 @@ export class World {
   }
 
   clone() {
-    return World.#of(wasm.tp_clone(this.session), { bodies: this.sceneBodies, kept: this.#kept });
+    return World.#of(wasm.tp_clone(this.session), this.sceneBodies);
   }
 
   free() {
@@ -467,27 +463,24 @@ export class World {
   }
 
   restoreDelta(frame, delta) {
-    if (this.#kept) {
-      // What is kept is whole frames.
-      const there = new World();
-      try {
-        there.restoreDelta(frame, delta);
-        this.restore(there.save());
-      } finally {
-        there.free();
-      }
-      return;
-    }
     const both = new Uint8Array(frame.length + delta.length);
     both.set(frame);
     both.set(delta, frame.length);
     give(both);
-    check(wasm.tp_restore(this.session, frame.length));
+    if (wasm.tp_restore(this.session, frame.length)) return;
+    // A world that is recorded or keeps its history takes whole frames alone. What is bad is bad in a plain world, too.
+    const there = new World();
+    try {
+      give(both);
+      check(wasm.tp_restore(there.session, frame.length));
+      this.restore(there.save());
+    } finally {
+      there.free();
+    }
   }
 
   startRecording() {
     check(wasm.tp_record(this.session));
-    this.#kept = true;
   }
 
   recording() {
@@ -497,7 +490,6 @@ export class World {
 
   keepHistory(budget = 64 * 2 ** 20) {
     check(wasm.tp_keep(this.session, budget));
-    this.#kept = true;
   }
 
   get history() {

@@ -335,9 +335,12 @@ test("differences are restored in worlds that are recorded or keep their history
   const frame = world.save();
   run(world, 50);
   const delta = world.deltaFrom(frame);
+  // By a call of the module itself.
+  const below = recorded.clone();
+  assert(engine.exports().tp_record(below.session));
   recorded.startRecording();
   kept.keepHistory();
-  for (const other of [recorded, kept, kept.clone(), World.openRecording(recorded.recording())]) {
+  for (const other of [recorded, below, kept, kept.clone(), World.openRecording(recorded.recording())]) {
     other.step(1 / 60);
     assert.throws(() => other.restoreDelta(frame, delta.slice(0, 9)), PhysicsError);
     other.restoreDelta(frame, delta);

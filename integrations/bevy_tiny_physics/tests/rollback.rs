@@ -207,3 +207,42 @@ fn what_components_said_before_is_not_told_again() {
     steps(&mut app, 40);
     assert_eq!(physics(&app).world.state_hash(), future);
 }
+
+/// Cells are what the component says by now; what was set by hand before the copy was made stays.
+#[test]
+fn cells_of_a_copy_are_what_its_tile_map_says() {
+    let mut app = app();
+    let grid = tiny_physics::TileGrid::parse(1.0, &["########", "########"]).unwrap();
+    let map = app.world_mut().spawn(TileMap(grid.clone())).id();
+    let digger = ball(&mut app, 2.5, 3.0);
+    steps(&mut app, 5);
+    let id = physics(&app).world.tile_grid_ids().next().unwrap();
+    let cell = |app: &App, x| physics(app).world.tiles(id).unwrap().get(x, 1);
+    let mut physics_mut = app.world_mut().resource_mut::<PhysicsWorld>();
+    physics_mut.world.set_tile(id, 7, 1, 0).unwrap();
+    steps(&mut app, 5);
+    let frame = physics(&app).clone();
+    app.world_mut().get_mut::<TileMap>(map).unwrap().0.set(2, 1, 0).unwrap();
+    steps(&mut app, 60);
+    let (future, at) = (physics(&app).world.state_hash(), place(&app, digger));
+    assert_eq!([2, 3, 7].map(|x| cell(&app, x)), [0, 1, 0], "an edit sets what it changes");
+
+    app.world_mut().resource_mut::<PhysicsWorld>().clone_from(&frame);
+    steps(&mut app, 1);
+    assert_eq!([2, 3, 7].map(|x| cell(&app, x)), [0, 1, 0], "what the component says by now");
+    steps(&mut app, 59);
+    assert_eq!((physics(&app).world.state_hash(), place(&app, digger)), (future, at));
+
+    // Once more, with a component that has gone back as well.
+    *app.world_mut().get_mut::<TileMap>(map).unwrap() = TileMap(grid);
+    app.world_mut().resource_mut::<PhysicsWorld>().clone_from(&frame);
+    steps(&mut app, 1);
+    assert_eq!([2, 3, 7].map(|x| cell(&app, x)), [1, 1, 0]);
+    app.world_mut().get_mut::<TileMap>(map).unwrap().0.width = 4;
+    app.world_mut().get_mut::<TileMap>(map).unwrap().0.cells.truncate(8);
+    app.world_mut().resource_mut::<PhysicsWorld>().clone_from(&frame);
+    steps(&mut app, 1);
+    let world = &physics(&app).world;
+    let ids: Vec<_> = world.tile_grid_ids().collect();
+    assert_eq!((ids.len(), world.tiles(ids[0]).unwrap().width), (1, 4));
+}

@@ -33,6 +33,9 @@ described! {
     /// What a segment of a chain knows of its neighbours, so that nothing catches on the joints.
     ///
     /// A segment with a link is solid from one side only: the right of the way from `a` to `b` is outside.
+    ///
+    /// A link is what was said when the segment was added. Where a segment is changed its own stays, and so do those of its neighbours: to move
+    /// corners, take the chain away and add it anew.
     #[derive(Clone, Copy, PartialEq, Debug)]
     pub struct ChainLink {
         /// Start of the segment before this one, in the shape's frame. `None`: the chain begins at `a`.

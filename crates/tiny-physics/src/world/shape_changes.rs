@@ -46,7 +46,8 @@ impl ShapeMut<'_> {
         ShapeRef::new(self.world, self.index)
     }
 
-    /// Changes the geometry; mass and inertia of the body follow, its contacts begin anew, even if it is the same.
+    /// Changes the geometry; mass and inertia of the body follow, its contacts begin anew, even if it is the same. What a
+    /// segment of a chain and its neighbours know of each other stays: see [`ChainLink`](crate::ChainLink).
     ///
     /// # Errors
     /// The geometry is degenerate or not finite.

@@ -68,6 +68,9 @@ impl LockedAxes {
 pub struct Mass(pub f32);
 
 /// Does a body take part? One that does not keeps its place, is not seen and touches nothing.
+///
+/// Bevy's [`Disabled`](bevy_ecs::entity_disabling::Disabled) on the entity does the same. On a collider below a body it takes its shapes off
+/// that; colliders that stand alone, joints, characters and tile maps take no part while it is on theirs.
 #[derive(Component, Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Enabled(pub bool);
 

@@ -157,7 +157,8 @@ pub struct CollisionEvents;
 #[derive(Component, Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct HitEvents;
 
-/// Ground of tiles, without seams. Its place is that of the grid; the entity's transform plays no part. Setting single cells is cheap.
+/// Ground of tiles, without seams. Its place is that of the grid; the entity's transform plays no part. Setting single cells is cheap. Those that are
+/// set through the world stay so until the component says something else of them.
 #[derive(Component, Clone, PartialEq, Debug)]
 pub struct TileMap(pub TileGrid);
 

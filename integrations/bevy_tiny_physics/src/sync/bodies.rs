@@ -1,7 +1,7 @@
 //! Bodies: new ones, and what components say of those that are there.
 
 use super::problems::Problems;
-use super::scene::{Moved, Scene};
+use super::scene::{Moved, Scene, WithDisabled};
 use crate::components::*;
 use crate::frame::{Frame, Parts};
 use crate::order;
@@ -21,10 +21,10 @@ struct New {
 pub(crate) fn add(
     mut physics: ResMut<PhysicsWorld>,
     scene: Scene,
-    changed: Query<Entity, Changed<RigidBody>>,
-    mended: Query<(), Or<(BodyChange, Changed<Velocity>)>>,
+    changed: Query<Entity, (Changed<RigidBody>, WithDisabled)>,
+    mended: Query<(), Mended>,
     moved: Moved,
-    all: Query<Entity, With<RigidBody>>,
+    all: Query<Entity, (With<RigidBody>, WithDisabled)>,
     mut problems: Problems,
 ) {
     let physics = &mut *physics;
@@ -116,14 +116,17 @@ type BodyChange = Or<(
     Changed<CanSleep>,
 )>;
 
+/// Bodies that may be what was refused before.
+type Mended = (Or<(BodyChange, Changed<Velocity>)>, WithDisabled);
+
 /// Tells bodies what their components say, where that is something else. In a copy that has just come in: than it was when that was made.
 pub(crate) fn read(
     mut physics: ResMut<PhysicsWorld>,
     scene: Scene,
-    changed: Query<Entity, BodyChange>,
-    all: Query<Entity, With<RigidBody>>,
-    moved: Query<(Entity, &Transform), Changed<Transform>>,
-    velocities: Query<(Entity, Ref<Velocity>), Changed<Velocity>>,
+    changed: Query<Entity, (BodyChange, WithDisabled)>,
+    all: Query<Entity, (With<RigidBody>, WithDisabled)>,
+    moved: Query<(Entity, &Transform), (Changed<Transform>, WithDisabled)>,
+    velocities: Query<(Entity, Ref<Velocity>), (Changed<Velocity>, WithDisabled)>,
     mut problems: Problems,
 ) {
     let physics = &mut *physics;

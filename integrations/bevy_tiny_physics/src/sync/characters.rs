@@ -1,12 +1,13 @@
 //! Characters: movers that lie in the world, so that they go back with it.
 
 use super::problems::Problems;
-use super::scene::{Moved, Scene};
+use super::scene::{Moved, Scene, WithDisabled};
 use super::step::Clock;
 use super::write::{Places, Which};
 use crate::components::*;
 use crate::order;
 use crate::world::{BodyRecord, PhysicsWorld, Role, Written};
+use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::prelude::*;
 use bevy_math::Vec2;
 use tiny_physics::{BodyId, CharacterMover, Error, MoverInput};
@@ -15,8 +16,8 @@ use tiny_physics::{BodyId, CharacterMover, Error, MoverInput};
 pub(crate) fn add(
     mut physics: ResMut<PhysicsWorld>,
     scene: Scene,
-    changed: Query<(Entity, &Character), Changed<Character>>,
-    all: Query<(Entity, &Character)>,
+    changed: Query<(Entity, &Character), (Changed<Character>, WithDisabled)>,
+    all: Query<(Entity, &Character), WithDisabled>,
     moved: Moved,
     mut problems: Problems,
 ) {
@@ -26,13 +27,16 @@ pub(crate) fn add(
         |entity| all.contains(entity),
         |entity| moved.contains(entity),
     );
-    let again = again.into_iter().filter(|entity| !changed.contains(*entity));
+    let switched = physics.notes.switched.iter().copied();
+    let switched = switched.filter(|entity| physics.maps.characters.contains_key(entity));
+    let again = again.into_iter().chain(switched).filter(|entity| !changed.contains(*entity));
     let again = again.filter_map(|entity| all.get(entity).ok());
     let asked: Vec<_> =
         if physics.fresh { all.iter().collect() } else { changed.iter().chain(again).collect() };
     let mut new = Vec::new();
     for (entity, character) in asked {
         if physics.maps.characters.contains_key(&entity) {
+            switch(physics, entity, !scene.is_disabled(entity));
             let result = change(physics, entity, character);
             problems.check(entity, "character", result);
         } else if scene.is_body(entity) || scene.is_collider(entity) {
@@ -40,7 +44,9 @@ pub(crate) fn add(
         } else if let Some(frame) = scene.frame(entity) {
             let mut mover = CharacterMover::new(frame.p, character.height, character.radius);
             character.apply(&mut mover);
-            new.push((entity, (scene.order(entity), mover.describe_body()), mover));
+            let enabled = !scene.is_disabled(entity);
+            let body = tiny_physics::RigidBody { enabled, ..mover.describe_body() };
+            new.push((entity, (scene.order(entity), body), mover));
         }
     }
     new.sort_by(|a, b| {
@@ -65,6 +71,13 @@ pub(crate) fn add(
 const BOTH: Error = Error::Unsupported {
     reason: "a character has a form of its own; put colliders and bodies on other entities",
 };
+
+/// What a character is seen by is there while the character takes part.
+fn switch(physics: &mut PhysicsWorld, entity: Entity, enabled: bool) {
+    if let Some(mut body) = physics.own_body_mut(entity) {
+        body.set_enabled(enabled);
+    }
+}
 
 fn change(physics: &mut PhysicsWorld, entity: Entity, said: &Character) -> Result<(), Error> {
     let PhysicsWorld { world, maps, .. } = physics;
@@ -92,17 +105,18 @@ fn in_order(physics: &PhysicsWorld) -> Vec<(BodyId, Entity)> {
     order
 }
 
-/// Moves every character on by a step.
+/// Moves every character on by a step, but for those that are disabled.
 pub(crate) fn walk(
     mut physics: ResMut<PhysicsWorld>,
     clock: Clock,
     mut inputs: Query<&mut CharacterInput>,
+    disabled: Query<(), With<Disabled>>,
 ) {
     if !physics.stepped {
         return;
     }
     let physics = &mut *physics;
-    for (_, entity) in in_order(physics) {
+    for (_, entity) in in_order(physics).into_iter().filter(|(_, who)| !disabled.contains(*who)) {
         let Some(mover) = physics.maps.characters.get_mut(&entity) else { continue };
         let mut asked = MoverInput::default();
         if let Ok(mut input) = inputs.get_mut(entity) {
@@ -118,7 +132,7 @@ pub(crate) fn walk(
 /// Writes places and states of characters to their entities.
 pub(crate) fn tell(
     mut physics: ResMut<PhysicsWorld>,
-    mut states: Query<&mut CharacterState>,
+    mut states: Query<&mut CharacterState, WithDisabled>,
     mut places: Places,
 ) {
     let physics = &mut *physics;

@@ -1,7 +1,7 @@
 //! Colliders: shapes of bodies, and their surfaces.
 
 use super::problems::Problems;
-use super::scene::{Moved, Scene};
+use super::scene::{Moved, Scene, WithDisabled};
 use crate::components::*;
 use crate::order;
 use crate::world::{BodyRecord, PhysicsWorld, Role, ShapesRecord, Written};
@@ -28,15 +28,16 @@ type Shifted = (
     Without<RigidBody>,
     Or<(With<ChildOf>, With<Children>)>,
     Or<(Changed<Transform>, Changed<ChildOf>)>,
+    WithDisabled,
 );
 
 /// Makes the world's shapes what colliders say.
 pub(crate) fn read(
     mut physics: ResMut<PhysicsWorld>,
     scene: Scene,
-    changed: Query<Entity, (With<Collider>, ColliderChange)>,
+    changed: Query<Entity, (With<Collider>, ColliderChange, WithDisabled)>,
     shifted: Query<Entity, Shifted>,
-    all: Query<Entity, With<Collider>>,
+    all: Query<Entity, (With<Collider>, WithDisabled)>,
     moved: Moved,
     mut problems: Problems,
 ) {
@@ -59,6 +60,9 @@ pub(crate) fn read(
     let mut lone = Vec::new();
     for entity in asked {
         let owner = scene.owner(entity);
+        if owner.is_some_and(|owner| is_left(physics, &scene, entity, owner)) {
+            continue;
+        }
         let body = owner.or(physics.lone(entity).map(|_| entity));
         match (scene.shapes(entity, owner), body) {
             (Ok(shapes), Some(owner)) => {
@@ -83,6 +87,13 @@ pub(crate) fn read(
     }
 }
 
+/// Is a collider left as it is, since its body takes no part either? It is read when one of the two is enabled.
+fn is_left(physics: &PhysicsWorld, scene: &Scene, entity: Entity, owner: Entity) -> bool {
+    let record = physics.maps.shapes.get(&entity);
+    let is_there = record.is_some_and(|record| Some(record.body) == physics.own_body(owner));
+    is_there && owner != entity && scene.is_disabled(entity) && scene.is_disabled(owner)
+}
+
 /// A static body for a collider that belongs to none.
 fn lone_body(
     scene: &Scene,
@@ -90,7 +101,8 @@ fn lone_body(
     shapes: Vec<ShapeDef>,
 ) -> Option<(Entity, (u64, tiny_physics::RigidBody))> {
     let frame = scene.frame(entity)?;
-    let body = tiny_physics::RigidBody { shapes, ..tiny_physics::RigidBody::fixed() };
+    let enabled = !scene.is_disabled(entity);
+    let body = tiny_physics::RigidBody { shapes, enabled, ..tiny_physics::RigidBody::fixed() };
     Some((entity, (scene.order(entity), body.position(frame.p).angle(frame.q.angle()))))
 }
 
@@ -153,13 +165,13 @@ fn change(
     })
 }
 
-/// A lone collider below something goes with it.
+/// A lone collider takes part unless it is disabled, and goes with what it is below.
 fn place_lone(physics: &mut PhysicsWorld, scene: &Scene, entity: Entity) {
-    if !scene.is_below(entity) {
-        return;
-    }
-    let (Some(frame), Some(id)) = (scene.frame(entity), physics.lone(entity)) else { return };
-    if let Some(mut body) = physics.world.body_mut(id).filter(|body| body.pose() != frame.pose()) {
+    let Some(id) = physics.lone(entity) else { return };
+    let Some(mut body) = physics.world.body_mut(id) else { return };
+    body.set_enabled(!scene.is_disabled(entity));
+    let frame = scene.frame(entity).filter(|_| scene.is_below(entity));
+    if let Some(frame) = frame.filter(|frame| body.pose() != frame.pose()) {
         body.set_pose(frame.pose());
     }
 }

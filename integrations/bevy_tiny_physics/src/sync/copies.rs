@@ -1,5 +1,6 @@
 //! A copy of the world that has come in, as rollback does it: components follow it.
 
+use super::scene::WithDisabled;
 use super::write::{self, Places, Which};
 use crate::components::Velocity;
 use crate::world::PhysicsWorld;
@@ -9,7 +10,7 @@ use bevy_ecs::prelude::*;
 pub(crate) fn take_over(
     mut physics: ResMut<PhysicsWorld>,
     mut places: Places,
-    velocities: Query<(Entity, &mut Velocity)>,
+    velocities: Query<(Entity, &mut Velocity), WithDisabled>,
 ) {
     if !physics.fresh {
         return;

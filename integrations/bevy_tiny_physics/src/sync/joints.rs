@@ -1,40 +1,43 @@
 //! Joints.
 
 use super::problems::Problems;
+use super::scene::WithDisabled;
 use crate::components::Joint;
 use crate::messages::JointBroke;
 use crate::order;
 use crate::world::{JointRecord, PhysicsWorld};
+use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::prelude::*;
 use tiny_physics::{BodyId, Error, JointDef};
 
 /// Adds joints that are new or whose bodies have come, and changes others to what they say.
 pub(crate) fn read(
     mut physics: ResMut<PhysicsWorld>,
-    changed: Query<(Entity, &Joint), Changed<Joint>>,
-    all: Query<(Entity, &Joint)>,
+    changed: Query<Entity, (Changed<Joint>, WithDisabled)>,
+    all: Query<(Entity, &Joint, Has<Disabled>)>,
     mut problems: Problems,
 ) {
     let physics = &mut *physics;
     let waiting = core::mem::take(&mut physics.maps.waiting);
-    let mut asked: Vec<_> = waiting.iter().filter_map(|entity| all.get(*entity).ok()).collect();
-    asked.extend(&changed);
+    let switched = core::mem::take(&mut physics.notes.switched);
+    let told = waiting.iter().copied().chain(switched).chain(&changed);
+    let mut asked: Vec<_> = told.filter_map(|entity| all.get(entity).ok()).collect();
     if physics.fresh {
         asked.extend(&all);
     }
-    asked.sort_unstable_by_key(|(entity, _)| *entity);
-    asked.dedup_by_key(|(entity, _)| *entity);
+    asked.sort_unstable_by_key(|(entity, ..)| *entity);
+    asked.dedup_by_key(|(entity, ..)| *entity);
     let mut new = Vec::new();
-    for (entity, joint) in asked {
+    for (entity, joint, is_disabled) in asked {
         let bodies = physics.body_id(joint.a).zip(physics.body_id(joint.b));
         let record =
             physics.maps.joints.get(&entity).map(|record| record.bodies == (joint.a, joint.b));
         match (bodies, record) {
             (Some(_), Some(true)) => {
-                let result = change(physics, entity, joint);
+                let result = change(physics, entity, joint, is_disabled);
                 problems.check(entity, "joint", result);
             }
-            (Some(bodies), _) => new.push((bodies, entity, joint)),
+            (Some(bodies), _) => new.push((bodies, entity, joint, is_disabled)),
             (None, _) => {
                 physics.remove_joint(entity);
                 if !waiting.contains(&entity) {
@@ -44,9 +47,11 @@ pub(crate) fn read(
             }
         }
     }
-    new.sort_by_cached_key(|(bodies, _, joint)| (*bodies, order::text(&joint.def)));
-    for (bodies, entity, joint) in new {
-        let result = add(physics, entity, bodies, joint);
+    new.sort_by_cached_key(|(bodies, _, joint, is_disabled)| {
+        (*bodies, order::text(&joint.def), *is_disabled)
+    });
+    for (bodies, entity, joint, is_disabled) in new {
+        let result = add(physics, entity, bodies, joint, is_disabled);
         problems.check(entity, "joint", result);
     }
 }
@@ -61,20 +66,33 @@ fn add(
     entity: Entity,
     (a, b): (BodyId, BodyId),
     joint: &Joint,
+    is_disabled: bool,
 ) -> Result<(), Error> {
-    let id = physics.world.add_joint(a, b, joint.def)?;
+    let id = physics.world.add_joint(a, b, switched(joint.def, is_disabled))?;
     physics.remove_joint(entity);
-    physics.enter_joint(entity, JointRecord { id, bodies: (joint.a, joint.b), def: joint.def });
+    let (bodies, def) = ((joint.a, joint.b), joint.def);
+    physics.enter_joint(entity, JointRecord { id, bodies, def, is_disabled });
     Ok(())
 }
 
-fn change(physics: &mut PhysicsWorld, entity: Entity, joint: &Joint) -> Result<(), Error> {
+/// What a joint is that its entity may switch off.
+fn switched(said: JointDef, is_disabled: bool) -> JointDef {
+    JointDef { enabled: said.enabled && !is_disabled, ..said }
+}
+
+fn change(
+    physics: &mut PhysicsWorld,
+    entity: Entity,
+    joint: &Joint,
+    is_disabled: bool,
+) -> Result<(), Error> {
     let PhysicsWorld { world, maps, .. } = physics;
     match maps.joints.get_mut(&entity) {
-        Some(record) if record.def != joint.def => {
+        Some(record) if (record.def, record.is_disabled) != (joint.def, is_disabled) => {
             let now = world.joint(record.id).map(|now| *now.def());
-            world.set_joint(record.id, kept_anchors(&joint.def, &record.def, now))?;
-            record.def = joint.def;
+            let def = kept_anchors(&joint.def, &record.def, now);
+            world.set_joint(record.id, switched(def, is_disabled))?;
+            (record.def, record.is_disabled) = (joint.def, is_disabled);
             Ok(())
         }
         _ => Ok(()),
@@ -107,7 +125,7 @@ pub(crate) struct BrokenHere;
 pub(crate) fn take_off_broken(
     mut physics: ResMut<PhysicsWorld>,
     mut broken: MessageReader<JointBroke>,
-    joints: Query<(), With<Joint>>,
+    joints: Query<(), (With<Joint>, WithDisabled)>,
     mut commands: Commands,
 ) {
     for joint in broken.read() {

@@ -1,9 +1,11 @@
 //! What is taken off entities, or despawned, leaves the world.
 
 use super::joints::{self, BrokenHere};
+use super::scene::WithDisabled;
 use crate::components::*;
 use crate::world::{JointRecord, PhysicsWorld, Role};
 use bevy_app::prelude::*;
+use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::prelude::*;
 
 /// Components are watched by observers: those of fixed schedules must not miss what happens in frames without a step.
@@ -31,7 +33,9 @@ pub(crate) fn watch(app: &mut App) {
         .add_observer(of_collider::<CollisionEvents>)
         .add_observer(of_collider::<HitEvents>)
         .add_observer(of_collider::<ChildOf>)
-        .add_observer(taken_off);
+        .add_observer(taken_off)
+        .add_observer(disabled)
+        .add_observer(enabled);
 }
 
 fn gone<C: Component>(removed: On<Remove, C>, mut physics: ResMut<PhysicsWorld>) {
@@ -46,6 +50,14 @@ fn of_collider<C: Component>(removed: On<Remove, C>, mut physics: ResMut<Physics
     physics.notes.colliders.push(removed.entity);
 }
 
+fn disabled(added: On<Add, Disabled>, mut physics: ResMut<PhysicsWorld>) {
+    physics.notes.switch(added.entity);
+}
+
+fn enabled(removed: On<Remove, Disabled>, mut physics: ResMut<PhysicsWorld>) {
+    physics.notes.switch(removed.entity);
+}
+
 /// A body that has lost its parent stays where it is, and so its transform says something else.
 fn taken_off(removed: On<Remove, ChildOf>, mut physics: ResMut<PhysicsWorld>) {
     let record = physics.maps.bodies.get(&removed.entity);
@@ -54,16 +66,16 @@ fn taken_off(removed: On<Remove, ChildOf>, mut physics: ResMut<PhysicsWorld>) {
 }
 
 /// Has a joint, or one broke there.
-type HadJoint = Or<(With<Joint>, With<BrokenHere>)>;
+type HadJoint = (Or<(With<Joint>, With<BrokenHere>)>, WithDisabled);
 
 /// Removes what nothing asks for any more. In a copy that has just come in everybody is looked at, and has again what broke since.
 pub(crate) fn remove_gone(
     mut physics: ResMut<PhysicsWorld>,
-    bodies: Query<(), With<RigidBody>>,
-    colliders: Query<(), With<Collider>>,
-    characters: Query<(), With<Character>>,
+    bodies: Query<(), (With<RigidBody>, WithDisabled)>,
+    colliders: Query<(), (With<Collider>, WithDisabled)>,
+    characters: Query<(), (With<Character>, WithDisabled)>,
     joints: Query<Has<Joint>, HadJoint>,
-    tiles: Query<(), With<TileMap>>,
+    tiles: Query<(), (With<TileMap>, WithDisabled)>,
     mut commands: Commands,
 ) {
     let physics = &mut *physics;

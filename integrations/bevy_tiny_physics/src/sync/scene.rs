@@ -2,11 +2,15 @@
 
 use crate::components::*;
 use crate::frame::{Frame, frame_through, scaled};
+use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::prelude::*;
-use bevy_ecs::query::QueryData;
+use bevy_ecs::query::{Allow, QueryData};
 use bevy_ecs::system::SystemParam;
 use bevy_transform::prelude::Transform;
 use tiny_physics::{BodyKind, Error, Locks, ShapeDef};
+
+/// Queries leave out what is disabled if they do not say this. Physics has to know it: it is there, but takes no part.
+pub(crate) type WithDisabled = Allow<Disabled>;
 
 /// What a body is told by.
 #[derive(QueryData)]
@@ -18,6 +22,7 @@ pub(crate) struct BodyParts {
     locks: Option<&'static LockedAxes>,
     mass: Option<&'static Mass>,
     enabled: Option<&'static Enabled>,
+    disabled: Has<Disabled>,
     can_sleep: Option<&'static CanSleep>,
     order: Option<&'static BodyOrder>,
 }
@@ -39,22 +44,23 @@ pub(crate) struct ColliderParts {
 
 #[derive(SystemParam)]
 pub(crate) struct Scene<'w, 's> {
-    transforms: Query<'w, 's, &'static Transform>,
-    parents: Query<'w, 's, &'static ChildOf>,
-    children: Query<'w, 's, &'static Children>,
+    transforms: Query<'w, 's, &'static Transform, WithDisabled>,
+    parents: Query<'w, 's, &'static ChildOf, WithDisabled>,
+    children: Query<'w, 's, &'static Children, WithDisabled>,
     bodies: Query<'w, 's, BodyParts>,
-    colliders: Query<'w, 's, ColliderParts>,
-    orders: Query<'w, 's, &'static BodyOrder>,
+    colliders: Query<'w, 's, ColliderParts, WithDisabled>,
+    orders: Query<'w, 's, &'static BodyOrder, WithDisabled>,
+    disabled: Query<'w, 's, (), With<Disabled>>,
 }
 
 /// Entities that stand somewhere else, or below something else.
-type Shift = Or<(Changed<Transform>, Changed<ChildOf>)>;
+type Shift = (Or<(Changed<Transform>, Changed<ChildOf>)>, WithDisabled);
 
 /// Places that changed since a system looked last.
 #[derive(SystemParam)]
 pub(crate) struct Moved<'w, 's> {
     moved: Query<'w, 's, (), Shift>,
-    parents: Query<'w, 's, &'static ChildOf>,
+    parents: Query<'w, 's, &'static ChildOf, WithDisabled>,
 }
 
 impl Moved<'_, '_> {
@@ -69,6 +75,10 @@ impl Moved<'_, '_> {
 impl Scene<'_, '_> {
     pub fn is_body(&self, entity: Entity) -> bool {
         self.bodies.contains(entity)
+    }
+
+    pub fn is_disabled(&self, entity: Entity) -> bool {
+        self.disabled.contains(entity)
     }
 
     pub fn is_collider(&self, entity: Entity) -> bool {
@@ -142,14 +152,18 @@ impl Scene<'_, '_> {
             gravity_scale: parts.gravity_scale.map_or(1.0, |scale| scale.0),
             locks: parts.locks.map_or(Locks::default(), locks),
             mass: parts.mass.map(|mass| mass.0),
-            enabled: parts.enabled.is_none_or(|enabled| enabled.0),
+            enabled: !parts.disabled && parts.enabled.is_none_or(|enabled| enabled.0),
             can_sleep: parts.can_sleep.is_none_or(|can_sleep| can_sleep.0),
             ..tiny_physics::RigidBody::default()
         })
     }
 
-    /// The shapes of a collider in the frame of its body, scaled as the entity is; without an owner in the collider's own.
+    /// The shapes of a collider in the frame of its body, scaled as the entity is; without an owner in the collider's own. None of one that is
+    /// disabled alone, of a body that takes part.
     pub fn shapes(&self, collider: Entity, owner: Option<Entity>) -> Result<Vec<ShapeDef>, Error> {
+        if owner.is_some_and(|owner| self.is_disabled(collider) && !self.is_disabled(owner)) {
+            return Ok(Vec::new());
+        }
         let local = self.frame_in(owner.unwrap_or(collider), collider);
         let (Ok(parts), Some(local)) = (self.colliders.get(collider), local) else {
             return Ok(Vec::new());

@@ -1,8 +1,10 @@
 //! Components follow the world: transforms and velocities.
 
+use super::scene::WithDisabled;
 use crate::components::{RigidBody, Velocity};
 use crate::frame::{Frame, Parts, frame_through};
 use crate::world::{BodyRecord, PhysicsWorld, Role, Written};
+use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemParam;
 use bevy_math::Vec2;
@@ -21,9 +23,10 @@ pub(crate) enum Which {
 /// Writes places to transforms, through parents.
 #[derive(SystemParam)]
 pub(crate) struct Places<'w, 's> {
-    transforms: Query<'w, 's, &'static mut Transform>,
-    parents: Query<'w, 's, &'static ChildOf>,
-    nested: Query<'w, 's, Entity, (With<RigidBody>, With<ChildOf>)>,
+    transforms: Query<'w, 's, &'static mut Transform, WithDisabled>,
+    parents: Query<'w, 's, &'static ChildOf, WithDisabled>,
+    nested: Query<'w, 's, Entity, (With<RigidBody>, With<ChildOf>, WithDisabled)>,
+    disabled: Query<'w, 's, (), With<Disabled>>,
 }
 
 impl Places<'_, '_> {
@@ -66,7 +69,10 @@ impl Places<'_, '_> {
         let maps = &mut physics.maps;
         for (entity, mover) in &maps.characters {
             let Some(record) = maps.bodies.get_mut(entity) else { continue };
-            let frame = Frame { p: position(mover).to_vec2(), ..Frame::IDENTITY };
+            // One that is disabled has not moved in the last step.
+            let is_disabled = self.disabled.contains(*entity);
+            let p = if is_disabled { mover.position } else { position(mover) };
+            let frame = Frame { p: p.to_vec2(), ..Frame::IDENTITY };
             self.place(which, *entity, record, frame);
         }
     }
@@ -121,7 +127,7 @@ pub(crate) fn transforms(mut physics: ResMut<PhysicsWorld>, mut places: Places) 
 /// Writes velocities.
 pub(crate) fn velocities(
     mut physics: ResMut<PhysicsWorld>,
-    mut velocities: Query<(Entity, &mut Velocity)>,
+    mut velocities: Query<(Entity, &mut Velocity), WithDisabled>,
 ) {
     let PhysicsWorld { world, maps, .. } = &mut *physics;
     for (entity, mut velocity) in &mut velocities {

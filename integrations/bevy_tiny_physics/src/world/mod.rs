@@ -11,9 +11,10 @@ use bevy_math::{Quat, Vec2};
 use bevy_transform::prelude::Transform;
 use refused::Refused;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 use tiny_physics::{
     Body, BodyId, BodyKind, BodyMut, CharacterMover, JointDef, JointId, JointRef, Locks, ShapeDef,
-    ShapeId, TileGridId,
+    ShapeId, TileGrid, TileGridId,
 };
 
 /// All of physics: bodies, joints, characters, and which entity is which. A plain value, so that a frame to go back to is a copy:
@@ -26,8 +27,8 @@ use tiny_physics::{
 /// ```
 ///
 /// A copy that takes the place of the resource writes place and velocity of every body to its entity at the next step; what entities
-/// say in the meantime of places and velocities is dropped. Whatever else the components of bodies, colliders and joints say by now holds, and a
-/// joint that broke since is on its entity again. Bodies whose entities are gone go; entities that the copy does not know are added as
+/// say in the meantime of places and velocities is dropped. Whatever else the components of bodies, colliders, joints and tile maps say by now holds, and
+/// a joint that broke since is on its entity again. Bodies whose entities are gone go; entities that the copy does not know are added as
 /// new ones. Where a rollback despawns and spawns again, [`MapEntities`] takes the copy to the new entities.
 #[derive(Resource, Debug)]
 pub struct PhysicsWorld {
@@ -71,11 +72,20 @@ pub(crate) struct Notes {
     pub bodies: Vec<Entity>,
     /// What a collider is told by, and parents.
     pub colliders: Vec<Entity>,
+    /// What Bevy's `Disabled` came on or went off.
+    pub switched: Vec<Entity>,
     /// Bodies of which the place is to be written, even if they do not move: they may have been placed by hand, or taken off a parent.
     pub placed: BTreeSet<BodyId>,
 }
 
 impl Notes {
+    /// Notes that an entity takes part no longer, or again.
+    pub fn switch(&mut self, entity: Entity) {
+        for list in [&mut self.bodies, &mut self.colliders, &mut self.switched] {
+            list.push(entity);
+        }
+    }
+
     /// All that something was taken off.
     pub fn taken_off(&self) -> impl Iterator<Item = Entity> + '_ {
         self.gone.iter().chain(&self.bodies).chain(&self.colliders).copied()
@@ -195,6 +205,16 @@ pub(crate) struct JointRecord {
     pub id: JointId,
     pub bodies: (Entity, Entity),
     pub def: JointDef,
+    /// Was its entity disabled then?
+    pub is_disabled: bool,
+}
+
+/// A tile map, as it was asked for.
+#[derive(Clone, Debug)]
+pub(crate) struct TilesRecord {
+    pub id: TileGridId,
+    /// What the component said last; copies share it.
+    pub said: Arc<TileGrid>,
 }
 
 /// From entities to handles and back.
@@ -206,7 +226,7 @@ pub(crate) struct Maps {
     /// Joints that wait for their bodies.
     pub waiting: EntityHashSet,
     pub refused: Refused,
-    pub tiles: EntityHashMap<TileGridId>,
+    pub tiles: EntityHashMap<TilesRecord>,
     pub characters: EntityHashMap<CharacterMover>,
     pub body_entities: Handles,
     pub shape_entities: Handles,
@@ -354,7 +374,7 @@ impl PhysicsWorld {
 
     fn tiles_entity(&self, body: BodyId) -> Option<Entity> {
         let grid = self.world.tiles_of(body)?;
-        self.maps.tiles.iter().find(|(_, id)| **id == grid).map(|(entity, _)| *entity)
+        self.maps.tiles.iter().find(|(_, record)| record.id == grid).map(|(entity, _)| *entity)
     }
 }
 
@@ -381,8 +401,8 @@ impl MapEntities for PhysicsWorld {
             handles.map_entities(mapper);
         }
         maps.refused.map_entities(mapper);
-        let Notes { gone, bodies, colliders, placed: _ } = &mut self.notes;
-        for entity in [gone, bodies, colliders].into_iter().flatten() {
+        let Notes { gone, bodies, colliders, switched, placed: _ } = &mut self.notes;
+        for entity in [gone, bodies, colliders, switched].into_iter().flatten() {
             *entity = mapper.get_mapped(*entity);
         }
     }

@@ -1,6 +1,6 @@
 //! Entering things into the tables of a world, and taking them out, with what belongs to them.
 
-use super::{BodyRecord, JointRecord, Maps, PhysicsWorld, Role, ShapesRecord};
+use super::{BodyRecord, JointRecord, Maps, PhysicsWorld, Role, ShapesRecord, TilesRecord};
 use bevy_ecs::prelude::*;
 use tiny_physics::{BodyId, BodyMut, Error, ShapeDef};
 
@@ -141,7 +141,7 @@ impl PhysicsWorld {
     }
 
     pub(crate) fn remove_tiles(&mut self, entity: Entity) {
-        let Some(id) = self.maps.tiles.remove(&entity) else { return };
+        let Some(TilesRecord { id, .. }) = self.maps.tiles.remove(&entity) else { return };
         for body in self.world.body_ids().filter(|body| self.world.tiles_of(*body) == Some(id)) {
             self.maps.body_entities.note_removed(body.to_bits(), entity);
         }
