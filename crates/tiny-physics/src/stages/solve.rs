@@ -281,7 +281,7 @@ impl Solver {
                 contacts(stores, Pass::WarmStartJointed);
             }
             let relaxed = |stores: &mut Stores<'_>| joints(stores, joint_solver::Pass::Relax);
-            bounces.hand_on((team, level), &parameters, stores, relaxed);
+            bounces.hand_on((team, level), &parameters, stores, listed, relaxed);
             for _ in 0..lengths.iterations {
                 joints(stores, joint_solver::Pass::Solve);
                 contacts(stores, Pass::Solve);
