@@ -298,6 +298,7 @@ impl Solver {
             passivity.run(stores.bodies);
             broken.note(stores.joint_graph, 1.0 / h);
         }
+        broken.find();
         joints(stores, joint_solver::Pass::Finish);
         tree_contacts.give_back(stores);
         bounces.end(stores.graph);
