@@ -296,9 +296,8 @@ impl Solver {
                 contacts(stores, if last { Pass::RelaxLast } else { Pass::Relax });
             }
             passivity.run(stores.bodies);
-            broken.note(stores.joint_graph, 1.0 / h);
+            broken.note(stores.joint_graph, 1.0 / h, substep + 1 == lengths.substeps);
         }
-        broken.find();
         joints(stores, joint_solver::Pass::Finish);
         tree_contacts.give_back(stores);
         bounces.end(stores.graph);

@@ -342,8 +342,9 @@ impl Broken {
         }));
     }
 
-    /// Notes what the joints bear in this substep. `inv_h` is 1 / substep length.
-    pub(crate) fn note(&mut self, graph: &JointGraph, inv_h: f32) {
+    /// Notes what the joints bear in this substep; in the `last` one, which of them bore more than they can. `inv_h` is
+    /// 1 / substep length.
+    pub(crate) fn note(&mut self, graph: &JointGraph, inv_h: f32, last: bool) {
         for Breakable { colour, class, slot, most, greatest, breaks, .. } in &mut self.listed {
             let load = load_of(&graph.colours.list()[*colour as usize], *class, *slot, inv_h);
             *breaks |= !(load.force.length() <= most.force && load.torque.abs() <= most.torque);
@@ -354,11 +355,7 @@ impl Broken {
                 greatest.torque = load.torque;
             }
         }
-    }
-
-    /// After the last substep finds those that bore more than they can.
-    pub(crate) fn find(&mut self) {
-        let broken = self.listed.iter().filter(|joint| joint.breaks);
+        let broken = self.listed.iter().filter(|joint| last && joint.breaks);
         self.found.extend(broken.map(|joint| (joint.index, joint.greatest)));
     }
 }
