@@ -514,3 +514,28 @@ fn what_hits_a_tree_bounces_off_all_of_it() {
     let back = world.body(ball).unwrap().velocity().x;
     assert!((back + 5.0).abs() < 0.3, "{back} m/s");
 }
+
+/// What has settled on a tree stays where it is as steps become longer, as on ground.
+#[test]
+fn longer_steps_move_nothing_on_a_tree() {
+    for (before, after) in [(240.0, 30.0), (120.0, 60.0)] {
+        let mut world = sleepless();
+        let mut last = world.add_body(RigidBody::fixed()).unwrap();
+        for i in 0..4 {
+            let bar = add_bar(&mut world, i as f32 + 0.5, 0.0, 0.0);
+            let weld = JointDef::weld().anchor_at(Vec2::new(i as f32, 0.0));
+            world.add_joint(last, bar, weld).unwrap();
+            last = bar;
+        }
+        let load = [0.0, 0.5, 1.0, 1.5]
+            .map(|up| add(&mut world, 1.5, 0.35 + up, rect(0.25, 0.25).density(30.0)))[0];
+        (0..(3.0 * before) as usize).for_each(|_| world.step(1.0 / before));
+        assert_eq!(in_trees(&world), 4, "not the case that this is about");
+        let start = y(&world, load);
+        for step in 0..(2.0 * after) as usize {
+            world.step(1.0 / after);
+            let moved = (y(&world, load) - start).abs();
+            assert!(moved < 1.0e-4, "{before} to {after} Hz, step {step}: {moved}");
+        }
+    }
+}
