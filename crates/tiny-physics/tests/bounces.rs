@@ -215,3 +215,27 @@ fn slow_balls_bounce_without_gravity() {
         assert!((up - restitution * speed).abs() < 1e-3, "{restitution} at {speed}: {up}");
     }
 }
+
+/// What hangs on a body that is hit keeps the speed that the bounce gave it.
+#[test]
+fn what_is_welded_and_hit_on_a_floor_keeps_its_speed() {
+    let mut world = World::new(Vec2::new(0.0, -10.0));
+    world.settings.sleep = false;
+    slab(&mut world, Vec2::new(0.0, -1.0), Vec2::new(50.0, 1.0));
+    let crates = [3.0, 4.0].map(|x| {
+        let shape = elastic(Shape::rect(0.5, 0.5).expect("a crate"));
+        let body = RigidBody::dynamic().position(Vec2::new(x, 0.5)).mass(1.0).shape(shape);
+        world.add_body(body).expect("a crate")
+    });
+    let weld = JointDef::weld().anchor_at(Vec2::new(3.5, 0.5));
+    world.add_joint(crates[0], crates[1], weld).expect("a weld");
+    let ball = elastic(Shape::circle(0.3).expect("a ball"));
+    let ball = RigidBody::dynamic().position(Vec2::new(0.0, 0.5)).mass(1.0).shape(ball);
+    let ball = ball.velocity(Vec2::new(5.0, 0.0)).gravity_scale(0.0);
+    let ball = world.add_body(ball).expect("a ball");
+    steps(&mut world, 90);
+    let speed = |id| world.body(id).expect("a body").velocity().x;
+    let away = crates.map(speed);
+    assert!(away.iter().all(|v| (v - 10.0 / 3.0).abs() < 0.2), "{away:?} {}", speed(ball));
+    assert!((speed(ball) + 5.0 / 3.0).abs() < 0.2, "{}", speed(ball));
+}

@@ -5,7 +5,7 @@ mod common;
 
 use common::*;
 use tiny_physics::{
-    BodyId, DVec2, Error, FixedStep, Pose, RigidBody, Rot, ShapeDef, ShapeId, Vec2, World,
+    BodyId, DVec2, Error, FixedStep, JointDef, Pose, RigidBody, Rot, ShapeDef, ShapeId, Vec2, World,
 };
 
 const NOT_FINITE: [f32; 3] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
@@ -421,5 +421,30 @@ fn one_wild_step_is_forgotten() {
         steps(&mut world, 60);
         let top = position(&world, crates[2]);
         assert!((top.y - 2.5).abs() < 0.02 && top.x.abs() < 0.01, "{dt}: {top:?}");
+    }
+}
+
+/// Nothing at all asked of a joint's softness is none, and no number that is none.
+#[test]
+fn the_softest_joint_freezes_nothing() {
+    let mut world = World::new(Vec2::ZERO);
+    let [a, b] = [0.0, 3.0].map(|x| drop_at(&mut world, circle(0.5), x, 0.0));
+    world.add_joint(a, b, JointDef::weld().softness(1.0e-44, 0.0)).unwrap();
+    world.step(DT);
+    assert_eq!(world.stats().frozen_bodies, 0);
+}
+
+/// A ratio beyond what floats can be squared at is refused.
+#[test]
+fn enormous_ratios_are_refused() {
+    let pulley = JointDef::pulley(DVec2::ZERO, DVec2::new(1.0, 0.0), 5.0);
+    for ratio in [f32::MAX, 1.1e9, 0.9e-9, 1.0e-44] {
+        for def in [JointDef::gear(ratio), JointDef::gear(-ratio), pulley.ratio(ratio)] {
+            assert!(matches!(def.validate(), Err(Error::OutOfRange { name: "ratio", .. })));
+        }
+    }
+    for ratio in [1.0e9, 1.0e-9] {
+        assert_eq!(JointDef::gear(-ratio).validate(), Ok(()));
+        assert_eq!(pulley.ratio(ratio).validate(), Ok(()));
     }
 }

@@ -152,7 +152,7 @@ described_enum! {
             ground_b: DVec2,
             /// Length of the rope, metres.
             length: f32,
-            /// How much faster A's end runs than B's, above 0: 2 is a block and tackle on B.
+            /// How much faster A's end runs than B's, 1e-9 to 1e9: 2 is a block and tackle on B.
             ratio: f32,
         } = 8,
         /// Couples motions of two bodies against the world (not against a carrier that turns):
@@ -160,7 +160,7 @@ described_enum! {
         /// direction is given, of the anchor's place along it (metres). The bodies keep their own hinges
         /// and sliders.
         Gear {
-            /// Turns (or metres) of A per turn (or metre) of B, the other way round; not 0.
+            /// Turns (or metres) of A per turn (or metre) of B, the other way round, 1e-9 to 1e9 or minus that.
             ratio: f32,
             /// A slides in this direction of the world, as a rack; `None`: A turns.
             slide_a: Option<Vec2> = default,
@@ -544,10 +544,10 @@ impl JointKind {
                 Error::check_finite_point("ground_a", ground_a)?;
                 Error::check_finite_point("ground_b", ground_b)?;
                 Error::check_positive("length", length)?;
-                Error::check_positive("ratio", ratio)
+                check_ratio(ratio)
             }
             Self::Gear { ratio, slide_a, slide_b } => {
-                Error::check("ratio", ratio, ratio != 0.0, "not 0")?;
+                check_ratio(ratio.abs())?;
                 check_direction("slide_a", slide_a)?;
                 check_direction("slide_b", slide_b)
             }
@@ -592,6 +592,11 @@ fn check_spring(name: &'static str, spring: Option<Spring>) -> Result<(), Error>
         Error::check_positive(name, spring.hertz)?;
         Error::check_not_negative(name, spring.damping_ratio)
     })
+}
+
+/// Beyond that inverse masses would be infinite.
+fn check_ratio(ratio: f32) -> Result<(), Error> {
+    Error::check("ratio", ratio, (1.0e-9..=1.0e9).contains(&ratio), "1e-9 to 1e9")
 }
 
 fn check_direction(name: &'static str, direction: Option<Vec2>) -> Result<(), Error> {

@@ -170,6 +170,8 @@ pub(crate) struct JointTree {
     pub(crate) fresh: bool,
     /// The bodies are about to move, or have moved since.
     pub(crate) moved: bool,
+    /// Nothing but its contacts has acted on it since it was solved.
+    pub(crate) solved: bool,
     /// The factorisation is of the rows now.
     pub(crate) factored: bool,
 }
@@ -185,6 +187,7 @@ clone_by_field!(JointTree {
     begun,
     fresh,
     moved,
+    solved,
     factored
 });
 footprint!(JointTree { nodes, links, axes } none {
@@ -195,6 +198,7 @@ footprint!(JointTree { nodes, links, axes } none {
     begun,
     fresh,
     moved,
+    solved,
     factored
 });
 

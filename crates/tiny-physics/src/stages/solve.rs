@@ -281,7 +281,7 @@ impl Solver {
                 contacts(stores, Pass::WarmStartJointed);
             }
             let relaxed = |stores: &mut Stores<'_>| joints(stores, joint_solver::Pass::Relax);
-            bounces.hand_on((team, level), &parameters, stores, relaxed);
+            bounces.hand_on((team, level), &parameters, stores, listed, relaxed);
             for _ in 0..lengths.iterations {
                 joints(stores, joint_solver::Pass::Solve);
                 contacts(stores, Pass::Solve);
@@ -296,7 +296,7 @@ impl Solver {
                 contacts(stores, if last { Pass::RelaxLast } else { Pass::Relax });
             }
             passivity.run(stores.bodies);
-            broken.note(stores.joint_graph, 1.0 / h);
+            broken.note(stores.joint_graph, 1.0 / h, substep + 1 == lengths.substeps);
         }
         joints(stores, joint_solver::Pass::Finish);
         tree_contacts.give_back(stores);

@@ -114,6 +114,8 @@ struct Point {
     /// At the start of the step, and now.
     separation: f32,
     now: f32,
+    /// See [`super::rests`]: for the two bodies alone.
+    rest: f32,
     normal: Line,
     tangent: Line,
     impulse: f32,
@@ -273,15 +275,17 @@ impl TreeContacts {
         if pass == Pass::Solve {
             self.update(level, rows, forest);
         }
+        let constants = Constants::new((), parameters);
         let Self { answers, touches, used, velocities, responses, moved, .. } = self;
         if let Pass::WarmStart | Pass::WarmStartJointed = pass {
-            touches.iter_mut().for_each(|touch| touch.warm_start(rows, pass == Pass::WarmStart));
+            let first = (pass == Pass::WarmStart).then_some(&constants);
+            touches.iter_mut().for_each(|touch| touch.warm_start(rows, first));
             return;
         }
         if core::mem::replace(moved, pass == Pass::Solve) && pass != Pass::Solve {
             touches.iter_mut().for_each(|touch| touch.part(rows));
         }
-        let (answers, constants) = (&answers[..*used], Constants::new((), parameters));
+        let answers = &answers[..*used];
         answers.iter().for_each(|answers| answers.load(velocities, rows));
         let mut all = Velocities { of_trees: velocities, responses, rows };
         dispatch_fours(level, RunPass(pass, &constants, touches, &mut all));
@@ -328,12 +332,15 @@ impl Touch {
         }
         let mut points = [Point::default(); 2];
         let (x, y) = (constraint.normal_x[lane], constraint.normal_y[lane]);
-        for (point, lanes) in points.iter_mut().zip(&constraint.points) {
+        let asked = |flag: u8, value: f32| if flags & flag != 0 { value } else { 0.0 };
+        let rests = [surface.rest_1[lane], surface.rest_2[lane]];
+        for ((point, lanes), rest) in points.iter_mut().zip(&constraint.points).zip(rests) {
             let arms = [lanes.normal_arm_a[lane], lanes.normal_arm_b[lane]];
             let tangent_arms = [lanes.tangent_arm_a[lane], lanes.tangent_arm_b[lane]];
             *point = Point {
                 there: lanes.normal_mass[lane] > 0.0,
                 separation: lanes.separation[lane],
+                rest: asked(flags::RESTS, rest),
                 normal: Line::new([x, y], arms, lanes.normal_mass[lane]),
                 tangent: Line::new([y, -x], tangent_arms, lanes.tangent_mass[lane]),
                 impulse: lanes.normal_impulse[lane],
@@ -342,7 +349,6 @@ impl Touch {
                 ..Point::default()
             };
         }
-        let asked = |flag: u8, value: f32| if flags & flag != 0 { value } else { 0.0 };
         Self {
             at,
             sides,
@@ -368,6 +374,7 @@ impl Touch {
         }
         surface.rolling_impulse[lane] = self.rolling_impulse;
         [surface.total_1[lane], surface.total_2[lane]] = self.points.map(|point| point.total);
+        [surface.rest_1[lane], surface.rest_2[lane]] = self.points.map(|point| point.rest);
         bucket.heads[block].flags &= !flags::TAKEN;
     }
 
@@ -388,8 +395,9 @@ impl Touch {
     }
 
     /// Applies the impulses of the substep before to the two bodies alone: the tree is solved next.
-    fn warm_start(&mut self, rows: &mut [Row], first: bool) {
-        for (k, side) in self.sides.iter().enumerate().filter(|(_, side)| first || side.jointed) {
+    fn warm_start(&mut self, rows: &mut [Row], first: Option<&Constants<f32>>) {
+        let sides = self.sides.iter().enumerate();
+        for (k, side) in sides.filter(|(_, side)| first.is_some() || side.jointed) {
             let row = &mut rows[side.body as usize];
             let inverse = inverses::<f32>((), row);
             for point in &self.points {
@@ -398,9 +406,13 @@ impl Touch {
             }
             push_body(row, inverse, ABOUT[k], self.rolling_impulse);
         }
-        if first {
+        if let Some(constants) = first {
             self.part(rows);
-            self.points.iter_mut().for_each(|point| point.load = point.impulse);
+            let [rate, _, scale] = self.softness(constants);
+            for point in self.points.iter_mut().filter(|point| point.there) {
+                point.load = point.impulse;
+                point.rest = point.rest.min(scale / rate * (point.impulse / point.normal.alone));
+            }
         }
     }
 
@@ -413,6 +425,12 @@ impl Touch {
         }
     }
 
+    #[inline(always)]
+    fn softness(&self, constants: &Constants<f32>) -> [f32; 3] {
+        let fixed = self.sides[0].fixed || self.sides[1].fixed;
+        if fixed { constants.static_soft } else { constants.soft }
+    }
+
     /// Normal impulses; see the kernels of [`super::contact_solver`].
     #[inline(always)]
     fn solve<const BIAS: bool>(
@@ -420,15 +438,17 @@ impl Touch {
         constants: &Constants<f32>,
         velocities: &mut Velocities<'_>,
     ) {
+        let soft = self.softness(constants);
         let Self { sides, points, .. } = self;
-        let fixed = sides[0].fixed || sides[1].fixed;
-        let soft = if fixed { constants.static_soft } else { constants.soft };
         for point in points {
             if !point.there {
                 continue;
             }
             let (line, old) = (&point.normal, point.impulse);
-            let at = [point.now, velocities.along(sides, line), 0.0];
+            // What is heavier sinks less.
+            let full = (point.rest - point.separation) * (line.alone / line.mass);
+            let rest = if point.rest > 0.0 { (full + point.separation).max(0.0) } else { 0.0 };
+            let at = [point.now, velocities.along(sides, line), rest];
             point.impulse = normal_impulse::<f32, BIAS>(constants, soft, at, line.mass, old);
             velocities.push(sides, line, point.impulse - old);
         }

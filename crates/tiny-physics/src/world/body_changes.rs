@@ -230,9 +230,9 @@ impl World {
         }
     }
 
-    /// The joints of a body with the body at the other end, ascending.
+    /// The joints of a body that do anything, with the body at the other end, ascending.
     pub(super) fn joints_and_partners(&self, body: u32) -> Vec<(u32, u32)> {
-        let joints = self.state.joints_of(body);
+        let joints = self.state.joints_of(body).filter(|(_, joint)| joint.class().is_some());
         let mut joints: Vec<(u32, u32)> = joints.map(|(i, joint)| (i, joint.other(body))).collect();
         joints.sort_unstable();
         joints

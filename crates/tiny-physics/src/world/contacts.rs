@@ -392,7 +392,8 @@ impl World {
     fn carried_by(&self, index: u32) -> Vec<u32> {
         let contacts = self.state.contacts_of(index).filter(|(_, contact)| self.is_close(contact));
         let contacts = contacts.map(|(_, contact)| contact.other(index));
-        let joints = self.state.joints_of(index).map(|(_, joint)| joint.other(index));
+        let joints = self.state.joints_of(index).filter(|(_, joint)| joint.class().is_some());
+        let joints = joints.map(|(_, joint)| joint.other(index));
         let mut others: Vec<u32> = contacts.chain(joints).collect();
         others.reverse();
         others

@@ -68,7 +68,9 @@ impl Softness {
         let a1 = 2.0 * damping_ratio + h * omega;
         let a2 = h * omega * a1;
         let a3 = 1.0 / (1.0 + a2);
-        Self { bias_rate: omega / a1, mass_scale: a2 * a3, impulse_scale: a3 }
+        // Of next to nothing, without damping.
+        let bias_rate = if a1 > 0.0 { omega / a1 } else { 1.0 / h };
+        Self { bias_rate, mass_scale: a2 * a3, impulse_scale: a3 }
     }
 }
 

@@ -312,6 +312,9 @@ struct Breakable {
     class: JointClass,
     slot: u32,
     most: Break,
+    /// Greatest force and greatest torque of the substeps, maybe of two.
+    greatest: JointLoad,
+    breaks: bool,
 }
 
 /// The joints that can break, and those that do.
@@ -334,35 +337,25 @@ impl Broken {
             let most = record.def.break_at?;
             let (place, class, slot) = record.lanes().filter(|at| pace_at(at.0) == pace)?;
             let colour = graph.colours.position(place) as u32;
-            Some(Breakable { index, colour, class, slot, most })
+            let greatest = JointLoad::default();
+            Some(Breakable { index, colour, class, slot, most, greatest, breaks: false })
         }));
     }
 
-    /// Notes the joints whose load in this substep is beyond what they bear; of several substeps the greatest force and
-    /// the greatest torque stay. `inv_h` is 1 / substep length.
-    pub(crate) fn note(&mut self, graph: &JointGraph, inv_h: f32) {
-        let Self { listed, found } = self;
-        let known = found.len();
-        for &Breakable { index, colour, class, slot, most } in &*listed {
-            let load = load_of(&graph.colours.list()[colour as usize], class, slot, inv_h);
-            if load.force.length() <= most.force && load.torque.abs() <= most.torque {
-                continue;
+    /// Notes what the joints bear in this substep; in the `last` one, which of them bore more than they can. `inv_h` is
+    /// 1 / substep length.
+    pub(crate) fn note(&mut self, graph: &JointGraph, inv_h: f32, last: bool) {
+        for Breakable { colour, class, slot, most, greatest, breaks, .. } in &mut self.listed {
+            let load = load_of(&graph.colours.list()[*colour as usize], *class, *slot, inv_h);
+            *breaks |= !(load.force.length() <= most.force && load.torque.abs() <= most.torque);
+            if load.force.length_sq() > greatest.force.length_sq() {
+                greatest.force = load.force;
             }
-            match found[..known].binary_search_by_key(&index, |&(index, _)| index) {
-                Err(_) => found.push((index, load)),
-                Ok(at) => {
-                    let most = &mut found[at].1;
-                    if load.force.length_sq() > most.force.length_sq() {
-                        most.force = load.force;
-                    }
-                    if load.torque.abs() > most.torque.abs() {
-                        most.torque = load.torque;
-                    }
-                }
+            if load.torque.abs() > greatest.torque.abs() {
+                greatest.torque = load.torque;
             }
         }
-        if found.len() > known {
-            found.sort_unstable_by_key(|&(index, _)| index);
-        }
+        let broken = self.listed.iter().filter(|joint| last && joint.breaks);
+        self.found.extend(broken.map(|joint| (joint.index, joint.greatest)));
     }
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::describe::JointDef;
+use crate::describe::{JointDef, JointKind, Spring};
 use crate::math::Rot;
 
 #[test]
@@ -219,6 +219,27 @@ fn a_joint_breaks_by_a_peak_within_a_step() {
         assert_eq!(jerk(slack, 1.1 * most, 4).1, None);
     }
     assert!(hidden > 0, "some peaks are over at the end of their step");
+}
+
+/// Force and torque that a break tells may be of two substeps.
+#[test]
+fn a_break_tells_the_greatest_force_and_torque_of_the_step() {
+    let mut world = World::new(Vec2::ZERO);
+    let anchor = world.add_body(RigidBody::fixed()).unwrap();
+    let body = RigidBody::dynamic().angular_velocity(8.0).shape(rect(0.5, 0.5));
+    let body = world.add_body(body).unwrap();
+    let mut drive = JointDef::drive().break_at(10.0, f32::MAX);
+    if let JointKind::Motor { velocity, max_force, angular_spring, max_spring_torque, .. } =
+        &mut drive.kind
+    {
+        (*velocity, *max_force) = (Vec2::X, 1.0e6);
+        *angular_spring = Some(Spring { hertz: 1.0, damping_ratio: 0.0 });
+        *max_spring_torque = 1.0e6;
+    }
+    world.add_joint(anchor, body, drive).unwrap();
+    world.step(DT);
+    let [broken] = world.events().joint_breaks() else { panic!("it did not break once") };
+    assert!(broken.force.x > 10.0 && broken.torque.abs() > 0.5, "{broken:?}");
 }
 
 #[test]

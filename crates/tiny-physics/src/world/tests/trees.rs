@@ -492,3 +492,50 @@ fn motors_in_a_tree_hold_an_arm_still() {
         assert!(body.velocity().length() < 0.005, "{links} {substeps}: {:?}", body.velocity());
     }
 }
+
+/// What hits a body of a tree bounces off all that hangs on it, up to what it is nailed to.
+#[test]
+fn what_hits_a_tree_bounces_off_all_of_it() {
+    let elastic = || rect(0.5, 0.5).friction(0.0).restitution(1.0);
+    let mut world = World::new(Vec2::ZERO);
+    world.settings.sleep = false;
+    let wall = world.add_body(RigidBody::fixed().position(Vec2::new(4.5, 0.0))).unwrap();
+    let [near, far] = [3.0, 4.0].map(|x| {
+        let body = RigidBody::dynamic().position(Vec2::new(x, 0.0)).mass(1.0).shape(elastic());
+        world.add_body(body).unwrap()
+    });
+    for (a, b, x) in [(near, far, 3.5), (far, wall, 4.5)] {
+        world.add_joint(a, b, JointDef::weld().anchor_at(Vec2::new(x, 0.0))).unwrap();
+    }
+    let ball = RigidBody::dynamic().velocity(Vec2::new(5.0, 0.0)).mass(1.0).shape(elastic());
+    let ball = world.add_body(ball).unwrap();
+    run(&mut world, 60);
+    assert_eq!(in_trees(&world), 2, "not the case that this is about");
+    let back = world.body(ball).unwrap().velocity().x;
+    assert!((back + 5.0).abs() < 0.3, "{back} m/s");
+}
+
+/// What has settled on a tree stays where it is as steps become longer, as on ground.
+#[test]
+fn longer_steps_move_nothing_on_a_tree() {
+    for (before, after) in [(240.0, 30.0), (120.0, 60.0)] {
+        let mut world = sleepless();
+        let mut last = world.add_body(RigidBody::fixed()).unwrap();
+        for i in 0..4 {
+            let bar = add_bar(&mut world, i as f32 + 0.5, 0.0, 0.0);
+            let weld = JointDef::weld().anchor_at(Vec2::new(i as f32, 0.0));
+            world.add_joint(last, bar, weld).unwrap();
+            last = bar;
+        }
+        let load = [0.0, 0.5, 1.0, 1.5]
+            .map(|up| add(&mut world, 1.5, 0.35 + up, rect(0.25, 0.25).density(30.0)))[0];
+        (0..(3.0 * before) as usize).for_each(|_| world.step(1.0 / before));
+        assert_eq!(in_trees(&world), 4, "not the case that this is about");
+        let start = y(&world, load);
+        for step in 0..(2.0 * after) as usize {
+            world.step(1.0 / after);
+            let moved = (y(&world, load) - start).abs();
+            assert!(moved < 3.0e-4, "{before} to {after} Hz, step {step}: {moved}");
+        }
+    }
+}

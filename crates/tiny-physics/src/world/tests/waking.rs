@@ -424,6 +424,26 @@ fn joints_that_do_nothing_put_nobody_to_sleep() {
     }
 }
 
+#[test]
+fn joints_that_do_nothing_wake_nobody() {
+    for joint in [JointDef { enabled: false, ..JointDef::rope(30.0) }, JointDef::filter()] {
+        let mut world = world();
+        add_ground(&mut world);
+        let body = sleeper(&mut world, 0.0);
+        let sign = world.add_body(fixed(20.0, 5.0, circle(0.5))).unwrap();
+        world.add_joint(sign, body, joint).unwrap();
+        world.body_mut(sign).unwrap().set_position(Vec2::new(21.0, 5.0));
+        assert!(!is_awake(&world, body), "moved: {joint:?}");
+        world.body_mut(sign).unwrap().set_kind(BodyKind::Kinematic);
+        assert!(!is_awake(&world, body), "of another kind: {joint:?}");
+        world.body_mut(sign).unwrap().set_enabled(false);
+        world.body_mut(sign).unwrap().set_enabled(true);
+        assert!(!is_awake(&world, body), "taken out: {joint:?}");
+        run(&mut world, 5);
+        assert!(!is_awake(&world, body));
+    }
+}
+
 /// It moves or it stands, but is no belt.
 #[test]
 fn a_platform_added_asleep_with_a_velocity_moves() {

@@ -120,7 +120,7 @@ impl Bounces {
                 let (a, b) = graph.bucket(hit.at.place, hit.at.class).bodies(hit.at.slot);
                 is_joined(a) || is_joined(b)
             }));
-            self.leave((team, level), parameters, stores, |_| {});
+            self.leave((team, level), parameters, stores, &[], |_| {});
             let Stores { bodies, contacts, graph, .. } = stores;
             if first {
                 let waiting = self.waiting.iter().filter(|&&body| bodies.is_dynamic(body));
@@ -137,6 +137,7 @@ impl Bounces {
         (team, level): (&Team, SimdLevel),
         parameters: &Parameters,
         stores: &mut Stores<'_>,
+        listed: &[u32],
         joints: impl Fn(&mut Stores<'_>),
     ) {
         self.hits.clone_from(&self.joined);
@@ -146,7 +147,7 @@ impl Bounces {
         self.hits.retain_mut(|hit| hit.keep(stores.graph, rows));
         if !self.hits.is_empty() {
             self.changes.clear();
-            self.leave((team, level), parameters, stores, joints);
+            self.leave((team, level), parameters, stores, listed, joints);
         }
     }
 
@@ -181,20 +182,24 @@ impl Bounces {
         }
     }
 
-    /// Lets what hits leave, and notes how that changes its bodies. `joints` is run before each iteration.
+    /// Lets what hits leave, and notes how that changes its bodies. `joints` is run before each iteration; they move those of the
+    /// bodies `listed` that have any.
     fn leave(
         &mut self,
         (team, level): (&Team, SimdLevel),
         parameters: &Parameters,
         stores: &mut Stores<'_>,
+        listed: &[u32],
         joints: impl Fn(&mut Stores<'_>),
     ) {
         let Self { hits, batches, changes, told, .. } = self;
         let Stores { bodies, graph, .. } = stores;
         let count = copy_out(team, graph, hits, batches);
         let batches = &mut batches[..count];
-        let both = batches.iter().flat_map(Batch::bodies).filter(|&body| bodies.is_dynamic(body));
-        changes.extend(both.map(|body| {
+        let is_joined = |body: &u32| bodies.infos[*body as usize].first_joint != NULL;
+        let joined = listed.iter().copied().filter(is_joined);
+        let all = batches.iter().flat_map(Batch::bodies).chain(joined);
+        changes.extend(all.filter(|&body| bodies.is_dynamic(body)).map(|body| {
             let (row, start) = (&bodies.rows[body as usize], &bodies.starts[body as usize]);
             (body, [0, 1, 2].map(|k| row[k] - start[k]))
         }));

@@ -279,7 +279,7 @@ fn joints_break_at_their_threshold() {
     rig.run(1.0);
     let mut broken = Broken::default();
     broken.list(&rig.graph, &rig.joints, PLAIN);
-    broken.note(&rig.graph, rig.inv_h());
+    broken.note(&rig.graph, rig.inv_h(), true);
     let indices: Vec<u32> = broken.found.iter().map(|(index, _)| *index).collect();
     assert_eq!(indices, expected);
     for (_, load) in broken.found {

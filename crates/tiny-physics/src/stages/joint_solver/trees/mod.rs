@@ -150,7 +150,8 @@ fn run_tree<S: Simd>(
 ) {
     let again = match pass {
         Pass::Solve => tree.moved,
-        Pass::Relax => !tree.moved,
+        // Before the first solve of a substep it is of bounces, which leave no joint as it is.
+        Pass::Relax => !tree.moved && tree.solved,
         _ => false,
     };
     if again && tree.is_undisturbed() {
@@ -163,6 +164,7 @@ fn run_tree<S: Simd>(
     }
     rows::load(tree, bodies);
     tree.moved = pass == Pass::Solve;
+    tree.solved = pass == Pass::Solve || tree.solved && pass == Pass::Relax;
     match pass {
         Pass::WarmStart => {
             if is_jointed(tree.pace) {
