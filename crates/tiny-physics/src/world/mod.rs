@@ -195,9 +195,8 @@ impl World {
         self.wake_disturbed();
         let lengths = self.follow_lengths(lengths);
         self.refresh_surfaces();
-        if self.is_at_rest() {
-            self.stay_at_rest(lengths);
-            return self.stats.rest();
+        if self.rests(lengths) {
+            return;
         }
 
         self.reach_ahead(team, lengths);
@@ -224,18 +223,6 @@ impl World {
         // A hook may have asked in the middle of the step.
         self.moved.take();
         watch.lap(&mut self.stats, Stage::Sleep);
-    }
-
-    /// Is there nothing that a step could move or see move?
-    fn is_at_rest(&self) -> bool {
-        let State { bodies, broad_phase, waiting, sensors, events, .. } = &self.state;
-        let sees = !sensors.shapes.is_empty() || !sensors.overlaps.is_empty();
-        bodies.awake.is_empty()
-            && bodies.pressed.is_empty()
-            && broad_phase.moved().is_empty()
-            && waiting.pairs.is_empty()
-            && !(sees && sensors.any_changed)
-            && events.sensor_end.is_empty()
     }
 
     /// Checks the step's numbers and divides them up.

@@ -6,6 +6,7 @@ use crate::broad_phase::ProxyKind;
 use crate::describe::BodyKind;
 use crate::dynamics::Change;
 use crate::geometry::{LINEAR_SLOP, collide};
+use crate::stages::solve::Lengths;
 use core::ops::ControlFlow;
 
 impl World {
@@ -26,6 +27,23 @@ impl World {
         for body in self.buried_sleepers() {
             self.wake_index(body);
         }
+    }
+
+    /// Is there nothing that a step could move or see move? Then it is over.
+    pub(super) fn rests(&mut self, lengths: Lengths) -> bool {
+        let State { bodies, broad_phase, waiting, sensors, events, .. } = &self.state;
+        let sees = !sensors.shapes.is_empty() || !sensors.overlaps.is_empty();
+        let rests = bodies.awake.is_empty()
+            && bodies.pressed.is_empty()
+            && broad_phase.moved().is_empty()
+            && waiting.pairs.is_empty()
+            && !(sees && sensors.any_changed)
+            && events.sensor_end.is_empty();
+        if rests {
+            self.stay_at_rest(lengths);
+            self.stats.rest();
+        }
+        rests
     }
 
     /// Wakes all dynamic bodies.
