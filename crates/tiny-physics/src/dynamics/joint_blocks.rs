@@ -230,8 +230,8 @@ joint_lanes! {
         /// In the world's axes at the start of the step.
         x: f32 = 1.0,
         y: f32 = 0.0,
-        /// In the world's axes as of the last relax pass; zero before.
-        now_x: f32 = 0.0,
+        /// In the world's axes as of the last relax pass.
+        now_x: f32 = 1.0,
         now_y: f32 = 0.0,
     }
 }
@@ -288,8 +288,8 @@ joint_lanes! {
     /// A distance and its direction.
     LengthLanes {
         length: f32 = 0.0,
-        /// From A to B as of the last relax pass; zero before.
-        now_x: f32 = 0.0,
+        /// From A to B as of the last relax pass.
+        now_x: f32 = 1.0,
         now_y: f32 = 0.0,
     }
 }
@@ -383,8 +383,8 @@ joint_lanes! {
         arm_b_y: f32 = 0.0,
         ratio: f32 = 1.0,
         length: f32 = 0.0,
-        /// From the fixed point of B to its anchor as of the last relax pass; zero before.
-        now_x: f32 = 0.0,
+        /// From the fixed point of B to its anchor as of the last relax pass.
+        now_x: f32 = 1.0,
         now_y: f32 = 0.0,
     }
 }

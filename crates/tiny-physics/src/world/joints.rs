@@ -153,7 +153,7 @@ impl<'a> JointRef<'a> {
     }
 
     /// Force on body B in the last step, newtons. The opposite acts on A, but for pulleys, whose rope pulls A its own way, and
-    /// mouse joints, which pull B alone. Zero while it sleeps; after it woke or was changed maybe until the next step.
+    /// mouse joints, which pull B alone. Zero while it sleeps.
     pub fn force(&self) -> Vec2 {
         self.load().force
     }

@@ -365,38 +365,3 @@ fn light_things_rise_together_as_their_drag_lets_them() {
         assert!(speed > 0.7 * still, "case {case}: {speed} m/s for {still}");
     }
 }
-
-/// A joint that is changed, or whose bodies wake, tells no force across its own direction.
-#[test]
-fn a_changed_joint_tells_no_force_across_itself() {
-    let pulley = JointDef::pulley(DVec2::new(-1.0, 5.0), DVec2::new(0.0, 5.0), 8.0);
-    let slider = JointDef::prismatic(Vec2::X).limits(-2.0, 2.0);
-    let rod = JointDef::distance(2.0);
-    let below = (RigidBody::fixed(), -2.0);
-    let beside = (RigidBody::fixed(), 0.0);
-    let over = RigidBody::dynamic().position(Vec2::new(-1.0, 0.0)).shape(circle(0.2)).mass(1.0);
-    for (def, (hook, y)) in [(rod, below), (slider, beside), (pulley, (over, 2.0))] {
-        for sleeps in [false, true] {
-            let mut world = world();
-            world.settings.sleep = false;
-            let hook = world.add_body(hook.clone()).unwrap();
-            let load = RigidBody::dynamic().position(Vec2::new(0.0, y)).shape(circle(0.2));
-            let load = world.add_body(load.mass(1.0)).unwrap();
-            let joint = world.add_joint(hook, load, def).unwrap();
-            (0..60).for_each(|_| world.step(DT));
-            let before = world.joint(joint).unwrap().force();
-            assert!((before - Vec2::new(0.0, 10.0)).length() < 0.2, "{before:?}");
-            if sleeps {
-                world.body_mut(load).unwrap().sleep();
-                world.body_mut(load).unwrap().wake();
-            } else {
-                let softer = def.softness(30.0, 1.0);
-                world.joint_mut(joint).unwrap().set_def(softer).unwrap();
-            }
-            let force = world.joint(joint).unwrap().force();
-            assert!(force.x.abs() < 0.1, "{def:?} {sleeps}: {force:?}");
-            let off = (force - before).length();
-            assert!(off < 0.2 || force == Vec2::ZERO, "{def:?} {sleeps}: {force:?}");
-        }
-    }
-}
