@@ -40,6 +40,7 @@ impl World {
             && !(sees && sensors.any_changed)
             && events.sensor_end.is_empty();
         if rests {
+            self.state.waiting.stale = false;
             self.stay_at_rest(lengths);
             self.stats.rest();
         }

@@ -357,5 +357,7 @@ impl Broken {
         }
         let broken = self.listed.iter().filter(|joint| last && joint.breaks);
         self.found.extend(broken.map(|joint| (joint.index, joint.greatest)));
+        // Of several paces.
+        self.found.sort_unstable_by_key(|&(index, _)| index);
     }
 }
