@@ -239,3 +239,37 @@ fn what_is_welded_and_hit_on_a_floor_keeps_its_speed() {
     assert!(away.iter().all(|v| (v - 10.0 / 3.0).abs() < 0.2), "{away:?} {}", speed(ball));
     assert!((speed(ball) + 5.0 / 3.0).abs() < 0.2, "{}", speed(ball));
 }
+
+/// Pairs of elastic crates, hinged or welded, in a closed box. A bounce is taken back so far as joints do it for it: where a point only
+/// ever got more, 5 of 48 such boxes had gained more than a hundredth at some time; now one, by 8 %.
+#[test]
+fn joined_elastic_crates_gain_no_energy() {
+    let mut random = Random::new(11);
+    let mut hot = Vec::new();
+    for member in 0..48 {
+        let mut world = walled(Vec2::ZERO, 5.0);
+        let mut crates = Vec::new();
+        for group in 0..4 {
+            let place = Vec2::new(random.range(-3.5, 2.4), 2.3 * group as f32 - 3.6);
+            let velocity = Vec2::new(random.range(-4.0, 4.0), random.range(-4.0, 4.0));
+            let pair = [0.0, 1.1].map(|x| {
+                let body = RigidBody::dynamic().position(place + Vec2::new(x, 0.0));
+                let shape = elastic(Shape::rect(0.5, 0.5).unwrap());
+                world.add_body(body.velocity(velocity).shape(shape).mass(1.0)).unwrap()
+            });
+            let joint = if member % 2 == 0 { JointDef::revolute() } else { JointDef::weld() };
+            let joint = joint.anchor_at(place + Vec2::new(0.55, 0.0));
+            world.add_joint(pair[0], pair[1], joint).unwrap();
+            crates.extend(pair);
+        }
+        let start = energy(&world, &crates);
+        let most = (0..600).fold(1.0_f64, |most, _| {
+            steps(&mut world, 1);
+            most.max(energy(&world, &crates) / start)
+        });
+        if most > 1.01 {
+            hot.push((member, most));
+        }
+    }
+    assert!(hot.len() <= 1, "{hot:.3?}");
+}

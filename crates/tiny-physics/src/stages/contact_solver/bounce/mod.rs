@@ -115,13 +115,14 @@ impl Bounces {
             if self.hits.is_empty() && (!first || self.waiting.is_empty()) {
                 return;
             }
+            let count = self.leave((team, level), parameters, stores, &[], |_| {});
+            let Stores { bodies, contacts, graph, .. } = stores;
             let is_joined = |body: u32| bodies.infos[body as usize].first_joint != NULL;
-            self.joined.extend(self.hits.iter().filter(|hit| {
+            let done = self.batches[..count].iter().flat_map(Batch::done);
+            self.joined.extend(done.filter(|hit| {
                 let (a, b) = graph.bucket(hit.at.place, hit.at.class).bodies(hit.at.slot);
                 is_joined(a) || is_joined(b)
             }));
-            self.leave((team, level), parameters, stores, &[], |_| {});
-            let Stores { bodies, contacts, graph, .. } = stores;
             if first {
                 let waiting = self.waiting.iter().filter(|&&body| bodies.is_dynamic(body));
                 self.changes.extend(waiting.map(|&body| (body, [f32::INFINITY; 3])));
@@ -142,7 +143,13 @@ impl Bounces {
     ) {
         self.hits.clone_from(&self.joined);
         self.hits.sort_by_key(|hit| hit.at.key());
-        self.hits.dedup_by_key(|hit| hit.at.key());
+        self.hits.dedup_by(|later, hit| {
+            let same = later.at.key() == hit.at.key();
+            if same {
+                hit.add(later);
+            }
+            same
+        });
         let rows = SharedRows::new(&mut stores.bodies.rows);
         self.hits.retain_mut(|hit| hit.keep(stores.graph, rows));
         if !self.hits.is_empty() {
@@ -182,7 +189,7 @@ impl Bounces {
         }
     }
 
-    /// Lets what hits leave, and notes how that changes its bodies. `joints` is run before each iteration; they move those of the
+    /// Lets what hits leave, notes how that changes its bodies, and gives the number of batches. `joints` is run before each iteration; they move those of the
     /// bodies `listed` that have any.
     fn leave(
         &mut self,
@@ -191,7 +198,7 @@ impl Bounces {
         stores: &mut Stores<'_>,
         listed: &[u32],
         joints: impl Fn(&mut Stores<'_>),
-    ) {
+    ) -> usize {
         let Self { hits, batches, changes, told, .. } = self;
         let Stores { bodies, graph, .. } = stores;
         let count = copy_out(team, graph, hits, batches);
@@ -219,6 +226,7 @@ impl Bounces {
                 (change[k], start[k]) = (moved - start[k], moved);
             }
         }
+        count
     }
 }
 
@@ -251,7 +259,7 @@ impl Batch {
     /// Copies the contacts out of the graph, with the speeds at which their points are to leave.
     fn fill(&mut self, graph: &Graph) {
         let Self { blocks, aims, hits, .. } = self;
-        for (index, Hit { at: source, targets }) in hits.iter().enumerate() {
+        for (index, Hit { at: source, targets, given }) in hits.iter().enumerate() {
             let (from, at) = (source.slot / BLOCK, source.slot % BLOCK);
             let lane = index % BLOCK;
             if lane == 0 {
@@ -262,9 +270,8 @@ impl Batch {
             let bucket = graph.bucket(source.place, source.class);
             block.copy_lane(lane, &bucket.constraints[from], at);
             (block.body_a[lane], block.body_b[lane]) = bucket.bodies(source.slot);
-            for point in &mut block.points {
-                point.normal_impulse[lane] = 0.0;
-                point.tangent_impulse[lane] = 0.0;
+            for (point, given) in block.points.iter_mut().zip(given) {
+                [point.normal_impulse[lane], point.tangent_impulse[lane]] = *given;
             }
             aims.tangent_speed[lane] = bucket.surfaces[from].tangent_speed[at];
             for (lanes, target) in aims.targets.iter_mut().zip(targets) {
@@ -275,13 +282,21 @@ impl Batch {
 
     /// Lists the impulses that events of hits tell.
     fn tell(&self, graph: &Graph, told: &mut Vec<(At, [f32; 2])>) {
-        for (index, &Hit { at, .. }) in self.hits.iter().enumerate() {
-            let (points, lane) = (&self.blocks[index / BLOCK].points, index % BLOCK);
+        for (before, Hit { at, given, .. }) in self.hits.iter().zip(self.done()) {
             let head = graph.bucket(at.place, at.class).heads[at.slot / BLOCK];
             if head.flags & flags::SUMMED != 0 {
-                told.push((at, [0, 1].map(|k| points[k].normal_impulse[lane])));
+                told.push((at, [0, 1].map(|k| given[k][0] - before.given[k][0])));
             }
         }
+    }
+
+    /// Its hits with all that they were given.
+    fn done(&self) -> impl Iterator<Item = Hit> {
+        self.hits.iter().enumerate().map(|(index, hit)| {
+            let (points, lane) = (&self.blocks[index / BLOCK].points, index % BLOCK);
+            let given = points.each_ref();
+            Hit { given: given.map(|p| [p.normal_impulse[lane], p.tangent_impulse[lane]]), ..*hit }
+        })
     }
 
     fn bodies(&self) -> impl Iterator<Item = u32> {

@@ -47,6 +47,8 @@ pub(super) struct Hit {
     pub(super) at: At,
     /// Speeds at which its points are to leave; 0 for one that does not hit, as yet.
     pub(super) targets: [f32; 2],
+    /// Impulses that its points have had in bounces of the substep: along the normal, along the tangent.
+    pub(super) given: [[f32; 2]; 2],
 }
 
 /// What falls back within this time is as good as at rest, seconds: what forces press together bounces from the speed
@@ -126,14 +128,24 @@ fn pair_of(graph: &Graph, rows: SharedRows<'_>, at: At) -> Pair<f32> {
 }
 
 impl Hit {
+    /// Adds what it was given in another round.
+    pub(super) fn add(&mut self, other: &Self) {
+        for (sum, more) in self.given.iter_mut().flatten().zip(other.given.iter().flatten()) {
+            *sum += more;
+        }
+    }
+
     /// Its points are to leave no faster than they do now: what was handed on is theirs no longer. Is any of it left?
     pub(super) fn keep(&mut self, graph: &Graph, rows: SharedRows<'_>) -> bool {
         let bucket = graph.bucket(self.at.place, self.at.class);
         let (block, lane) = (self.at.slot / BLOCK, self.at.slot % BLOCK);
         let pair = pair_of(graph, rows, self.at);
-        for (target, point) in self.targets.iter_mut().zip(&bucket.constraints[block].points) {
+        for (k, point) in bucket.constraints[block].points.iter().enumerate() {
             let speed = pair.normal_velocity(point.normal_arm_a[lane], point.normal_arm_b[lane]);
-            *target = target.min(speed.max(0.0));
+            self.targets[k] = self.targets[k].min(speed.max(0.0));
+            if self.targets[k] == 0.0 {
+                self.given[k] = [0.0; 2];
+            }
         }
         self.targets != [0.0; 2]
     }
@@ -236,6 +248,6 @@ impl Search<'_> {
                 *target = speed * (1.0 - LOST);
             }
         }
-        any.then_some(Hit { at, targets })
+        any.then_some(Hit { at, targets, given: [[0.0; 2]; 2] })
     }
 }
