@@ -82,7 +82,9 @@ function writable(name, value) {
 const said = (data) => Object.fromEntries(Object.entries(data).filter(([, value]) => value !== undefined));
 
 /** A filter as the module takes it. */
-function sees({ category, mask, group, sensors, excludeBody } = {}) {
+function sees({ category, mask, group, sensors, excludeBody, ...other } = {}) {
+  const [unknown] = Object.keys(other);
+  if (unknown) throw new PhysicsError(`a filter has no ${unknown}`);
   const kinds = said({ category, mask, group });
   const seen = { sensors: !!sensors };
   if (Object.keys(kinds).length) seen.filter = { category: ALL, mask: ALL, ...kinds };
@@ -381,42 +383,50 @@ export class World {
   // Questions.
 
   rayCast(x, y, dx, dy, filter) {
+    takes("rayCast", 4, [x, y, dx, dy]);
     giveQuestion(filter);
     check(wasm.tp_cast(this.session, x, y, dx, dy, false));
     return hits()[0];
   }
 
   rayCastAll(x, y, dx, dy, filter) {
+    takes("rayCastAll", 4, [x, y, dx, dy]);
     giveQuestion(filter);
     check(wasm.tp_cast(this.session, x, y, dx, dy, true));
     return hits();
   }
 
   castShape(shape, x, y, angle, dx, dy, filter) {
+    takes("castShape", 5, [x, y, angle, dx, dy]);
     giveQuestion(filter, shape, angle);
     check(wasm.tp_cast(this.session, x, y, dx, dy, false));
     return hits()[0];
   }
 
   overlapPoint(x, y, filter) {
+    takes("overlapPoint", 2, [x, y]);
     giveQuestion(filter);
     check(wasm.tp_overlap(this.session, x, y));
     return list();
   }
 
   overlapShape(shape, x, y, angle = 0, filter) {
+    takes("overlapShape", 3, [x, y, angle]);
     giveQuestion(filter, shape, angle);
     check(wasm.tp_overlap(this.session, x, y));
     return list();
   }
 
   overlapAabb(left, bottom, right, top, filter) {
+    takes("overlapAabb", 4, [left, bottom, right, top]);
     giveQuestion(filter);
     check(wasm.tp_overlap_aabb(this.session, left, bottom, right, top));
     return list();
   }
 
   closestPoint(x, y, maxDistance, filter) {
+    // All there is may be looked for.
+    takes("closestPoint", 3, [x, y, maxDistance === Infinity ? 0 : maxDistance]);
     giveQuestion(filter);
     check(wasm.tp_closest(this.session, x, y, maxDistance));
     const [shape, body, px, py, distance] = numbers();
@@ -426,6 +436,7 @@ export class World {
   // A pointer that pulls.
 
   grab(x, y) {
+    takes("grab", 2, [x, y]);
     check(wasm.tp_grab(this.session, x, y));
     return numbers()[0];
   }
@@ -712,21 +723,21 @@ export class FixedStep {
   #left = 0;
 
   constructor(dt = 1 / 60, maxSteps = 8) {
-    this.dt = dt;
-    this.maxSteps = maxSteps;
+    this.dt = Number.isFinite(dt) && dt > 0 ? dt : 1 / 60;
+    this.maxSteps = Math.max(maxSteps, 1);
   }
 
   advance(elapsed) {
-    if (!(elapsed > 0)) return 0;
-    this.#left += elapsed;
-    const due = Math.floor(this.#left / this.dt);
+    if (elapsed > 0 && Number.isFinite(elapsed)) this.#left += elapsed;
+    // A millionth of a step of rounding must not cost a step.
+    const due = Math.floor(this.#left / this.dt + 1e-6);
     // What cannot be caught up with is dropped.
-    this.#left = due > this.maxSteps ? 0 : this.#left - due * this.dt;
+    this.#left = due > this.maxSteps ? 0 : Math.max(this.#left - due * this.dt, 0);
     return Math.min(due, this.maxSteps);
   }
 
   get alpha() {
-    return this.#left / this.dt;
+    return Math.min(this.#left / this.dt, 1);
   }
 }
 

@@ -299,6 +299,11 @@ test("questions are answered", () => {
   assert(world.rayCastAll(0, 30, 0, -40).length >= 9);
   assert.equal(world.rayCast(0, 30, 0, -40, { excludeBody: balls[7] }).body, balls[6]);
   assert.equal(world.rayCast(0, 30, 0, -40, { mask: 0 }), undefined);
+  // What is left out or misspelt is told.
+  assert.throws(() => world.rayCast(0, 30, -40), PhysicsError);
+  assert.throws(() => world.overlapPoint(0), PhysicsError);
+  assert.throws(() => world.closestPoint(0, 0), PhysicsError);
+  assert.throws(() => world.rayCast(0, 30, 0, -40, { masks: 1 }), /a filter has no masks/);
   assert.equal(world.castShape({ circle: { radius: 0.2 } }, 0, 30, 0, 0, -40).body, balls[7]);
   assert.deepEqual(world.overlapPoint(0, 2), world.body(balls[0]).shapes);
   assert.equal(world.overlapAabb(-50, -50, 50, 50).length, 9);
@@ -418,6 +423,10 @@ test("steps are even where pictures are not", () => {
   assert.deepEqual([clock.advance(0.025), clock.advance(0.006), clock.advance(1)], [2, 1, 5]);
   assert.equal(clock.advance(NaN), 0);
   assert.equal(new FixedStep().advance(1), 8);
+  // As in Rust: what is no time is none, and rounding costs no step.
+  assert.equal(new FixedStep().advance(Infinity), 0);
+  assert.equal(new FixedStep(NaN).dt, 1 / 60);
+  assert.equal(new FixedStep(0.1).advance(0.3 - 1e-12), 3);
 });
 
 test("worlds that are freed give their memory back", () => {

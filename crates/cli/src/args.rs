@@ -539,9 +539,9 @@ fn size(text: &str) -> Result<(u32, u32), String> {
 }
 
 fn area(text: &str) -> Result<Area, String> {
-    let numbers: Vec<f64> = text.split(',').filter_map(|part| part.trim().parse().ok()).collect();
-    match numbers[..] {
-        [x0, y0, x1, y1]
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok(&[x0, y0, x1, y1])
             if x0 < x1 && y0 < y1 && [x0, y0, x1, y1].iter().all(|x| x.is_finite()) =>
         {
             Ok(Area { min: [x0, y0], max: [x1, y1] })
@@ -581,5 +581,6 @@ mod tests {
         assert!(size("640").is_err() && size("0x0").is_err() && size("axb").is_err());
         assert_eq!(area("-1,-2,3,4.5"), Ok(Area { min: [-1.0, -2.0], max: [3.0, 4.5] }));
         assert!(area("1,1,0,0").is_err() && area("1,2,3").is_err() && area("nan,0,1,1").is_err());
+        assert!(area("1,2,x,3,4").is_err() && area("1,2,3,4,").is_err());
     }
 }
