@@ -370,3 +370,42 @@ fn nets_bear_a_thousand_times_their_knots() {
         assert!(place.y > -1.4 && speed < 0.01, "kind {kind}: {place:?}, {speed} m/s");
     }
 }
+
+/// A chain of links of 1 kg with a ball at its end, a hair out of the plumb, over steps of two lengths in turn: widest gap of its
+/// joints, metres.
+fn widest_gap(links: usize, mass: f32, lengths: [f32; 2]) -> f64 {
+    let mut world = world();
+    let (mut last, mut joints) = (world.add_body(RigidBody::fixed()).unwrap(), Vec::new());
+    for i in 0..=links {
+        let top = -0.5 * i as f32;
+        let part = match i == links {
+            true => RigidBody::dynamic().position(Vec2::new(1e-4, top - 0.5)).mass(mass),
+            false => RigidBody::dynamic().position(Vec2::new(0.0, top - 0.25)).mass(1.0),
+        };
+        let shape = if i == links { rect(0.4, 0.4) } else { rect(0.05, 0.22) };
+        let part = world.add_body(part.can_sleep(false).shape(shape)).unwrap();
+        let hinge = JointDef::revolute().anchor_at(Vec2::new(0.0, top));
+        joints.push(world.add_joint(last, part, hinge).unwrap());
+        last = part;
+    }
+    let mut widest = 0.0_f64;
+    for step in 0..1200 {
+        world.step(lengths[step % 2]);
+        for &joint in &joints {
+            let (a, b) = world.joint(joint).unwrap().anchors();
+            widest = widest.max((b - a).length());
+        }
+    }
+    widest
+}
+
+#[test]
+fn loaded_chains_hold_as_steps_change() {
+    // Where nothing rubs chains such as the first two open by 0.04 and 0.4 m, at a thousand times the mass by 46 and 59.
+    for (links, short) in [(10, 240.0), (20, 240.0), (20, 120.0)] {
+        let gap = widest_gap(links, 100.0, [1.0 / 30.0, 1.0 / short]);
+        assert!(gap < 0.005, "{links} links, 1/{short} s: {gap}");
+        let gap = widest_gap(links, 1000.0, [1.0 / 30.0, 1.0 / short]);
+        assert!(gap < 0.2, "a thousand times the mass, {links} links, 1/{short} s: {gap}");
+    }
+}

@@ -55,6 +55,8 @@ pub(crate) struct Lengths {
     pub(crate) iterations: u32,
     /// Iterations without bias.
     pub(crate) relaxations: u32,
+    /// Substeps are longer or shorter than in the step before.
+    pub(crate) leaps: bool,
     /// Contacts are as soft as substeps this many times as long make them, at least 1.
     pub(crate) softer: f32,
 }
@@ -65,7 +67,7 @@ impl Lengths {
         let substeps = settings.substeps.clamp(1, 1000);
         let iterations = settings.iterations.clamp(1, 1000);
         let h = dt / substeps as f32;
-        Self { dt, h, substeps, iterations, relaxations: 1, softer: 1.0 }
+        Self { dt, h, substeps, iterations, relaxations: 1, leaps: false, softer: 1.0 }
     }
 
     /// The same, after steps that left a coarse substep behind; gives what is to be left to the next one.
@@ -234,7 +236,7 @@ impl Solver {
         let Self { schedule, squeezed, hit, tree_contacts, bounces, passivity, broken, .. } = self;
         let (jointed, torn) = (&mut self.jointed, &mut self.torn);
         let Rules { settings, gravity, level, lengths: lengths @ Lengths { h, .. } } = rules;
-        let joint_substep = Substep::new(h, settings.length_unit);
+        let joint_substep = Substep::new(h, settings.length_unit, lengths.leaps);
         let parameters = rules.contact_parameters();
         let rounds = |chosen: &mut Chosen, rounds| {
             if chosen.take(stores.graph, pace, 8 * contact_solver::CHUNK) { rounds } else { 0 }

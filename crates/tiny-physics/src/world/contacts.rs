@@ -14,6 +14,9 @@ use crate::stages::touching::Changes;
 use crate::stages::{one_way, paces, pairs, rests, sleep};
 use crate::threads::Team;
 
+/// Part of its length by which a step is another than the one before.
+const LEAP: f32 = 0.1;
+
 /// One point of a contact.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -441,6 +444,7 @@ impl World {
     pub(super) fn follow_lengths(&mut self, lengths: Lengths) -> Lengths {
         let State { graph, joint_graph, inv_h, inv_h_asleep, coarse_h, .. } = &mut self.state;
         let new = 1.0 / lengths.h;
+        let leaps = *inv_h != 0.0 && (*inv_h / new - 1.0).abs() > LEAP;
         if *inv_h_asleep == 0.0 {
             *inv_h_asleep = new;
         } else if *inv_h != new {
@@ -448,7 +452,7 @@ impl World {
             joint_graph.scale(*inv_h / new);
         }
         *inv_h = new;
-        lengths.after(*coarse_h).0
+        Lengths { leaps, ..lengths.after(*coarse_h).0 }
     }
 
     /// Lets what rests stay where it is as contacts become softer or firmer. After the narrow phase, which finds what that goes by anew.

@@ -15,17 +15,18 @@ pub(super) const SNAP: f32 = 0.005;
 /// And this part of it: what is far out of place is there within a second.
 pub(super) const SNAP_SHARE: f32 = 0.015;
 
-/// Length of a substep, seconds, its inverse, and the length unit, metres.
+/// Length of a substep, seconds, its inverse, the length unit, metres, and whether the length is another than in the step before.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Substep {
     pub(crate) h: f32,
     pub(crate) inv_h: f32,
     pub(crate) unit: f32,
+    pub(crate) leaps: bool,
 }
 
 impl Substep {
-    pub(crate) fn new(h: f32, unit: f32) -> Self {
-        Self { h, inv_h: 1.0 / h, unit }
+    pub(crate) fn new(h: f32, unit: f32, leaps: bool) -> Self {
+        Self { h, inv_h: 1.0 / h, unit, leaps }
     }
 }
 
@@ -50,7 +51,7 @@ pub(super) struct Stride<L: Lanes> {
 
 impl<L: Lanes> Stride<L> {
     #[inline(always)]
-    pub(super) fn new(token: L::Token, at: usize, Substep { h, inv_h, unit }: Substep) -> Self {
+    pub(super) fn new(token: L::Token, at: usize, Substep { h, inv_h, unit, .. }: Substep) -> Self {
         Self {
             token,
             at,

@@ -58,7 +58,7 @@ impl Rig {
     }
 
     pub(super) fn pass(&mut self, pass: Pass) {
-        let substep = Substep::new(1.0 / self.inv_h(), 1.0);
+        let substep = Substep::new(1.0 / self.inv_h(), 1.0, false);
         let rows = SharedRows::new(&mut self.bodies.rows);
         let places: Vec<usize> = self.graph.colours.keys().collect();
         for (place, colour) in places.into_iter().zip(self.graph.colours.list_mut()) {
@@ -80,7 +80,7 @@ impl Rig {
         describe(&mut self.graph, &self.joints, &self.bodies.infos, h);
         for colour in self.graph.colours.list_mut() {
             colour.for_each_run(&team, |blocks, count| {
-                prepare(self.level, &self.bodies.poses, Substep::new(h, 1.0), blocks, count);
+                prepare(self.level, &self.bodies.poses, Substep::new(h, 1.0, false), blocks, count);
             });
         }
         for _ in 0..self.substeps {

@@ -157,6 +157,7 @@ fn run_tree<S: Simd>(
     if again && tree.is_undisturbed() {
         return;
     }
+    let brakes = substep.leaps && !tree.begun;
     let rates = Rates::new(substep, tree.pace, pass == Pass::Solve);
     let moved = pass == Pass::Relax && tree.moved;
     if moved || !tree.fresh {
@@ -169,6 +170,9 @@ fn run_tree<S: Simd>(
         Pass::WarmStart => {
             if is_jointed(tree.pace) {
                 rows::damp(tree);
+            }
+            if brakes {
+                rows::brake(tree);
             }
             if swings_freely(tree) {
                 kick(simd, tree, -1.0);

@@ -245,6 +245,23 @@ pub(super) fn damp(tree: &mut JointTree) {
     }
 }
 
+/// Rubs in the joints of what is stiff against turning, where substeps are longer or shorter than before: inertias that go with
+/// their length pump energy into what swings within the tree.
+pub(super) fn brake(tree: &mut JointTree) {
+    let JointTree { nodes, links, .. } = tree;
+    for &TreeLink { a, b, .. } in &*links {
+        let [own, other] = [&nodes[a as usize], &nodes[b as usize]];
+        let (ia, ib) = (own.inv[2], other.inv[2]);
+        let firm = |node: &TreeNode| 1.0 - node.inv[2] / node.own_inv_inertia;
+        if ia > 0.0 && ib > 0.0 {
+            let share = firm(own).max(firm(other));
+            let impulse = share * (other.v[2] - own.v[2]) / (ia + ib);
+            nodes[a as usize].v[2] += ia * impulse;
+            nodes[b as usize].v[2] -= ib * impulse;
+        }
+    }
+}
+
 /// Sums up (in `g`) what the joint's force adds to the stiffness of its bodies against turning.
 ///
 /// Rods turn their force too, which makes beads on them stiff against moving. Counting it into their masses made
