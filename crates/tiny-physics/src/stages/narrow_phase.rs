@@ -647,8 +647,9 @@ impl<L: Lanes> Inverses<L> {
             across = inverse_mass_along(token, [y, x], free_a)
                 + inverse_mass_along(token, [y, x], free_b);
         }
-        let pinned = L::bits(along.min(across).eq(L::splat(token, 0.0))) != 0;
-        Self { along, across, turns: [a[Slot::INV_INERTIA], b[Slot::INV_INERTIA]], pinned }
+        let (turns, zero) = ([a[Slot::INV_INERTIA], b[Slot::INV_INERTIA]], L::splat(token, 0.0));
+        let alone = L::and(along.min(across).eq(zero), zero.lt(turns[0] + turns[1]));
+        Self { along, across, turns, pinned: L::bits(alone) != 0 }
     }
 
     /// Effective masses along normal and tangent.
