@@ -473,3 +473,16 @@ fn a_spring_at_its_greatest_torque_turns_with_it() {
         assert!((told / torque - 1.0).abs() < 0.01, "{torque} N m: {told} N m");
     }
 }
+
+/// Before, a mouse joint braked turning whatever its force was.
+#[test]
+fn a_mouse_joint_of_no_force_does_nothing() {
+    let mut world = space();
+    let ground = wall(&mut world);
+    let body = RigidBody::dynamic().angular_velocity(10.0).velocity((1.0, 0.0));
+    let body = world.add_body(body.shape(rect(0.5, 0.5))).expect("a body");
+    world.add_joint(ground, body, JointDef::mouse((0.0, 0.0), 0.0)).expect("a hand");
+    steps(&mut world, 60);
+    let body = world.body(body).expect("a body");
+    assert_eq!((body.velocity(), body.angular_velocity()), (Vec2::new(1.0, 0.0), 10.0));
+}

@@ -54,7 +54,7 @@ record! {
         pub(crate) sleep_speed: f32 = 0.05,
         /// Smallest half width of a shape: how far it may move before it could jump over something.
         pub(crate) min_extent: f32 = 0.0,
-        /// Greatest distance of a point of a shape from the centre of mass.
+        /// Greatest distance of a point of a shape from the centre of mass. Both of what is solid: sensors change no motion.
         pub(crate) max_extent: f32 = 0.0,
         pub(crate) first_shape: u32 = NULL,
         /// Centre of mass in the body's frame.

@@ -45,18 +45,55 @@ pub(crate) fn locked<L: Lanes>(token: L::Token, [a, b]: [&mut [L; 8]; 2]) -> Opt
     Some([[x_a, y_a], [x_b, y_b]])
 }
 
+/// A direction within .011 rad of a locked axis counts as that: nothing moves along it. The square of that. On others what is locked goes
+/// up to 90 times as far along its free axis as it is pushed; the 9e-8 by which a wall turned by pi is off made lifts beside it fly.
+const LOCKED: f32 = 1.0 / 8192.0;
+
+/// A direction along which only what is locked could give way and so does not: x or y itself.
+#[inline(always)]
+pub(crate) fn straight<L: Lanes>(token: L::Token, [x, y]: [L; 2], linear: L) -> [L; 2] {
+    let (zero, one, least) = (L::splat(token, 0.0), L::splat(token, 1.0), L::splat(token, LOCKED));
+    let fixed = linear.eq(zero);
+    let (flat, steep) = (L::and(fixed, (y * y).lt(least)), L::and(fixed, (x * x).lt(least)));
+    let signs = [L::select(x.lt(zero), -one, one), L::select(y.lt(zero), -one, one)];
+    [
+        L::select(flat, signs[0], L::select(steep, zero, x)),
+        L::select(steep, signs[1], L::select(flat, zero, y)),
+    ]
+}
+
+/// The arm of what turns alone, given that across it: none where it is as good as none.
+#[inline(always)]
+pub(crate) fn lever<L: Lanes>(token: L::Token, arm: L, across: L, linear: L) -> L {
+    let (zero, square) = (L::splat(token, 0.0), arm * arm);
+    let slight = square.lt((square + across * across) * L::splat(token, LOCKED));
+    L::select(L::and(slight, linear.eq(zero)), zero, arm)
+}
+
 /// Inverse mass along a unit direction, of those along x and y. Where these are the same it is that to the bit, as in strides without
 /// anything locked.
 #[inline(always)]
-pub(crate) fn inverse_mass_along<L: Lanes>(direction: [L; 2], [x, y]: [L; 2]) -> L {
-    let along = direction[0] * direction[0] * x + direction[1] * direction[1] * y;
-    L::select(x.eq(y), x, along)
+pub(crate) fn inverse_mass_along<L: Lanes>(
+    token: L::Token,
+    direction: [L; 2],
+    masses: [L; 2],
+) -> L {
+    let squares = [direction[0] * direction[0], direction[1] * direction[1]];
+    let [x, y] = masses;
+    L::select(x.eq(y), x, give(token, squares, masses, x + y))
 }
 
 /// Velocity along a direction of any length per impulse along it, of inverse masses along x and y; likewise.
 #[inline(always)]
-pub(crate) fn give_along<L: Lanes>(direction: [L; 2], [x, y]: [L; 2]) -> L {
+pub(crate) fn give_along<L: Lanes>(token: L::Token, direction: [L; 2], masses: [L; 2]) -> L {
     let squares = [direction[0] * direction[0], direction[1] * direction[1]];
-    let along = x * squares[0] + y * squares[1];
-    L::select(x.eq(y), x * (squares[0] + squares[1]), along)
+    let ([x, y], square) = (masses, squares[0] + squares[1]);
+    L::select(x.eq(y), x * square, give(token, squares, masses, (x + y) * square))
+}
+
+#[inline(always)]
+fn give<L: Lanes>(token: L::Token, squares: [L; 2], [x, y]: [L; 2], both: L) -> L {
+    let along = squares[0] * x + squares[1] * y;
+    let free = along.gt(both * L::splat(token, LOCKED));
+    L::select(free, along, L::splat(token, 0.0))
 }

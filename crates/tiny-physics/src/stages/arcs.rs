@@ -9,7 +9,7 @@ use super::ahead::{HEAVIER, Predictions};
 use super::islands::Stores;
 use crate::dynamics::{
     Bodies, Bucket, ConstraintBlock, Contact, Contacts, Graph, Joints, ManifoldBlock, Place,
-    Shapes, Slot, inverses,
+    Shapes, Slot, inverses, lever, straight,
 };
 use crate::footprint::footprint;
 use crate::geometry::Shape;
@@ -266,6 +266,9 @@ impl Course {
         found: &Manifold,
     ) {
         let normal = frame.q.rotate(found.normal);
+        let linear = self.rows.map(|row| inverses_along(&row, normal)[0]);
+        let [x, y] = straight::<f32>((), [normal.x, normal.y], linear[0] + linear[1]);
+        let normal = Vec2::new(x, y);
         (constraint.normal_x[lane], constraint.normal_y[lane]) = (normal.x, normal.y);
         let name = |k: usize| found.points().get(k).map_or(-1.0, |point| f32::from(point.id));
         let (old, new) = ([known.id_1[lane], known.id_2[lane]], [name(0), name(1)]);
@@ -287,16 +290,18 @@ impl Course {
             point.separation[lane] = place.separation - normal.dot(self.motion) - turned;
             [point.normal_arm_a[lane], point.normal_arm_b[lane]] = along;
             [point.tangent_arm_a[lane], point.tangent_arm_b[lane]] = across;
-            point.normal_mass[lane] = self.mass(normal, along);
-            point.tangent_mass[lane] = self.mass(normal.perp(), across);
+            point.normal_mass[lane] = self.mass(normal, [along, across]);
+            point.tangent_mass[lane] = self.mass(normal.perp(), [across, along]);
         }
     }
 
-    /// Effective mass along an axis.
-    fn mass(&self, axis: Vec2, arms: [f32; 2]) -> f32 {
+    /// Effective mass along an axis, with the arms along it and across.
+    fn mass(&self, axis: Vec2, [arms, across]: [[f32; 2]; 2]) -> f32 {
+        let inverses = self.rows.map(|row| inverses_along(&row, axis));
+        let all = inverses[0][0] + inverses[1][0];
         let [a, b] = [0, 1].map(|k| {
-            let [linear, turn] = inverses_along(&self.rows[k], axis);
-            linear + turn * arms[k] * arms[k]
+            let ([linear, turn], arm) = (inverses[k], lever::<f32>((), arms[k], across[k], all));
+            linear + turn * arm * arm
         });
         if a + b > 0.0 { 1.0 / (a + b) } else { 0.0 }
     }

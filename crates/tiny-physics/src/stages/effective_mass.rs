@@ -16,7 +16,7 @@ pub(super) fn effective_mass<L: Lanes>(token: L::Token, arm: [L; 2], [mass, a, b
 #[inline(always)]
 pub(super) fn inverses_along(row: &Row, direction: Vec2) -> [f32; 2] {
     let [x, y, turn] = inverses::<f32>((), row);
-    [inverse_mass_along([direction.x, direction.y], [x, y]), turn]
+    [inverse_mass_along((), [direction.x, direction.y], [x, y]), turn]
 }
 
 /// Has the constraint of a contact follow the masses of its bodies, which are others than when it was written.

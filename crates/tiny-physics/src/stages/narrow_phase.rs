@@ -12,7 +12,7 @@ use super::narrow_context::Context;
 use super::surfaces::{self, LanePoints};
 use crate::dynamics::{
     BlockHead, Blocks, Graph, ManifoldBlock, NULL, Schedule, Slot, flags, inverse_mass_along,
-    locked,
+    lever, locked, straight,
 };
 use crate::geometry::manifold::{self, LaneManifold, LanePair, Outline, PairClass};
 use crate::math::{Pose, Rot, Transform, Vec2};
@@ -536,8 +536,13 @@ fn write_constraint<L: Lanes, K: PairKernel>(
     let manifold = &mut blocks.manifolds[index];
     let constraint = &mut blocks.constraints[index];
     let [body_a, body_b] = geometry.bodies;
-    geometry.manifold.normal[0].store(&mut constraint.normal_x[at..]);
-    geometry.manifold.normal[1].store(&mut constraint.normal_y[at..]);
+    let mut normal = geometry.manifold.normal;
+    let inverses = Inverses::new(token, normal, [body_a, body_b]);
+    if inverses.pinned {
+        normal = straight(token, normal, inverses.along);
+    }
+    normal[0].store(&mut constraint.normal_x[at..]);
+    normal[1].store(&mut constraint.normal_y[at..]);
     L::load(token, &manifold.friction[at..]).store(&mut constraint.friction[at..]);
 
     let old_id = [L::load(token, &manifold.id_1[at..]), L::load(token, &manifold.id_2[at..])];
@@ -559,11 +564,10 @@ fn write_constraint<L: Lanes, K: PairKernel>(
             L::select(valid, carried, zero)
         };
         let (normal_impulse, tangent_impulse) = (carry(0), carry(1));
-        let arms = Arms::compute(geometry, k);
-        let (normal_mass, tangent_mass) =
-            arms.masses(token, geometry.manifold.normal, [body_a, body_b]);
-        *approach = geometry.manifold.normal[0] * (body_b[0] - body_a[0])
-            + geometry.manifold.normal[1] * (body_b[1] - body_a[1])
+        let mut arms = Arms::compute(geometry, normal, k);
+        let (normal_mass, tangent_mass) = inverses.masses(token, &mut arms);
+        *approach = normal[0] * (body_b[0] - body_a[0])
+            + normal[1] * (body_b[1] - body_a[1])
             + arms.normal[1] * body_b[2]
             - arms.normal[0] * body_a[2];
 
@@ -613,8 +617,7 @@ struct Arms<L> {
 
 impl<L: Lanes> Arms<L> {
     #[inline(always)]
-    fn compute(geometry: &Geometry<L>, k: usize) -> Self {
-        let [nx, ny] = geometry.manifold.normal;
+    fn compute(geometry: &Geometry<L>, [nx, ny]: [L; 2], k: usize) -> Self {
         let a = geometry.manifold.points[k];
         let b = [a[0] - geometry.between[0], a[1] - geometry.between[1]];
         Self {
@@ -622,18 +625,44 @@ impl<L: Lanes> Arms<L> {
             tangent: [-(a[0] * nx + a[1] * ny), -(b[0] * nx + b[1] * ny)],
         }
     }
+}
 
-    /// Effective masses along normal and tangent.
+/// Inverse masses of both bodies together along normal and tangent, and those of each in turning.
+struct Inverses<L> {
+    along: L,
+    across: L,
+    turns: [L; 2],
+    /// Do some turn alone?
+    pinned: bool,
+}
+
+impl<L: Lanes> Inverses<L> {
     #[inline(always)]
-    fn masses(&self, token: L::Token, [x, y]: [L; 2], [mut a, mut b]: [[L; 8]; 2]) -> (L, L) {
+    fn new(token: L::Token, [x, y]: [L; 2], [mut a, mut b]: [[L; 8]; 2]) -> Self {
         let mut along = a[Slot::INV_MASS] + b[Slot::INV_MASS];
         let mut across = along;
         if let Some([free_a, free_b]) = locked(token, [&mut a, &mut b]) {
-            along = inverse_mass_along([x, y], free_a) + inverse_mass_along([x, y], free_b);
-            across = inverse_mass_along([y, x], free_a) + inverse_mass_along([y, x], free_b);
+            along = inverse_mass_along(token, [x, y], free_a)
+                + inverse_mass_along(token, [x, y], free_b);
+            across = inverse_mass_along(token, [y, x], free_a)
+                + inverse_mass_along(token, [y, x], free_b);
         }
-        let turns = [a[Slot::INV_INERTIA], b[Slot::INV_INERTIA]];
-        let mass = |arms, linear| effective_mass(token, arms, [linear, turns[0], turns[1]]);
-        (mass(self.normal, along), mass(self.tangent, across))
+        let (turns, zero) = ([a[Slot::INV_INERTIA], b[Slot::INV_INERTIA]], L::splat(token, 0.0));
+        let alone = L::and(along.min(across).eq(zero), zero.lt(turns[0] + turns[1]));
+        Self { along, across, turns, pinned: L::bits(alone) != 0 }
+    }
+
+    /// Effective masses along normal and tangent.
+    #[inline(always)]
+    fn masses(&self, token: L::Token, Arms { normal, tangent }: &mut Arms<L>) -> (L, L) {
+        let Self { along, across, turns: [a, b], pinned } = *self;
+        if pinned {
+            for k in 0..2 {
+                let (n, t) = (normal[k], tangent[k]);
+                (normal[k], tangent[k]) = (lever(token, n, t, along), lever(token, t, n, across));
+            }
+        }
+        let normal = effective_mass(token, *normal, [along, a, b]);
+        (normal, effective_mass(token, *tangent, [across, a, b]))
     }
 }

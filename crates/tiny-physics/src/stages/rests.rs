@@ -5,9 +5,7 @@
 //! at the plain pace, less the one that it has. From then on the spring pushes as at that depth, and the island goes
 //! back to the plain pace as it stands. A rest is never more than the load accounts for, so it goes with the load.
 
-use crate::dynamics::{
-    Bodies, BodyInfo, Bucket, Graph, NULL, PointLanes, REFINEMENT, flags, pace_at,
-};
+use crate::dynamics::{Bodies, BodyInfo, Bucket, Graph, PointLanes, REFINEMENT, flags, pace_at};
 use crate::simd::BLOCK;
 
 /// Speed of bodies that have settled at most, length units a second. What sways goes on swaying at softer springs, twice
@@ -116,9 +114,9 @@ pub(crate) fn calmer(calm: u8, speed: f32, share: u8) -> u8 {
 /// Radius at which turning counts as speed: that of its shapes, else of gyration; any for what the user moves.
 #[inline]
 pub(super) fn turning_extent(info: &BodyInfo, length_unit: f32) -> f32 {
-    match info.first_shape {
-        NULL if info.mass > 0.0 => (info.inertia / info.mass).sqrt(),
-        NULL => length_unit,
-        _ => info.max_extent,
+    match info.max_extent {
+        0.0 if info.mass > 0.0 => (info.inertia / info.mass).sqrt(),
+        0.0 => length_unit,
+        extent => extent,
     }
 }

@@ -7,7 +7,7 @@
 //! A pair of which neither side is awake or was changed from outside overlaps if it did before; only the
 //! others are measured. The result does not depend on that, and not on threads: a sensor's list is sorted.
 
-use super::finalize::FastBody;
+use super::finalize::{FastBody, SAFE_FRACTION};
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::describe::BodyKind;
 use crate::dynamics::{Bodies, Overlap, Sensors, ShapeRecord, Shapes};
@@ -33,6 +33,8 @@ pub(crate) struct Scene<'a> {
     pub(crate) broad_phase: &'a BroadPhase,
     pub(crate) sensors: &'a Sensors,
     pub(crate) length_unit: f32,
+    /// Are fast bodies swept?
+    pub(crate) continuous: bool,
 }
 
 /// Finds all overlaps after the step, ascending. `fast` are the bodies that were swept, `found` is memory.
@@ -58,6 +60,8 @@ pub(crate) fn find_overlaps<'a>(
             bounds = bounds.union(fat);
         }
         let far = |body: &&FastBody| sensors.len() <= FEW && scene.goes_past(body, &bounds);
+        let turning = scene.turning(fast.clone());
+        let fast = fast.map(|body| -> &FastBody { body }).chain(&turning);
         let near = fast.clone().filter(|body| !far(body));
         near.for_each(|body| scene.look_along(body, &boxes, overlaps));
         scene.look_across(fast, overlaps);
@@ -160,6 +164,30 @@ impl Scene<'_> {
         self.bodies.infos[record.body as usize].kind
     }
 
+    /// The bodies that are not fast but for how far their turning took their sensors.
+    fn turning<'a>(&self, fast: impl Iterator<Item = &'a FastBody> + Clone) -> Vec<FastBody> {
+        let body = |&sensor: &u32| self.shapes.records[sensor as usize].body;
+        let awake = |&body: &u32| self.continuous && self.bodies.infos[body as usize].awake;
+        let bodies = self.sensors.shapes.iter().map(body).filter(awake);
+        let steps = bodies.map(|body| FastBody::of_step(self.bodies, body));
+        let sweeps = |step: &FastBody| {
+            let (extent, least) =
+                (self.extent(step.body), self.bodies.infos[step.body as usize].min_extent);
+            let turned = (step.turn.abs() * extent).min(extent - least);
+            step.motion.length() + turned > SAFE_FRACTION * least
+                && fast.clone().all(|known| known.body != step.body)
+        };
+        let mut turning: Vec<FastBody> = steps.filter(sweeps).collect();
+        turning.dedup_by_key(|step| step.body);
+        turning
+    }
+
+    /// How far the shapes of a body reach, sensors too.
+    fn extent(&self, body: u32) -> f32 {
+        let shapes = self.shapes.of_body(self.bodies.infos[body as usize].first_shape);
+        shapes.fold(0.0, |most, shape| most.max(self.shapes.reach(shape)))
+    }
+
     /// Is a fast body's way outside the box around all sensors, and none of them its own?
     fn goes_past(&self, fast: &FastBody, bounds: &Aabb) -> bool {
         let own = |&sensor: &u32| self.shapes.records[sensor as usize].body == fast.body;
@@ -230,7 +258,7 @@ impl Scene<'_> {
 
     /// A box around all that a fast body went through.
     fn path(&self, fast: &FastBody) -> Aabb {
-        let extent = Vec2::splat(self.bodies.infos[fast.body as usize].max_extent);
+        let extent = Vec2::splat(self.extent(fast.body));
         let at = |pose: Pose| Aabb::rounded_out(pose.p - extent, pose.p + extent);
         at(fast.start).union(&at(fast.end))
     }

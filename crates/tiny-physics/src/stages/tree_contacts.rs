@@ -560,7 +560,7 @@ impl Line {
             self.answers[k] = first as u32;
             let Some(of) = side.of_tree else {
                 let [mass_x, mass_y, inertia] = inverses::<f32>((), &rows[side.body as usize]);
-                give += give_along([x, y], [mass_x, mass_y]) + inertia * turn * turn;
+                give += give_along((), [x, y], [mass_x, mass_y]) + inertia * turn * turn;
                 continue;
             };
             let count = of.span.1 as usize;

@@ -144,6 +144,9 @@ impl BodyMut<'_> {
     /// Gives it the velocity that takes its frame to `target` within `dt` seconds: for moving platforms. It
     /// goes on at that velocity afterwards, so call this before every step. A platform that is at its target
     /// and stands still may fall asleep. Nothing happens to a static body, or where a number makes no sense.
+    /// No step takes it faster than [`Settings::max_speed`](crate::Settings): what is further than that allows
+    /// stays behind, without an error. Go there in several steps, raise that speed, or set the pose where nothing is to be
+    /// pushed on the way.
     ///
     /// ```
     /// use tiny_physics::{RigidBody, Shape, Transform, Vec2, World};
@@ -194,6 +197,7 @@ impl World {
             self.state.displace_joint(joint);
         }
         self.note_ground_of(index);
+        self.mark_shapes_changed(index);
         for shape in self.shapes_of(index) {
             self.state.shapes.set_touched(shape, 0);
             self.state.broad_phase.destroy_proxy(self.state.shapes.proxy(shape));

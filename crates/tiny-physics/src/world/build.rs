@@ -336,7 +336,9 @@ impl World {
         if is_solid && (is_first || lane.thickness < info.min_extent) {
             info.min_extent = lane.thickness;
         }
-        info.max_extent = info.max_extent.max(lane.reach);
+        if is_solid {
+            info.max_extent = info.max_extent.max(lane.reach);
+        }
         shapes.rows[shape as usize] = lane.row;
         shapes.mark_row(shape);
         is_solid

@@ -49,9 +49,10 @@ impl World {
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
         let payload = check_header(bytes)?;
         let mut reader = Reader(payload);
-        let world = Self::load(&mut reader)?;
+        let mut world = Self::load(&mut reader)?;
         reader.finish()?;
         world.check_loaded().map_err(bad)?;
+        world.hooks.loaded = true;
         Ok(world)
     }
 
@@ -65,6 +66,7 @@ impl World {
         // Generations go on from where this world or the frame stands, whichever has counted further.
         self.state.clone_from(&state);
         (self.gravity, self.settings, self.last) = (gravity, settings, last);
+        self.hooks.loaded = true;
         self.moved.take();
         Ok(())
     }

@@ -54,6 +54,8 @@ type PreSolve = Arc<dyn Fn(&World, &ContactView, &mut ContactRules) + Send + Syn
 pub(super) struct Hooks {
     pair_filter: Option<PairFilter>,
     pre_solve: Option<PreSolve>,
+    /// Has the state come from bytes, perhaps with what a hook made of its contacts?
+    pub(super) loaded: bool,
 }
 
 impl fmt::Debug for Hooks {
@@ -152,13 +154,20 @@ impl World {
     pub fn clear_pre_solve(&mut self) {
         if self.hooks.pre_solve.take().is_some() {
             self.wake_all();
-            let mut places = Vec::new();
-            self.list_touching(&mut places);
-            for at in places {
-                let rules = self.rules(at);
-                self.apply_rules(at, &rules);
-            }
+            self.forget_rules();
         }
+    }
+
+    /// Without a hook, contacts of what was loaded are as their shapes say.
+    pub(super) fn forget_loaded_rules(&mut self) {
+        if core::mem::take(&mut self.hooks.loaded) && self.hooks.pre_solve.is_none() {
+            self.forget_rules();
+        }
+    }
+
+    fn forget_rules(&mut self) {
+        let super::State { graph, contacts, .. } = &mut self.state;
+        contacts.records.iter().for_each(|contact| graph.write_materials(contact));
     }
 
     /// Wakes all, and makes the next step look for partners of all.

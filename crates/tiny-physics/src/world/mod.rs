@@ -191,6 +191,7 @@ impl World {
         let mut watch = Stopwatch::start(&self.stats);
         self.state.events.clear();
         self.begin_last(lengths.substeps);
+        self.forget_loaded_rules();
         self.state.bodies.sort_awake();
         self.wake_disturbed();
         let lengths = self.follow_lengths(lengths);
@@ -476,6 +477,7 @@ impl World {
         let rules = self.solver_rules(lengths);
         let reach = self.contact_reach();
         let Scratch { solver, solving, predictions, .. } = &mut self.scratch;
+        predictions.squeezed.lighten(&mut self.state.bodies);
         let (shapes, mut stores) = self.state.shapes_and_solved();
         let amount = stores.graph.touching_count();
         solving.run(team, amount, |team| {

@@ -4,6 +4,7 @@ use super::events::{SensorBegin, SensorEnd};
 use super::ids::ShapeId;
 use super::state::State;
 use super::{Scratch, World};
+use crate::describe::Settings;
 use crate::dynamics::{Overlap, ShapeRecord};
 use crate::stages::sensors;
 use crate::threads::Team;
@@ -24,8 +25,9 @@ impl World {
         let mut overlaps = take(&mut self.scratch.overlaps);
         let State { bodies, shapes, broad_phase, sensors, .. } = &self.state;
         let Scratch { fast, carriers, found_overlaps, .. } = &mut self.scratch;
-        let length_unit = self.settings.length_unit;
-        let scene = sensors::Scene { bodies, shapes, broad_phase, sensors, length_unit };
+        let Settings { length_unit, continuous, .. } = self.settings;
+        let scene =
+            sensors::Scene { bodies, shapes, broad_phase, sensors, length_unit, continuous };
         let fast = fast.iter().chain(&*carriers);
         sensors::find_overlaps(team, scene, fast, found_overlaps, &mut overlaps);
         let mut begun = take(&mut self.state.events.sensor_begin);

@@ -193,7 +193,7 @@ impl Impact {
         let [a, b] = [0, 1].map(|k| self.courses[k].speed_at(arms[k], axis));
         let [give_a, give_b] = [0, 1].map(|k| {
             let [x, y, turn] = self.inverses[k];
-            inverse_mass_along([axis.x, axis.y], [x, y]) + turn * arms[k] * arms[k]
+            inverse_mass_along((), [axis.x, axis.y], [x, y]) + turn * arms[k] * arms[k]
         });
         let give = give_a + give_b;
         (b - a, if give > 0.0 { 1.0 / give } else { 0.0 })

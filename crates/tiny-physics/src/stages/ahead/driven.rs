@@ -154,7 +154,7 @@ impl Coordinate {
         let at = line.dot(gap);
         let speed = line.dot(velocity) + a.course.spin * line.perp().dot(between);
         let changes = [(a.moved(-line), 0.0), (b.moved(line), 0.0)];
-        let of = |end: &End<'_>| inverse_mass_along([line.x, line.y], end.inv_masses);
+        let of = |end: &End<'_>| inverse_mass_along((), [line.x, line.y], end.inv_masses);
         let give = of(a) + of(b);
         Self { at, away: at - rest, speed, changes, give, turns: false }
     }

@@ -74,8 +74,9 @@ pub(super) struct Weighed {
     body: u32,
     /// Inverse mass of what presses it.
     by: f32,
-    /// Its own: what it weighs stays as it is.
+    /// Its own, and that by which it weighs as much as before.
     gravity_scale: f32,
+    lighter: f32,
     /// Inverse mass and inertia that it counts with, and how it moves before it is solved.
     inverse: [f32; 2],
     velocity: Vec2,
@@ -154,12 +155,19 @@ impl Squeezed {
             if bodies.is_solved(body)
                 && let Some(weighed) = weigh(body, by, bodies, contacts, graph)
             {
-                self.weighed.push(weighed);
-                let info = &mut bodies.infos[body as usize];
-                info.gravity_scale *= info.mass * bodies.rows[body as usize][Slot::INV_MASS].abs();
+                let lighter = bodies.infos[body as usize].mass
+                    * bodies.rows[body as usize][Slot::INV_MASS].abs();
+                self.weighed.push(Weighed { lighter, ..weighed });
             }
         }
         bodies.pressed = pressed;
+    }
+
+    /// Has what is pressed on from step to step weigh no more than before, once hooks have seen what was set.
+    pub(crate) fn lighten(&self, bodies: &mut Bodies) {
+        for weighed in &self.weighed {
+            bodies.infos[weighed.body as usize].gravity_scale *= weighed.lighter;
+        }
     }
 
     /// Gives them their own mass again. What is pressed on will be weighed in the next step, too.
@@ -314,7 +322,8 @@ fn weigh(
     }
     let (inv_mass, inv_inertia) = bodies.inverse_masses(body);
     let (velocity, spin) = (bodies.velocity(body), bodies.angular_velocity(body));
-    Some(Weighed { body, by, gravity_scale, inverse: [inv_mass, inv_inertia], velocity, spin })
+    let (inverse, lighter) = ([inv_mass, inv_inertia], 1.0);
+    Some(Weighed { body, by, gravity_scale, lighter, inverse, velocity, spin })
 }
 
 impl Scene<'_> {

@@ -57,6 +57,7 @@ impl<L: Lanes> Stride<'_, L> {
 
 /// The two bodies of each lane's contact, and its normal.
 pub(super) struct Pair<L: Lanes> {
+    pub(super) token: L::Token,
     pub(super) a: [L; 8],
     pub(super) b: [L; 8],
     pub(super) normal: [L; 2],
@@ -71,7 +72,7 @@ impl<L: Lanes> Pair<L> {
         let mut b = L::gather(stride.token, stride.rows, &block.body_b[stride.at..]);
         let normal = [stride.load(&block.normal_x), stride.load(&block.normal_y)];
         let locked = locked(stride.token, [&mut a, &mut b]);
-        Self { a, b, normal, locked }
+        Self { token: stride.token, a, b, normal, locked }
     }
 
     /// Writes the velocities back, except to bodies that nothing moves.
@@ -139,10 +140,12 @@ impl<L: Lanes> Pair<L> {
     /// Inverse masses of A and B along the normal.
     #[inline(always)]
     pub(super) fn inverse_masses(&self) -> [L; 2] {
-        let normal = self.normal;
+        let Self { token, normal, .. } = *self;
         match self.locked {
             None => [self.a[Slot::INV_MASS], self.b[Slot::INV_MASS]],
-            Some([a, b]) => [inverse_mass_along(normal, a), inverse_mass_along(normal, b)],
+            Some([a, b]) => {
+                [inverse_mass_along(token, normal, a), inverse_mass_along(token, normal, b)]
+            }
         }
     }
 

@@ -136,14 +136,14 @@ impl JointKernel for DriveBlock {
         drive.angular_max[lane] = max_torque * rates.h;
         drive.spring_max[lane] = most(linear_spring, max_spring_force);
         drive.twist_max[lane] = most(angular_spring, max_spring_torque);
-        if let JointKind::Mouse { target, .. } = def.kind {
+        if let JointKind::Mouse { target, max_force, .. } = def.kind {
             drive.mouse[lane] = 1.0;
             (drive.target_x[lane], drive.target_y[lane]) = (target.x, target.y);
             // w' = w / (1 + damping h)
             let lost = MOUSE_TURN_DAMPING * rates.h;
             self.angular.mass_scale[lane] = lost / (1.0 + lost);
             self.angular.impulse_scale[lane] = 1.0 / (1.0 + lost);
-            drive.twist_max[lane] = f32::MAX;
+            drive.twist_max[lane] = if max_force > 0.0 { f32::MAX } else { 0.0 };
             let frame = &mut self.frame;
             frame.body_a[lane] = 0;
             (frame.local_a_x[lane], frame.local_a_y[lane]) = (0.0, 0.0);

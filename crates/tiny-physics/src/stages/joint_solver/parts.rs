@@ -367,6 +367,7 @@ impl<L: Lanes, const BIAS: bool> Soft<L, BIAS> {
 
 /// The two bodies of each lane's joint, and its anchors as they are now.
 pub(super) struct Pair<L: Lanes> {
+    token: L::Token,
     pub(super) a: [L; 8],
     pub(super) b: [L; 8],
     /// Turn of A since the start of the step.
@@ -398,7 +399,7 @@ impl<L: Lanes> Pair<L> {
         let between = stride.load2(&frame.between_x, &frame.between_y);
         let moved = [b[Slot::DX] - a[Slot::DX], b[Slot::DY] - a[Slot::DY]];
         let gap = add(add(between, moved), sub(anchor_b, anchor_a));
-        Self { turn_a, anchor_a, anchor_b, gap, locked, a, b }
+        Self { token: stride.token, turn_a, anchor_a, anchor_b, gap, locked, a, b }
     }
 
     /// Writes the velocities back, except to bodies that nothing moves.
@@ -422,7 +423,10 @@ impl<L: Lanes> Pair<L> {
     fn inv_mass(&self, direction: [L; 2]) -> L {
         match self.locked {
             None => self.a[Slot::INV_MASS] + self.b[Slot::INV_MASS],
-            Some([a, b]) => inverse_mass_along(direction, a) + inverse_mass_along(direction, b),
+            Some([a, b]) => {
+                inverse_mass_along(self.token, direction, a)
+                    + inverse_mass_along(self.token, direction, b)
+            }
         }
     }
 
@@ -622,7 +626,7 @@ impl<L: Lanes> Sides<L> {
         let [on_a, on_b] = &self.directions;
         let [linear_a, linear_b] = match pair.locked {
             None => [a[Slot::INV_MASS] * dot(*on_a, *on_a), b[Slot::INV_MASS] * dot(*on_b, *on_b)],
-            Some([a, b]) => [give_along(*on_a, a), give_along(*on_b, b)],
+            Some([a, b]) => [give_along(pair.token, *on_a, a), give_along(pair.token, *on_b, b)],
         };
         linear_a
             + linear_b

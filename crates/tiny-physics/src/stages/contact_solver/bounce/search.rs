@@ -124,7 +124,8 @@ fn pair_of(graph: &Graph, rows: SharedRows<'_>, at: At) -> Pair<f32> {
     let mut a = f32::gather((), rows, &[body_a]);
     let mut b = f32::gather((), rows, &[body_b]);
     let locked = locked((), [&mut a, &mut b]);
-    Pair { a, b, normal: [constraint.normal_x[lane], constraint.normal_y[lane]], locked }
+    let normal = [constraint.normal_x[lane], constraint.normal_y[lane]];
+    Pair { token: (), a, b, normal, locked }
 }
 
 impl Hit {

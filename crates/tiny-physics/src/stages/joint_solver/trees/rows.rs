@@ -6,7 +6,7 @@
 use super::factor::{dot3, invert};
 use crate::dynamics::{
     Impulses, JointClass, JointColour, JointTree, Joints, Slot, TreeAxis, TreeLink, TreeNode,
-    TreeRow, inverses, is_jointed, with_bucket,
+    TreeRow, give_along, inverses, is_jointed, with_bucket,
 };
 use crate::simd::{BLOCK, Simd, Three, add_times, times};
 use crate::stages::joint_solver::JointKernel;
@@ -17,7 +17,7 @@ use crate::threads::SharedRows;
 /// close, such as a plank pinned at two points too far apart. Of a chain of 30 links it makes most of the stretch
 /// under 1000 times a link's weight: 0.13 % at 1e-4, 0.039 % at 3e-5; at 1e-6 rounding made it 0.5 %.
 const COMPLIANCE: f64 = 3.0e-5;
-/// That of a row which nothing answers, such as one against turning between what cannot turn: it has no share in its link.
+/// What a row gives that nothing answers, such as one against turning between what cannot turn: it has no share in its link.
 const UNANSWERED: f64 = 1.0e30;
 
 impl Row<f64> {
@@ -195,9 +195,7 @@ pub(super) fn refresh<S: Simd>(
         });
         let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
         for i in 0..link.rigid {
-            let response = response(&link.row(i), &link.row(i), a, b);
-            link.compliance[i] =
-                if response > 0.0 { COMPLIANCE.max(yields) * response } else { UNANSWERED };
+            link.compliance[i] = COMPLIANCE.max(yields) * give(&link.row(i), a, b);
         }
         stiffen(link, nodes);
     }
@@ -277,7 +275,7 @@ fn stiffen(link: &TreeLink, nodes: &mut [TreeNode]) {
 #[inline(always)]
 fn tie<S: Simd>(simd: S, link: &mut TreeLink, axis: &mut TreeAxis, a: &TreeNode, b: &TreeNode) {
     let own = link.coordinate.on;
-    let free = response(&own, &own, a, b);
+    let free = give(&own, a, b);
     link.coordinate.compliance = COMPLIANCE * free;
     let (mut coupling, mut mass) = ([0.0; 4], [[0.0; 4]; 3]);
     for i in 0..link.rigid {
@@ -285,6 +283,7 @@ fn tie<S: Simd>(simd: S, link: &mut TreeLink, axis: &mut TreeAxis, a: &TreeNode,
         for (j, mass) in mass[i].iter_mut().enumerate().take(link.rigid).skip(i) {
             *mass = response(&link.row(i), &link.row(j), a, b);
         }
+        mass[i][i] = give(&link.row(i), a, b);
     }
     let per = times(simd, &invert(&mass, link.rigid), &coupling);
     let (tied, least) = (free - dot3(&coupling, &per), f64::from(LEAST_COMPLEMENT) * free);
@@ -307,6 +306,15 @@ fn response(first: &[Three; 2], second: &[Three; 2], a: &TreeNode, b: &TreeNode)
         linear + turn * first[2] * second[2]
     };
     of(0, a) + of(1, b)
+}
+
+/// The same by itself, as [`give_along`] has it; what makes it let go where nothing answers.
+fn give(row: &[Three; 2], a: &TreeNode, b: &TreeNode) -> f64 {
+    let of = |[u, v, turn, _]: Three, TreeNode { inv: [x, y, inertia, _], .. }: &TreeNode| {
+        give_along((), [u, v], [*x, *y]) + inertia * turn * turn
+    };
+    let give = of(row[0], a) + of(row[1], b);
+    if give > 0.0 { give } else { UNANSWERED }
 }
 
 /// Applies an impulse along a row to both bodies of a link.
