@@ -1,7 +1,8 @@
 //! The character mover: what it must do by numbers. The tests of the scenes have its level.
 
 use tiny_physics::{
-    ChainDef, CharacterMover, MoverInput, RigidBody, Shape, ShapeDef, TileGrid, Vec2, World,
+    BodyId, ChainDef, CharacterMover, JointDef, MoverInput, RigidBody, Shape, ShapeDef, TileGrid,
+    Vec2, World,
 };
 
 const FLOOR: f64 = 0.91; // Half the height and the skin.
@@ -522,6 +523,187 @@ fn one_way_ramps_are_walked_up_and_down() {
                     let rise = (mover.position.x - 2.0) * f64::from(degrees.to_radians().tan());
                     assert!(mover.position.y >= 0.9 + rise.max(0.0), "{name}: {}", mover.position);
                     left = left.checked_sub(1).unwrap_or_else(|| panic!("{name}: held"));
+                }
+            }
+        }
+    }
+}
+
+/// Piles of default crates and bridges of default planks, some hundredth of its mass, bear it: it threw them, at up to
+/// 50 m/s, and itself.
+#[test]
+fn light_things_bear_it() {
+    for hertz in [60.0, 120.0] {
+        for (half, count) in [0.25, 0.5].iter().flat_map(|h| [1, 2, 3, 5, 8].map(|n| (*h, n))) {
+            let mut world = World::new(Vec2::new(0.0, -10.0));
+            let floor = RigidBody::fixed().position(Vec2::new(0.0, -1.0));
+            world.add_body(floor.shape(Shape::rect(50.0, 1.0).unwrap())).unwrap();
+            let mut all = Vec::new();
+            for i in 0..count {
+                let place = Vec2::new(0.0, half * (1 + 2 * i) as f32);
+                let crate_ = RigidBody::dynamic().position(place);
+                all.push(world.add_body(crate_.shape(Shape::rect(half, half).unwrap())).unwrap());
+            }
+            let top = 2.0 * half * count as f32;
+            let mut mover = CharacterMover::new(Vec2::new(0.0, top + 0.95), 1.8, 0.3);
+            for _ in 0..(4.0 * hertz) as u32 {
+                settle(&mut world, &mut mover, 1, 1.0 / hertz);
+                let fastest = all.iter().map(|id| world.body(*id).unwrap().velocity().length());
+                let fastest = fastest.fold(0.0, f32::max);
+                assert!(fastest < 0.6, "{count} of {half} m, {hertz} Hz: {fastest} m/s");
+            }
+            let above = mover.position.y - f64::from(top);
+            assert!((above - FLOOR).abs() < 0.02, "{count} of {half} m: {above}");
+        }
+        for density in [1.0, 5.0, 30.0] {
+            let (mut world, planks) = bridge(density);
+            let mut mover = CharacterMover::new(Vec2::new(-4.5, 1.2), 1.8, 0.3);
+            settle(&mut world, &mut mover, hertz as u32, 1.0 / hertz);
+            let mut left = (6.0 * hertz) as u32;
+            while mover.position.x < 5.0 {
+                world.step(1.0 / hertz);
+                let input = MoverInput { walk: 2.0, ..MoverInput::default() };
+                mover.update(&mut world, input, 1.0 / hertz);
+                let fastest = planks.iter().map(|id| world.body(*id).unwrap().velocity().length());
+                let fastest = fastest.fold(0.0, f32::max);
+                let stands = mover.ground().is_some();
+                assert!(fastest < 2.0 && stands, "{density} kg/m2: {fastest} m/s, {stands}");
+                left = left.checked_sub(1).unwrap_or_else(|| panic!("{density}: held"));
+            }
+        }
+    }
+}
+
+/// Eight planks hinged to each other and to blocks that are fixed.
+fn bridge(density: f32) -> (World, Vec<BodyId>) {
+    let mut world = World::new(Vec2::new(0.0, -10.0));
+    let block = |x: f32| {
+        RigidBody::fixed().position(Vec2::new(x, 0.0)).shape(Shape::rect(1.0, 0.2).unwrap())
+    };
+    let mut last = world.add_body(block(-4.0)).unwrap();
+    let (mut at, mut planks) = (Vec2::new(1.0, 0.2), Vec::new());
+    for i in 0..8 {
+        let plank = ShapeDef::new(Shape::rect(0.38, 0.1).unwrap()).density(density);
+        let place = Vec2::new(-2.6 + 0.8 * i as f32, 0.1);
+        let plank = world.add_body(RigidBody::dynamic().position(place).shape(plank)).unwrap();
+        let hinge = JointDef::revolute().anchors(at, Vec2::new(-0.4, 0.1));
+        world.add_joint(last, plank, hinge).unwrap();
+        (last, at) = (plank, Vec2::new(0.4, 0.1));
+        planks.push(plank);
+    }
+    let end = world.add_body(block(4.4)).unwrap();
+    world.add_joint(last, end, JointDef::revolute().anchors(at, Vec2::new(-1.0, 0.2))).unwrap();
+    (world, planks)
+}
+
+/// On a light plank it still outweighs what lies on the other end.
+#[test]
+fn it_lifts_what_lies_on_a_light_seesaw() {
+    let dt = 1.0 / 60.0;
+    for density in [1.0, 10.0, 100.0] {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let floor = RigidBody::fixed().position(Vec2::new(0.0, -1.0));
+        world.add_body(floor.shape(Shape::rect(50.0, 1.0).unwrap())).unwrap();
+        let post = world.add_body(RigidBody::fixed()).unwrap();
+        let plank = ShapeDef::new(Shape::rect(2.0, 0.1).unwrap()).density(density);
+        let plank = RigidBody::dynamic().position(Vec2::new(0.0, 0.6)).shape(plank);
+        let plank = world.add_body(plank).unwrap();
+        let hinge = JointDef::revolute().anchor_at((0.0, 0.6));
+        world.add_joint(post, plank, hinge).unwrap();
+        let load = RigidBody::dynamic().position(Vec2::new(1.5, 1.0)).mass(20.0);
+        let load = world.add_body(load.shape(Shape::rect(0.25, 0.25).unwrap())).unwrap();
+        for _ in 0..120 {
+            world.step(dt);
+        }
+        let low = world.body(load).unwrap().position_f64().y;
+        let mut mover = CharacterMover::new(Vec2::new(-1.5, 2.1), 1.8, 0.3);
+        settle(&mut world, &mut mover, 90, dt);
+        let high = world.body(load).unwrap().position_f64().y;
+        assert!(high > low + 0.1, "{density} kg/m2: from {low} to {high}");
+    }
+}
+
+/// It rode off on single balls and on heaps of them, up to 215 m/s: their turning carried it along, and its weight turned
+/// them.
+#[test]
+fn balls_do_not_run_away_with_it() {
+    let dt = 1.0 / 60.0;
+    let heaps = [(0.2, 1), (0.2, 12), (0.3, 6), (0.1, 30)];
+    for (radius, count) in heaps {
+        for density in [1.0, 10.0, 100.0, 1000.0] {
+            let mut world = World::new(Vec2::new(0.0, -10.0));
+            for (x, y, a, b) in [(0.0, -1.0, 100.0, 1.0), (8.0, 2.0, 0.5, 2.0)] {
+                let body = RigidBody::fixed().position(Vec2::new(x, y));
+                world.add_body(body.shape(Shape::rect(a, b).unwrap())).unwrap();
+            }
+            let mut all = Vec::new();
+            for i in 0..count {
+                let (column, row) = ((i / 3) as f32, (i % 3) as f32);
+                let place = Vec2::new(2.0 + 2.1 * radius * column, radius * (1.0 + 2.0 * row));
+                let ball = ShapeDef::new(Shape::circle(radius).unwrap()).density(density);
+                let ball = RigidBody::dynamic().position(place).shape(ball);
+                all.push(world.add_body(ball).unwrap());
+            }
+            let mut mover = CharacterMover::new(Vec2::new(0.0, 0.91), 1.8, 0.3);
+            for step in 0..360 {
+                world.step(dt);
+                let before = mover.position;
+                mover.update(&mut world, MoverInput { walk: 3.0, ..MoverInput::default() }, dt);
+                let speed = mover.position.relative_to(before).length() / dt;
+                let fastest = all.iter().map(|id| world.body(*id).unwrap().velocity().length());
+                let fastest = fastest.fold(0.0, f32::max);
+                let name = format!("{count} of {radius} m, {density} kg/m2, step {step}");
+                assert!(speed < 9.0 && fastest < 13.0, "{name}: {speed} and {fastest} m/s");
+                assert!(mover.position.x > -1.0, "{name}: {}", mover.position);
+            }
+        }
+    }
+    // Put on top of one it stays there.
+    for (radius, density) in [(0.2, 10.0), (0.5, 1.0), (1.0, 1.0), (2.0, 10.0)] {
+        for off in 0..9 {
+            let mut world = World::new(Vec2::new(0.0, -10.0));
+            let floor = RigidBody::fixed().position(Vec2::new(0.0, -1.0));
+            world.add_body(floor.shape(Shape::rect(2000.0, 1.0).unwrap())).unwrap();
+            let ball = ShapeDef::new(Shape::circle(radius).unwrap()).density(density);
+            let ball = RigidBody::dynamic().position(Vec2::new(0.0, radius)).shape(ball);
+            let ball = world.add_body(ball).unwrap();
+            let place = Vec2::new(-0.1 * radius * off as f32, 2.0 * radius + 0.95);
+            let mut mover = CharacterMover::new(place, 1.8, 0.3);
+            for _ in 0..360 {
+                settle(&mut world, &mut mover, 1, dt);
+                let speed = world.body(ball).unwrap().velocity().length();
+                assert!(speed < 0.5, "{radius} m, {off}: {speed} m/s");
+            }
+        }
+    }
+}
+
+/// Who goes more than a step's depth in an update stood before stairs for ever.
+#[test]
+fn stairs_are_climbed_at_any_speed() {
+    for (rise, tread) in [(0.17, 0.29), (0.2, 0.3), (0.25, 0.3), (0.3, 0.4), (0.33, 0.5)] {
+        for hertz in [20.0, 30.0, 60.0, 120.0] {
+            for speed in [1.0, 3.0, 5.0, 8.0, 10.0, 15.0, 20.0] {
+                let mut world = World::new(Vec2::new(0.0, -10.0));
+                let floor = RigidBody::fixed().position(Vec2::new(0.0, -1.0));
+                world.add_body(floor.shape(Shape::rect(60.0, 1.0).unwrap())).unwrap();
+                for i in 0..10 {
+                    let (high, left) = (rise * (i + 1) as f32, 1.0 + tread * i as f32);
+                    let step = Shape::rect(0.5 * (30.0 - left), 0.5 * high).unwrap();
+                    let place = Vec2::new(0.5 * (left + 30.0), 0.5 * high);
+                    world.add_body(RigidBody::fixed().position(place).shape(step)).unwrap();
+                }
+                let mut mover = CharacterMover::new(Vec2::new(-1.07, 0.92), 1.8, 0.3);
+                let goal = f64::from(2.0 + 10.0 * tread);
+                let mut left = (2.0 * (goal as f32 + 2.0) / speed * hertz + hertz) as u32;
+                while mover.position.x < goal {
+                    world.step(1.0 / hertz);
+                    let input = MoverInput { walk: speed, ..MoverInput::default() };
+                    mover.update(&mut world, input, 1.0 / hertz);
+                    let name = format!("steps of {rise} m, {speed} m/s, {hertz} Hz");
+                    left = left
+                        .checked_sub(1)
+                        .unwrap_or_else(|| panic!("{name}: held at {}", mover.position));
                 }
             }
         }

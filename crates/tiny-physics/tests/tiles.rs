@@ -1,8 +1,8 @@
 //! Tile maps: smooth seams, slopes, edits while running, queries, other bodies beside them.
 
 use tiny_physics::{
-    DVec2, Filter, Material, QueryFilter, RigidBody, Shape, ShapeDef, Tile, TileForm, TileGrid,
-    Vec2, World,
+    DVec2, Filter, Material, QueryFilter, RigidBody, Rot, Shape, ShapeDef, Tile, TileForm,
+    TileGrid, Vec2, World,
 };
 
 const SPEED: f32 = 10.0;
@@ -330,4 +330,51 @@ fn tiles_of_all_sizes_are_alike() {
             assert!((a.0 - b.0).abs() < 1e-5 && (a.1 - b.1).abs() < 1e-5, "{size}: {a:?} {b:?}");
         }
     }
+}
+
+/// Blocks far along a turned row lay a millimetre higher or lower than their neighbours: boxes that slid tripped there.
+#[test]
+fn long_turned_rows_are_smooth() {
+    for (cell, angle) in [(1.0, 0.3), (0.3, -0.7)] {
+        let mut grid = TileGrid::new(cell, 65536, 1, vec![Tile::new(TileForm::Full)]);
+        grid.cells.fill(1);
+        grid.angle = angle;
+        let rot = Rot::from_angle(angle);
+        let (up, right) = (rot.rotate(Vec2::Y), rot.rotate(Vec2::X));
+        let mut world = World::new(up * -10.0);
+        let end = grid.center_of(65336, 0);
+        for x in [0, 1, 15, 16, 4097, 65336, 65535] {
+            assert_eq!(grid.cell_at(grid.center_of(x, 0)), Some((x, 0)));
+        }
+        world.add_tiles(grid).unwrap();
+        let box_ = ShapeDef::new(Shape::rect(0.25, 0.25).unwrap()).friction(0.0);
+        let box_ = RigidBody::dynamic().position(end + up * (0.5 * cell + 0.26)).shape(box_);
+        let box_ = world.add_body(box_.angle(angle).velocity(right * SPEED)).unwrap();
+        for step in 0..300 {
+            world.step(1.0 / 60.0);
+            let now = world.body(box_).unwrap();
+            assert!(now.angular_velocity().abs() < 0.5, "{cell} m, step {step}: {now:?}");
+        }
+        let kept = world.body(box_).unwrap().velocity().dot(right) / SPEED;
+        assert!(kept > 0.99, "{cell} m: {kept}");
+    }
+}
+
+/// Grids of more cells than make sense have none, and are refused with a reason.
+#[test]
+fn no_grid_takes_all_memory() {
+    let grid = TileGrid::new(1.0, 1 << 20, 1 << 20, vec![]);
+    assert!(grid.cells.is_empty() && grid.get(5, 5) == 0 && grid.bodies().is_empty());
+    let reason = grid.validate().unwrap_err().to_string();
+    assert!(reason.contains("width * height"), "{reason}");
+    assert!(world().add_tiles(grid).is_err());
+    let mut rows = vec![""; 70_000];
+    let long = "#".repeat(1000);
+    rows[3] = &long;
+    assert!(TileGrid::parse(1.0, &rows).is_err());
+    // On 32 bits this product is 0.
+    let mut grid = TileGrid::new(1.0, 1 << 16, 1 << 16, vec![]);
+    assert!(grid.validate().is_err());
+    grid.cells.clear();
+    assert!(grid.validate().is_err());
 }

@@ -8,12 +8,14 @@ use super::{Filter, Material, RigidBody, ShapeDef};
 use crate::codec::{data, described, described_enum, setters};
 use crate::error::Error;
 use crate::geometry::{MAX_EXTENT, MIN_EXTENT, Polygon, Shape};
-use crate::math::{DVec2, Pose, Rot, Vec2};
+use crate::math::{DVec2, Rot, Vec2};
 
 /// Side of a block of cells that share a body.
 pub(crate) const BLOCK_CELLS: u32 = 16;
 /// Most cells of a grid along either axis.
 const MAX_CELLS: u32 = 1 << 20;
+/// And in all: 128 MiB of them.
+const MAX_AREA: u64 = 1 << 26;
 
 described_enum! {
     /// What part of its cell a tile fills. [`Tile::mirror_x`] and [`Tile::mirror_y`] give the others: slopes that
@@ -143,11 +145,14 @@ described! {
 }
 
 impl TileGrid {
-    /// An empty grid with a palette.
+    /// An empty grid with a palette. One of more than 2^26 cells, or 2^20 along an axis, has no cells: no world takes it.
     pub fn new(cell_size: f32, width: u32, height: u32, palette: Vec<Tile>) -> Self {
-        let count = (width.min(MAX_CELLS) as usize).saturating_mul(height.min(MAX_CELLS) as usize);
-        let (position, angle) = (DVec2::ZERO, 0.0);
-        Self { position, angle, cell_size, width, height, palette, cells: vec![0; count] }
+        let (position, angle, cells) = (DVec2::ZERO, 0.0, Vec::new());
+        let mut grid = Self { position, angle, cell_size, width, height, palette, cells };
+        if grid.check_size().is_ok() {
+            grid.cells = vec![0; width as usize * height as usize];
+        }
+        grid
     }
 
     /// A grid drawn with letters, the top row first: `#` full, `_` lower half, `"` upper half, `[` left
@@ -155,14 +160,16 @@ impl TileGrid {
     /// that falls, `-` a one-way tile, all else empty. The palette is always the same: value 1 is full.
     ///
     /// # Errors
-    /// A cell size that is out of range, or no rows.
+    /// A cell size that is out of range, no rows, or more cells than a grid may have.
     pub fn parse(cell_size: f32, rows: &[&str]) -> Result<Self, Error> {
         let width = rows.iter().map(|row| row.chars().count()).max().unwrap_or(0) as u32;
         let mut grid = Self::new(cell_size, width, rows.len() as u32, legend());
         for (y, row) in rows.iter().rev().enumerate() {
             for (x, letter) in row.chars().enumerate() {
                 let value = LETTERS.chars().position(|known| known == letter);
-                grid.cells[y * width as usize + x] = value.map_or(0, |index| index as u16 + 1);
+                if let Some(cell) = grid.cells.get_mut(y * width as usize + x) {
+                    *cell = value.map_or(0, |index| index as u16 + 1);
+                }
             }
         }
         grid.validate().map(|()| grid)
@@ -199,15 +206,18 @@ impl TileGrid {
 
     /// The cell that holds a point of the world.
     pub fn cell_at(&self, point: impl Into<DVec2>) -> Option<(u32, u32)> {
-        let local = self.pose().unapply(point.into()) / self.cell_size;
-        let inside = |value: f32, count: u32| value >= 0.0 && value < count as f32;
-        let (x, y) = (local.x, local.y);
+        let (Rot { c, s }, way) = (Rot::from_angle(self.angle), point.into() - self.position);
+        let (c, s) = (f64::from(c), f64::from(s));
+        // A rotation of 32 bits is not quite of length 1.
+        let cell = f64::from(self.cell_size) * (c * c + s * s);
+        let (x, y) = ((c * way.x + s * way.y) / cell, (c * way.y - s * way.x) / cell);
+        let inside = |value: f64, count: u32| value >= 0.0 && value < f64::from(count);
         (inside(x, self.width) && inside(y, self.height)).then_some((x as u32, y as u32))
     }
 
     /// The middle of a cell: world, metres.
     pub fn center_of(&self, x: u32, y: u32) -> DVec2 {
-        self.pose().apply(Vec2::new(x as f32 + 0.5, y as f32 + 0.5) * self.cell_size)
+        self.place(f64::from(x) + 0.5, f64::from(y) + 0.5)
     }
 
     /// Can this grid be added to a world?
@@ -221,10 +231,8 @@ impl TileGrid {
         let size = f64::from(self.cell_size);
         let is_right = (f64::from(MIN_EXTENT) * 10.0..f64::from(MAX_EXTENT) / 32.0).contains(&size);
         Error::check("cell_size", size, is_right, "1e-4 to 3e4")?;
-        for (name, value) in [("width", self.width), ("height", self.height)] {
-            Error::check(name, value, (1..=MAX_CELLS).contains(&value), "1 to 1048576")?;
-        }
-        if self.cells.len() != self.width as usize * self.height as usize {
+        self.check_size()?;
+        if self.cells.len() as u64 != self.area() {
             return Err(Error::Unsupported { reason: "a tile grid needs width * height cells" });
         }
         if self.cells.iter().any(|&value| usize::from(value) > self.palette.len()) {
@@ -234,10 +242,22 @@ impl TileGrid {
         pieces.flatten().try_for_each(|way| Error::check_finite_vec("one_way", way))
     }
 
+    fn area(&self) -> u64 {
+        u64::from(self.width) * u64::from(self.height)
+    }
+
+    fn check_size(&self) -> Result<(), Error> {
+        for (name, value) in [("width", self.width), ("height", self.height)] {
+            Error::check(name, value, (1..=MAX_CELLS).contains(&value), "1 to 1048576")?;
+        }
+        let area = self.area();
+        Error::check("width * height", area as f64, area <= MAX_AREA, "1 to 67108864")
+    }
+
     /// The grid as static bodies, one for each block of 16 by 16 cells that is not empty: for scene files
     /// and for engines without tile grids. Edits need [`World::add_tiles`](crate::World::add_tiles).
     pub fn bodies(&self) -> Vec<RigidBody> {
-        let (columns, rows) = self.blocks();
+        let (columns, rows) = if self.check_size().is_ok() { self.blocks() } else { (0, 0) };
         let blocks = (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y)));
         let bodies = blocks.map(|(x, y)| {
             let mut body = self.block_body(x, y);
@@ -254,8 +274,11 @@ impl TileGrid {
         inside.then_some(index as usize)
     }
 
-    fn pose(&self) -> Pose {
-        Pose::new(self.position, Rot::from_angle(self.angle))
+    /// Where a place of the grid, in cells, is in the world. In 64 bits: blocks far along turned rows lie flush.
+    fn place(&self, x: f64, y: f64) -> DVec2 {
+        let (Rot { c, s }, cell) = (Rot::from_angle(self.angle), f64::from(self.cell_size));
+        let (c, s, x, y) = (f64::from(c), f64::from(s), x * cell, y * cell);
+        self.position + DVec2::new(c * x - s * y, s * x + c * y)
     }
 
     /// Blocks in a row, and rows of blocks.
@@ -265,8 +288,8 @@ impl TileGrid {
 
     /// The body of a block, without shapes.
     pub(crate) fn block_body(&self, x: u32, y: u32) -> RigidBody {
-        let corner = Vec2::new(x as f32, y as f32) * (self.cell_size * BLOCK_CELLS as f32);
-        RigidBody::fixed().position(self.pose().apply(corner)).angle(self.angle)
+        let corner = |block: u32| f64::from(block * BLOCK_CELLS);
+        RigidBody::fixed().position(self.place(corner(x), corner(y))).angle(self.angle)
     }
 
     /// The shape of a piece in the frame of its block's body.

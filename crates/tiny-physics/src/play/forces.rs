@@ -106,6 +106,8 @@ struct WetPart {
     displaced: f32,
     /// That by its square of arms, as a moment of inertia.
     spread: f32,
+    /// How wide it is at the surface, as it would be where it is as wide all the way down; metres.
+    width: f32,
 }
 
 impl World {
@@ -195,7 +197,7 @@ impl World {
         let mut parts: Vec<WetPart> = shapes.into_iter().filter_map(wet).collect();
         parts.sort_by_key(|part| part.body);
         for parts in parts.chunk_by(|a, b| a.body == b.body) {
-            self.float(parts, water, dt);
+            self.float(parts, water, normal, dt);
         }
     }
 
@@ -224,45 +226,59 @@ impl World {
         let turned = place.q.integrate(body.angular_velocity() * half);
         let middle = place.p + body.velocity_at(place.p) * half;
         let height = water.surface.relative_to(middle).dot(normal);
-        let part = shape.shape().part_below(turned.unrotate(normal), height);
+        let up = turned.unrotate(normal);
+        let part = shape.shape().part_below(up, height);
         let whole = shape.shape().mass_properties(1.0);
+        let (deep, most) = (2.0 * (height - up.dot(part.center)), shape.shape().width_across(up));
         (part.area > 0.0).then(|| WetPart {
             body: id,
             center: place.apply(part.center),
             displaced: water.density * part.area,
             spread: water.density * whole.inertia * (part.area / whole.mass),
+            width: if deep * most > part.area { part.area / deep } else { most },
         })
     }
 
-    /// Buoyancy and drag of all that is under water of a body. Implicit in the velocities, so that no drag is too strong
-    /// for a step.
-    fn float(&mut self, parts: &[WetPart], water: &Water, dt: f32) {
+    /// Buoyancy and drag of all that is under water of a body. Implicit in the velocities and, where nothing much heavier
+    /// holds it, in the height: no drag is too strong for a step, nor is what is light thrown out.
+    fn float(&mut self, parts: &[WetPart], water: &Water, normal: Vec2, dt: f32) {
         let gravity = self.gravity;
         let Some(mut body) = parts.first().and_then(|part| self.body_mut(part.body)) else {
             return;
         };
-        let (mass, inertia) = (body.as_ref().mass(), body.as_ref().inertia());
-        let per_inertia = if inertia > 0.0 { 1.0 / inertia } else { 0.0 };
-        let (middle, rested) = (body.as_ref().center(), body.rest());
-        let (mut slowed, mut turned) = (0.0, 0.0);
-        for part in parts {
-            let rate = part.displaced * water.linear_drag;
-            let by_arm = rate * part.center.relative_to(middle).length_sq() * per_inertia;
-            slowed += rate / mass + by_arm;
-            turned += part.spread * water.angular_drag * per_inertia + by_arm;
-        }
-        let (slowed, turned) = (1.0 / (1.0 + dt * slowed), 1.0 / (1.0 + dt * turned));
-        // What is light rises as fast as the drag lets it, not first by a whole step.
+        let rested = body.rest();
+        let view = body.as_ref();
+        let (mass, inertia, spin) = (view.mass(), view.inertia(), view.angular_velocity());
+        let (weight, middle) = (gravity * (mass * view.gravity_scale()), view.center());
         let displaced: f32 = parts.iter().map(|part| part.displaced).sum();
-        let free = if body.as_ref().is_held_down(gravity) { 0.0 } else { dt };
-        let rising = gravity * (free * (body.as_ref().gravity_scale() - displaced / mass).min(0.0));
+        let is_free = !view.is_held(weight - gravity * displaced);
+        let turns = if inertia > 0.0 { 1.0 } else { 0.0 };
+        let stiff =
+            if is_free { (-gravity.dot(normal)).max(0.0) * water.density * dt } else { 0.0 };
+        let mut sum = Implicit::new(mass, if inertia > 0.0 { inertia } else { 1.0 });
+        let (mut lift, mut tilt) = (Vec2::ZERO, 0.0);
         for part in parts {
-            let slip = water.flow - body.as_ref().velocity_at(part.center) - rising;
-            let drag = slip * (part.displaced * water.linear_drag * slowed);
-            body.apply_force(drag - gravity * part.displaced, part.center);
-            let spin = body.as_ref().angular_velocity();
-            body.apply_torque(-spin * (part.spread * water.angular_drag * turned));
+            let arm = part.center.relative_to(middle) * turns;
+            let (rate, width) = (part.displaced * water.linear_drag, part.width);
+            let drag = (water.flow - view.velocity_at(part.center)) * rate;
+            let twist = part.spread * water.angular_drag * turns;
+            sum.push(drag, arm.cross(drag) - spin * twist);
+            sum.resist(dt * rate, Vec2::X, 0.0 - arm.y);
+            sum.resist(dt * rate, Vec2::Y, arm.x);
+            sum.resist(dt * stiff * width, normal, arm.cross(normal));
+            let turning = stiff * width * width * width * (turns / 12.0);
+            sum.resist(dt * (twist + turning), Vec2::ZERO, 1.0);
+            lift -= gravity * part.displaced;
+            tilt -= arm.cross(gravity) * part.displaced;
         }
+        if is_free {
+            sum.push(lift + weight, tilt);
+            // The step adds the weight by itself.
+            (lift, tilt) = (-weight, 0.0);
+        }
+        let (linear, angular) = sum.accelerations();
+        body.apply_force_to_center(linear * mass + lift);
+        body.apply_torque(angular * inertia + tilt);
         body.set_rest(rested);
     }
 
@@ -284,12 +300,59 @@ impl World {
     }
 }
 
+/// Forces on a body that resist its acceleration, as those that its speed or place at the end of a step would call up.
+struct Implicit {
+    /// By acceleration, newtons: of x by x, of x by y, of y by y.
+    linear: [f32; 3],
+    /// Of x and of y by turning, of turning by itself.
+    mixed: [f32; 3],
+    force: Vec2,
+    torque: f32,
+    mass: f32,
+    inertia: f32,
+}
+
+impl Implicit {
+    fn new(mass: f32, inertia: f32) -> Self {
+        let (linear, mixed) = ([mass, 0.0, mass], [0.0, 0.0, inertia]);
+        Self { linear, mixed, force: Vec2::ZERO, torque: 0.0, mass, inertia }
+    }
+
+    fn push(&mut self, force: Vec2, torque: f32) {
+        (self.force, self.torque) = (self.force + force, self.torque + torque);
+    }
+
+    /// Resists motion along a way, and the turning that goes with it.
+    fn resist(&mut self, by: f32, way: Vec2, turn: f32) {
+        let [xx, xy, yy] = &mut self.linear;
+        (*xx, *xy, *yy) =
+            (*xx + by * way.x * way.x, *xy + by * way.x * way.y, *yy + by * way.y * way.y);
+        let [xw, yw, ww] = &mut self.mixed;
+        (*xw, *yw, *ww) =
+            (*xw + by * way.x * turn, *yw + by * way.y * turn, *ww + by * turn * turn);
+    }
+
+    /// By elimination; what is left of each is never less than without resistance.
+    fn accelerations(&self) -> (Vec2, f32) {
+        let ([xx, xy, yy], [xw, yw, ww]) = (self.linear, self.mixed);
+        let (by_x, turned_by_x) = (xy / xx, xw / xx);
+        let (y, y_turn) = ((yy - by_x * xy).max(self.mass), yw - by_x * xw);
+        let turned_by_y = y_turn / y;
+        let w = (ww - turned_by_x * xw - turned_by_y * y_turn).max(self.inertia);
+        let force_y = self.force.y - by_x * self.force.x;
+        let torque = self.torque - turned_by_x * self.force.x - turned_by_y * force_y;
+        let turn = torque / w;
+        let up = force_y / y - turned_by_y * turn;
+        (Vec2::new(self.force.x / xx - by_x * up - turned_by_x * turn, up), turn)
+    }
+}
+
 /// What is so many times as heavy as a thing, or does not move, holds that where it is joined to it or lies on it.
 const HOLDS: f32 = 4.0;
 
 impl Body<'_> {
-    /// Does something that is much heavier keep it from rising as it would? What is as light rises along with it.
-    fn is_held_down(&self, gravity: Vec2) -> bool {
+    /// Does something that is much heavier keep it from going where a force would take it? What is as light goes along.
+    fn is_held(&self, force: Vec2) -> bool {
         let (world, id) = (self.world(), self.id());
         let holds = |(a, b): (BodyId, BodyId)| {
             let other = world.body(if a == id { b } else { a });
@@ -303,7 +366,7 @@ impl Body<'_> {
         };
         let presses = |contact: ContactView| {
             let push = contact.force() * if contact.body_b == id { 1.0 } else { -1.0 };
-            push.dot(gravity) > 0.0 && holds((contact.body_a, contact.body_b))
+            push.dot(force) < 0.0 && holds((contact.body_a, contact.body_b))
         };
         self.joints().filter_map(|joint| world.joint(joint)).any(is_joined)
             || self.contacts().any(presses)

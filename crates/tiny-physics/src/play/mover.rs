@@ -64,9 +64,11 @@ described! {
         pub normal: Vec2,
         /// The place under the foot: world, metres.
         pub point: DVec2,
+        /// Where it holds on: there, or at the centre of a ball.
+        hold: DVec2,
         /// The same place in the body's frame.
         local: Vec2,
-        /// Velocity of the body there, metres a second.
+        /// Velocity of the body there (of a ball its centre's), metres a second.
         pub velocity: Vec2,
     }
 }
@@ -286,10 +288,9 @@ impl CharacterMover {
         let Some(ground) = self.ground else { return };
         let is_here = self.position.relative_to(ground.point).length() <= self.height;
         // As a lift that begins anew below is: further than it goes by itself.
-        let moved = |body: &Body<'_>| body.pose().apply(ground.local).relative_to(ground.point);
-        let leaps = |body: &Body<'_>| {
-            (moved(body) - body.velocity_at(ground.point) * frame.dt).length() > self.height
-        };
+        let moved = |body: &Body<'_>| body.pose().apply(ground.local).relative_to(ground.hold);
+        let speed = |body: &Body<'_>| body.velocity_at(hold(world, ground.shape, ground.point));
+        let leaps = |body: &Body<'_>| (moved(body) - speed(body) * frame.dt).length() > self.height;
         let Some(body) = world.body(ground.body).filter(|body| is_here && !leaps(body)) else {
             // That is gone, or one of them has been taken elsewhere.
             (self.velocity, self.drift) = (Vec2::ZERO, 0.0);
@@ -300,7 +301,7 @@ impl CharacterMover {
         let mut carry = self.belt(world) * frame.dt;
         if moves {
             carry += moved(&body);
-            let sinks = (ground.velocity - body.velocity_at(ground.point)).dot(frame.up);
+            let sinks = (ground.velocity - speed(&body)).dot(frame.up);
             if sinks > self.snap_distance / SNAP_TIME + frame.gravity.length() * frame.dt {
                 // Faster than it can fall.
                 self.leave(frame, ground.velocity);
@@ -329,7 +330,8 @@ impl CharacterMover {
     fn ground_velocity(&self, world: &World) -> Vec2 {
         let velocity = |ground: MoverGround| {
             let body = world.body(ground.body)?;
-            (body.kind() != BodyKind::Static).then(|| body.velocity_at(ground.point))
+            let hold = || hold(world, ground.shape, ground.point);
+            (body.kind() != BodyKind::Static).then(|| body.velocity_at(hold()))
         };
         self.ground.and_then(velocity).unwrap_or(Vec2::ZERO) + self.belt(world)
     }
@@ -386,21 +388,30 @@ impl CharacterMover {
         self.find_ground(world, frame, drop);
     }
 
-    /// Climbs what stops it, if that is a step. A way shorter than its skin may not get it onto the edge.
+    /// Climbs what stops it, if that is a step. A way shorter than its skin may not get it onto the edge; on a longer one
+    /// the next step may be in the way.
     fn step_up(&mut self, world: &World, frame: Frame, way: f32) -> bool {
-        self.step_on(world, frame, way)
-            || way.abs() < self.skin && self.step_on(world, frame, self.skin.copysign(way))
+        let mut length = way.abs();
+        for _ in 0..MAX_CASTS {
+            let Err(free) = self.step_on(world, frame, length.copysign(way)) else { return true };
+            if length == self.skin || free < self.skin && length > self.skin {
+                return false;
+            }
+            length = if free > 2.0 * self.skin { 0.5 * free } else { self.skin };
+        }
+        false
     }
 
-    /// Up, forward by `way`, down again.
-    fn step_on(&mut self, world: &World, frame: Frame, way: f32) -> bool {
+    /// Up, forward by `way`, down again; or how far its way was free.
+    fn step_on(&mut self, world: &World, frame: Frame, way: f32) -> Result<(), f32> {
         let start = self.position;
         let foot = start - frame.up * (0.5 * self.height);
         let rise = frame.up * self.step_height;
         let free = self.cast(world, frame, rise, None).map_or(1.0, |hit| hit.fraction);
         self.position += rise * free;
         let forward = frame.right * way;
-        if self.cast(world, frame, forward, None).is_none() {
+        let ahead = self.cast(world, frame, forward, None).map(|hit| hit.fraction);
+        if ahead.is_none() {
             self.position += forward;
             let down = rise * -free;
             if let Some(hit) = self.cast(world, frame, down, None)
@@ -409,11 +420,11 @@ impl CharacterMover {
                 && self.holds(world, frame, &hit)
             {
                 self.position += down * hit.fraction;
-                return true;
+                return Ok(());
             }
         }
         self.position = start;
-        false
+        Err(way.abs() * ahead.unwrap_or(1.0))
     }
 
     /// Finds the ground under it and goes down to it, or loses it.
@@ -499,10 +510,11 @@ impl CharacterMover {
 
     fn stand_on(&mut self, world: &World, hit: &MoverHit) {
         let MoverHit { body, shape, point, normal } = *hit;
+        let hold = hold(world, shape, point);
         let (local, velocity) = world.body(body).map_or((Vec2::ZERO, Vec2::ZERO), |body| {
-            (body.pose().unapply(point), body.velocity_at(point))
+            (body.pose().unapply(hold), body.velocity_at(hold))
         });
-        self.ground = Some(MoverGround { body, shape, normal, point, local, velocity });
+        self.ground = Some(MoverGround { body, shape, normal, point, hold, local, velocity });
     }
 
     /// Can it stand on this: a slope that is not too steep, or an edge with such a floor beside it?
@@ -520,6 +532,10 @@ impl CharacterMover {
         let other = self.cast(world, frame, downhill, None);
         if other.is_some_and(|other| other.normal.dot(right) * lean < 0.0) {
             return true;
+        }
+        // A ball has no edges.
+        if world.shape(hit.shape).is_some_and(|shape| rolls(world, &shape)) {
+            return false;
         }
         let (beside, above, below) = (0.1 * self.radius, 0.3 * self.radius, 0.1 * self.radius);
         let filter = self.query();
@@ -722,6 +738,19 @@ impl CharacterMover {
         let gap = gap();
         gap.separation >= -0.5 * self.skin && place.q.rotate(gap.normal).dot(way.normalized()) > 0.3
     }
+}
+
+/// Is it a ball that may roll?
+fn rolls(world: &World, shape: &ShapeRef<'_>) -> bool {
+    let body = world.body(shape.body());
+    matches!(shape.shape(), Shape::Circle { .. })
+        && body.is_some_and(|body| body.kind() == BodyKind::Dynamic)
+}
+
+/// Where a character that stands at a point holds on to a body: a ball turns under its foot, and takes it along by its centre.
+fn hold(world: &World, shape: ShapeId, point: DVec2) -> DVec2 {
+    let ball = world.shape(shape).filter(|shape| rolls(world, shape));
+    ball.map_or(point, |ball| ball.pose().p)
 }
 
 /// The way along a floor that goes so far to the right.

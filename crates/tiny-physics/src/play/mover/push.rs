@@ -2,12 +2,14 @@
 
 use super::{CharacterMover, Frame, MoverGround, Obstacle, along};
 use crate::codec::described;
-use crate::{BodyId, BodyKind, DVec2, World};
+use crate::{BodyId, BodyKind, ContactView, DVec2, Vec2, World};
 
 /// A push that is not bounded is at most this strong, newtons.
 const MAX_PUSH: f32 = 1.0e12;
 /// What gains so much of what gravity gives is held by nothing.
 const FALLS: f32 = 0.9;
+/// It weighs at most so many times as much as what is under it.
+const MOST_LOAD: f32 = 10.0;
 
 described! {
     /// What a character pushed in an update, and what came of it.
@@ -59,7 +61,7 @@ impl CharacterMover {
     ) {
         let Frame { dt, pushed, .. } = frame;
         let id = hit.body;
-        let stands_on = self.ground.map(|ground| (ground.body, ground.point));
+        let stands_on = self.ground.map(|ground| (ground.body, ground.hold));
         if stands_on.is_some_and(|(ground, _)| ground == id) {
             // What it pushes away with its hands it holds with its feet.
             return;
@@ -119,11 +121,26 @@ impl CharacterMover {
             (ground.velocity - before.velocity).dot(frame.gravity)
                 > FALLS * frame.gravity.length_sq() * frame.dt
         });
+        let weight = frame.gravity * self.load(world, ground.body, frame.gravity);
         if let Some(mut body) = world.body_mut(ground.body)
             && body.as_ref().kind() == BodyKind::Dynamic
             && !falls
         {
-            body.apply_force(frame.gravity * self.mass, ground.point);
+            body.apply_force(weight, ground.hold);
         }
+    }
+
+    /// The mass with which it weighs on a body. The body feels no inertia of it, so that is bounded by its own mass, or that of
+    /// what lies on it or bears it.
+    fn load(&self, world: &World, body: BodyId, gravity: Vec2) -> f32 {
+        let Some(body) = world.body(body) else { return 0.0 };
+        let presses = |contact: &ContactView| {
+            let push = contact.force();
+            push.dot(gravity).abs() > 0.5 * push.length() * gravity.length()
+        };
+        let pairs = body.contacts().filter(presses).map(|found| [found.body_a, found.body_b]);
+        let masses = pairs.flatten().filter_map(|id| Some(world.body(id)?.mass()));
+        let heaviest = masses.fold(body.mass(), |most, mass| if mass > most { mass } else { most });
+        self.mass.min(MOST_LOAD * heaviest)
     }
 }
