@@ -31,6 +31,8 @@ use core::cell::OnceCell;
 const TOLERANCE: f32 = 0.002;
 /// A face counts as covered at a point if it is so there and this far to both sides, metres; multiplied likewise.
 const REACH: f32 = 0.02;
+/// What covers a face by more than this part of [`TOLERANCE`] touches it: thin plates do, tiles at a corner do not.
+const THIN: f32 = 0.1;
 /// Lines count as so thick where they go on from a face: more than [`REACH`], metres; multiplied likewise.
 const THICK: f32 = 0.05;
 /// A corner's normal is free if the neighbours rise by no more than this above it, metres.
@@ -219,8 +221,16 @@ impl<'a> Seams<'a> {
         let mut count = 0;
         for point in points.into_iter().flatten() {
             let at = along.dot(point - start);
+            let over = along.dot(middle(self.other_core()) - start);
+            let (mut low, mut high) = (at - REACH * unit, at + REACH * unit);
+            // Over an end of the face near by the other shape meets what covers that from its side, however thin it is.
+            if high >= length && over > length {
+                low = at;
+            } else if low <= 0.0 && over < 0.0 {
+                high = at;
+            }
             // In a slot both sides may be within walls.
-            for shifted in [at - REACH * unit, at, at + REACH * unit] {
+            for shifted in [low, at, high] {
                 probes[count] = start + along * shifted.max(0.0).min(length);
                 count += 1;
             }
@@ -637,7 +647,7 @@ fn touched_by(core: &Core, other: &Core, tolerance: f32) -> u32 {
         let before = -support_height(other, -along) - along.dot(end);
         let behind = along.dot(start) - support_height(other, along);
         let beside = if before > behind { before } else { behind };
-        if above > tolerance && below <= tolerance && beside < -tolerance {
+        if above > tolerance && below <= tolerance && beside < -THIN * tolerance {
             bits |= guard::face(i);
         }
     }
