@@ -45,4 +45,4 @@ pub use shape::Shape;
 pub use sweep::Sweep;
 pub(crate) use swept_box::SweptBox;
 pub use toi::{LINEAR_SLOP, Toi, ToiState, time_of_impact, time_of_impact_to, toi_target};
-pub(crate) use toi::{hit_at, impact_within, touch_within};
+pub(crate) use toi::{hit_at, impact_within, pass_by, touch_within};

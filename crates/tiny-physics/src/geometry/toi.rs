@@ -27,6 +27,8 @@ const MAX_SEARCHES: u32 = 32;
 pub const LINEAR_SLOP: f32 = 0.005;
 /// Closer to the target than this part of the slop is a hit.
 const TOLERANCE: f32 = 0.1;
+/// What comes no nearer than this part of the slop passes by.
+const GRAZE: f32 = 0.1;
 /// Rounding counts up to so many tolerances: ground of a hundred kilometres is not touched from ten centimetres away.
 const ROUNDED: f32 = 4.0;
 
@@ -100,6 +102,16 @@ pub(crate) fn impact_within(
     let goal = Goal { max_fraction, target: toi_target(a, b, slop), tolerance: TOLERANCE * slop };
     let toi = search(&Moving::new(a, sweep_a), &Moving::new(b, sweep_b), goal, from);
     (toi.state != ToiState::Separated).then_some(toi)
+}
+
+/// Do two shapes stay apart between two fractions of the step, however closely they pass?
+pub(crate) fn pass_by(
+    [a, b]: [&Shape; 2],
+    [sweep_a, sweep_b]: [&Sweep; 2],
+    range: (f32, f32),
+    slop: f32,
+) -> bool {
+    impact_within(a, sweep_a, b, sweep_b, range, GRAZE * slop).is_none()
 }
 
 /// When two moving shapes come within `target` metres (separation, negative is overlap), up to

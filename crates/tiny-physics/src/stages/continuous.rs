@@ -18,7 +18,7 @@ use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::dynamics::{Bodies, Joints, NULL, ShapeRecord, Shapes, Slot, is_rigid};
 use crate::geometry::manifold::{self, ShapeClass};
 use crate::geometry::{
-    LINEAR_SLOP, Shape, Sweep, SweptBox, ToiState, distance, hit_at, impact_within,
+    LINEAR_SLOP, Shape, Sweep, SweptBox, ToiState, distance, hit_at, impact_within, pass_by,
 };
 use crate::math::{Aabb, Pose, Rot, Transform, Vec2};
 use crate::simd::Row;
@@ -440,7 +440,12 @@ impl Search<'_> {
         let solid_along =
             |way: Vec2| one_way::are_solid_along([record, other], [self.fast.start.q, turn], way);
         let toi = impact_within(&record.shape, &moving, &other.shape, &motion, (0.0, first), slop)?;
-        let hit = matches!(toi.state, ToiState::Hit | ToiState::Limit);
+        let (both, ways) = ([&record.shape, &other.shape], [&moving, &motion]);
+        let passes = || pass_by(both, ways, (toi.fraction, first), slop);
+        let hit = match toi.state {
+            ToiState::Hit if passes() => return None,
+            state => matches!(state, ToiState::Hit | ToiState::Limit),
+        };
         let there = |f: f32| moving.at(f).relative_to(motion.at(f));
         let outwards = motion.at(toi.fraction).q.unrotate(-toi.normal);
         let held = || self.is_held([record, other], outwards, there(1.0));

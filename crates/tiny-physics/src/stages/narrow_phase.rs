@@ -5,7 +5,7 @@
 //! iterates on. Running it twice on one block gives the same block, so blocks that got new contacts
 //! after the pass are simply run again.
 
-use super::ahead::{HARMLESS, HEAVIER, Predictions, SLIGHT};
+use super::ahead::{HARMLESS, HEAVIER, Predictions, SLIGHT, go_by};
 use super::effective_mass::effective_mass;
 use super::middle::Lead;
 use super::narrow_context::Context;
@@ -165,18 +165,26 @@ impl<K: PairKernel> LaneKernel for Update<'_, K> {
                 if constrained && !predictions.is_empty() {
                     geometry.foresee(token, predictions, &contacts[at..]);
                 }
+                let mut coming = 0;
                 if constrained {
-                    let pressed = write_constraint::<L, K>(
-                        token,
-                        &context,
-                        &geometry,
-                        &mut blocks,
-                        index,
-                        at,
-                    );
+                    let (context, geometry) = (&context, &geometry);
+                    let pressed;
+                    [pressed, coming] =
+                        write_constraint::<L, K>(token, context, geometry, &mut blocks, index, at);
                     closing |= pressed << at;
+                } else if geometry.touching != 0 {
+                    coming = geometry.coming::<K>(token, context.dt);
                 }
-                let bits = geometry.touching;
+                let mut bits = geometry.touching;
+                if coming != 0 {
+                    let mut normals = [[0.0; BLOCK]; 2];
+                    geometry.manifold.normal[0].store(&mut normals[0][at..]);
+                    geometry.manifold.normal[1].store(&mut normals[1][at..]);
+                    let of = (index, at, coming);
+                    let passing = leave_out(&context, predictions, &mut blocks, of, &normals);
+                    bits &= !passing;
+                    closing |= passing << at;
+                }
                 closing |= geometry.closing << at;
                 touching |= bits << at;
                 at += L::WIDTH;
@@ -189,6 +197,39 @@ impl<K: PairKernel> LaneKernel for Update<'_, K> {
             }
         }
     }
+}
+
+/// Of the lanes from one on that come together (`coming`, as bits), takes the points from those whose shapes pass by each other;
+/// gives these. The normal of a corner that is still apart would hold off whatever goes by, as a wall does. That they are looked
+/// at again if something strikes them ([`Predictions`]), they count as closing in.
+#[inline(never)]
+fn leave_out(
+    context: &Context<'_>,
+    predictions: &Predictions,
+    blocks: &mut Blocks<'_>,
+    (index, at, mut coming): (usize, usize, u32),
+    normals: &[[f32; BLOCK]; 2],
+) -> u32 {
+    let mut passing = 0;
+    while coming != 0 {
+        let lane = at + coming.trailing_zeros() as usize;
+        let bit = coming & coming.wrapping_neg();
+        coming ^= bit;
+        let block = &mut blocks.manifolds[index];
+        let is_foreseen = predictions.of(blocks.contacts[index * BLOCK + lane]).is_some();
+        let normal = Vec2::new(normals[0][lane], normals[1][lane]);
+        if is_foreseen || !go_by(context, [block.shape_a[lane], block.shape_b[lane]], normal) {
+            continue;
+        }
+        passing |= bit;
+        (block.id_1[lane], block.id_2[lane]) = (-1.0, -1.0);
+        let Some(constraint) = blocks.constraints.get_mut(index) else { continue };
+        for point in &mut constraint.points {
+            (point.normal_mass[lane], point.tangent_mass[lane]) = (0.0, 0.0);
+            (point.normal_impulse[lane], point.tangent_impulse[lane]) = (0.0, 0.0);
+        }
+    }
+    passing
 }
 
 /// Notes which lanes have bodies with joints.
@@ -281,6 +322,27 @@ impl<L: Lanes> Geometry<L> {
             geometry.closing = ahead.closing::<K>(token, rows, &geometry, gap, limit);
         }
         geometry
+    }
+
+    /// Lanes whose points are apart and would come together in the step, as bits.
+    #[inline(always)]
+    fn coming<K: PairKernel>(&self, token: L::Token, dt: f32) -> u32 {
+        let zero = L::splat(token, 0.0);
+        let mut approach = [zero; 2];
+        for (k, approach) in approach.iter_mut().enumerate().take(K::POINTS) {
+            let normal = self.manifold.normal;
+            *approach = Arms::compute(self, normal, k).approach(self, normal);
+        }
+        self.come_together(token, approach, dt)
+    }
+
+    /// The same, as fast as their points part.
+    #[inline(always)]
+    fn come_together(&self, token: L::Token, parting: [L; 2], dt: f32) -> u32 {
+        let (zero, dt) = (L::splat(token, 0.0), L::splat(token, dt));
+        let gap = self.manifold.separation;
+        let least = (gap[0] + dt * parting[0]).min(gap[1] + dt * parting[1]);
+        self.touching & L::bits(L::and(gap[0].min(gap[1]).gt(zero), least.lt(zero)))
     }
 
     /// Puts predicted contacts in the place of what the lanes have now.
@@ -523,7 +585,8 @@ fn unrotate<L: Lanes>(q: [L; 2], v: [L; 2]) -> [L; 2] {
     [q[0] * v[0] + q[1] * v[1], q[0] * v[1] - q[1] * v[0]]
 }
 
-/// Writes the constraints of a stride. Gives the lanes in which a much lighter body lies deep, as bits.
+/// Writes the constraints of a stride. Gives the lanes in which a much lighter body lies deep, and those whose points come
+/// together, as bits.
 #[inline(always)]
 fn write_constraint<L: Lanes, K: PairKernel>(
     token: L::Token,
@@ -532,7 +595,7 @@ fn write_constraint<L: Lanes, K: PairKernel>(
     blocks: &mut Blocks<'_>,
     index: usize,
     at: usize,
-) -> u32 {
+) -> [u32; 2] {
     let manifold = &mut blocks.manifolds[index];
     let constraint = &mut blocks.constraints[index];
     let [body_a, body_b] = geometry.bodies;
@@ -566,10 +629,7 @@ fn write_constraint<L: Lanes, K: PairKernel>(
         let (normal_impulse, tangent_impulse) = (carry(0), carry(1));
         let mut arms = Arms::compute(geometry, normal, k);
         let (normal_mass, tangent_mass) = inverses.masses(token, &mut arms);
-        *approach = normal[0] * (body_b[0] - body_a[0])
-            + normal[1] * (body_b[1] - body_a[1])
-            + arms.normal[1] * body_b[2]
-            - arms.normal[0] * body_a[2];
+        *approach = arms.approach(geometry, normal);
 
         if blocks.heads[index].flags & flags::RESTS != 0 {
             rests[k] = L::select(same[0], old_rest[0], L::select(same[1], old_rest[1], zero));
@@ -604,7 +664,8 @@ fn write_constraint<L: Lanes, K: PairKernel>(
     let deepest = geometry.manifold.separation[0].min(geometry.manifold.separation[1]);
     let deep = L::splat(token, -SUNK * context.speculative_distance);
     let uneven = a.max(b).gt(L::splat(token, HEAVIER) * a.min(b));
-    L::bits(L::and(deepest.lt(deep), L::and(uneven, a.min(b).gt(zero))))
+    let pressed = L::bits(L::and(deepest.lt(deep), L::and(uneven, a.min(b).gt(zero))));
+    [pressed, geometry.come_together(token, approach, context.dt)]
 }
 
 /// Lever arms of a point: cross products of its anchors with normal and tangent, for A and B.
@@ -624,6 +685,13 @@ impl<L: Lanes> Arms<L> {
             normal: [a[0] * ny - a[1] * nx, b[0] * ny - b[1] * nx],
             tangent: [-(a[0] * nx + a[1] * ny), -(b[0] * nx + b[1] * ny)],
         }
+    }
+
+    /// How fast the point of A and that of B part along the normal.
+    #[inline(always)]
+    fn approach(&self, geometry: &Geometry<L>, [nx, ny]: [L; 2]) -> L {
+        let [a, b] = &geometry.bodies;
+        nx * (b[0] - a[0]) + ny * (b[1] - a[1]) + self.normal[1] * b[2] - self.normal[0] * a[2]
     }
 }
 

@@ -327,7 +327,10 @@ impl World {
         }
         let Self { state: State { bodies, contacts, graph, .. }, scratch, .. } = self;
         for &index in &scratch.predictions.missed {
-            graph.mark_touching(&contacts.records[index as usize], false);
+            let contact = &contacts.records[index as usize];
+            if graph.touches(contact) {
+                graph.mark_touching(contact, false);
+            }
         }
         scratch.predictions.leave_asleep(bodies, contacts, FELT * self.settings.length_unit);
         let ahead::Predictions { contacts: predicted, fresh, .. } = &mut scratch.predictions;

@@ -1,6 +1,6 @@
 //! How bodies move in a step in which they are hit.
 
-use crate::dynamics::{Bodies, Slot, inverse_mass_along};
+use crate::dynamics::{Bodies, Contact, Slot, inverse_mass_along};
 use crate::footprint::footprint;
 use crate::math::Vec2;
 use crate::stages::ahead::HARMLESS;
@@ -85,6 +85,11 @@ impl Courses {
     /// Is a body known to be hit in this step?
     pub(super) fn is_struck(&self, body: u32) -> bool {
         self.known(body).is_some()
+    }
+
+    /// Or one of a contact's two?
+    pub(super) fn have_struck(&self, contact: &Contact) -> bool {
+        self.is_struck(contact.body_a) || self.is_struck(contact.body_b)
     }
 
     pub(super) fn keep(&mut self, course: &Course) {

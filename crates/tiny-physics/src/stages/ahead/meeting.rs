@@ -1,12 +1,13 @@
 //! Two shapes on their ways: whether they come near, when, and the contact that they have then.
 
-use super::courses::Leg;
+use super::courses::{Course, Leg};
 use super::hits::Prediction;
-use crate::dynamics::ShapeRecord;
+use crate::dynamics::{Bodies, ShapeRecord, Shapes};
 use crate::geometry::manifold::{self, Manifold};
-use crate::geometry::{Sweep, SweptBox, hit_at};
+use crate::geometry::{LINEAR_SLOP, Sweep, SweptBox, hit_at, pass_by};
 use crate::math::{Rot, Transform, Vec2};
 use crate::simd::Row;
+use crate::stages::narrow_context::{Context, Ground};
 use crate::stages::one_way;
 
 /// What rounding makes of places, as a part of how large and far away things are.
@@ -28,7 +29,40 @@ pub(super) struct Meeting<'a> {
     pub(super) disks: [f32; 2],
 }
 
-impl Meeting<'_> {
+/// Do two shapes go past each other in the step as their bodies move now, though the points of their contact come together along
+/// this normal?
+pub(crate) fn go_by(context: &Context<'_>, both: [u32; 2], normal: Vec2) -> bool {
+    let Ground { bodies, shapes, length_unit, .. } = context.ground;
+    let body = |shape: u32| shapes.records[shape as usize].body;
+    let courses = both.map(|shape| Course::of(bodies, context.dt, body(shape)));
+    let meeting = Meeting::of((bodies, shapes), both, courses, context.dt);
+    let ([a, b], [way_a, way_b]) = (meeting.shapes, meeting.sweeps());
+    !meeting.shapes.iter().any(|shape| shape.one_way.is_some())
+        && !meeting.ends_on_face(0, normal)
+        && !meeting.ends_on_face(1, -normal)
+        && pass_by([&a.shape, &b.shape], [&way_a, &way_b], (0.0, 1.0), LINEAR_SLOP * length_unit)
+}
+
+impl<'a> Meeting<'a> {
+    /// That of two shapes whose bodies take these courses in a step of `dt` seconds.
+    pub(super) fn of(
+        (bodies, shapes): (&'a Bodies, &'a Shapes),
+        both: [u32; 2],
+        courses: [Course; 2],
+        dt: f32,
+    ) -> Self {
+        let [pose_a, pose_b] = courses.map(|course| bodies.poses[course.body as usize]);
+        Self {
+            shapes: both.map(|shape| &shapes.records[shape as usize]),
+            rows: both.map(|shape| &shapes.rows[shape as usize]),
+            between: pose_b.p.relative_to(pose_a.p),
+            turned: [pose_a.q, pose_b.q],
+            legs: courses.map(|course| course.leg(dt)),
+            extents: both.map(|shape| shapes.reach(shape)),
+            disks: courses.map(|course| bodies.infos[course.body as usize].max_extent),
+        }
+    }
+
     /// Is one of the shapes one-way, and lets the other pass?
     pub(super) fn is_let_pass(&self) -> bool {
         let (turned, way) = (self.turned_way(), self.way());
@@ -72,6 +106,24 @@ impl Meeting<'_> {
             Sweep::new(frame, Vec2::ZERO, way, self.legs[k].turn).child(self.shapes[k].central)
         };
         [sweep(0, Vec2::ZERO, Vec2::ZERO), sweep(1, self.begin(), self.way())]
+    }
+
+    /// Is this the normal of a face of one shape, past whose ends the other's nearest corner cannot come?
+    fn ends_on_face(&self, k: usize, out: Vec2) -> bool {
+        let (frames, way) = (self.frames(), self.longest_way());
+        let ([own, other], [frame, place]) = if k == 0 {
+            (self.shapes, frames)
+        } else {
+            ([self.shapes[1], self.shapes[0]], [frames[1], frames[0]])
+        };
+        let (core, corners) = (own.shape.core(), other.shape.core());
+        let normal = frame.q.unrotate(out);
+        manifold::face_of(&core, normal).is_some_and(|face| {
+            let corner = corners.points[corners.support(place.q.unrotate(-out))];
+            let (along, (start, end)) = (normal.perp(), core.edge(face));
+            let at = along.dot(frame.unapply(place.apply(corner)) - start);
+            way < at && at + way < along.dot(end - start)
+        })
     }
 
     /// Where the shapes are as the step starts.

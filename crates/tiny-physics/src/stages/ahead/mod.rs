@@ -25,6 +25,7 @@ mod squeezed;
 
 pub(crate) use again::Around;
 pub(crate) use driven::{Held, moves};
+pub(crate) use meeting::go_by;
 pub(crate) use predictions::{Predictions, Scene};
 pub(crate) use squeezed::HEAVIER;
 

@@ -12,7 +12,7 @@ use crate::dynamics::{
 };
 use crate::footprint::footprint;
 use crate::geometry::manifold::Manifold;
-use crate::geometry::{LINEAR_SLOP, ToiState, impact_within};
+use crate::geometry::{LINEAR_SLOP, ToiState, impact_within, pass_by};
 use crate::math::{Transform, Vec2};
 use crate::stages::ahead::{Found, SLIGHT, Ways};
 use crate::stages::boxes;
@@ -261,8 +261,7 @@ impl Predictions {
         let Self { missed, courses, candidates, .. } = self;
         missed.retain(|&index| {
             let contact = &contacts.records[index as usize];
-            let misses =
-                ![contact.body_a, contact.body_b].iter().any(|&body| courses.is_struck(body));
+            let misses = !courses.have_struck(contact);
             candidates.extend((!misses).then_some(index));
             misses
         });
@@ -492,12 +491,6 @@ enum Coming {
     Unknown,
 }
 
-impl Coming {
-    fn hit(self) -> Option<Hit> {
-        if let Self::Hit(hit) = self { Some(hit) } else { None }
-    }
-}
-
 /// The search for a hit.
 struct Look<'a> {
     scene: Scene<'a>,
@@ -514,7 +507,13 @@ impl Look<'_> {
         }
         let Some((bucket, block, lane)) = self.scene.graph.lane_of(contact) else { return };
         if !bucket.touches(block, lane) {
-            seen.hits.extend(self.coming(index).hit());
+            // What was to go by before others struck it may be near already.
+            match self.coming(index) {
+                Coming::Hit(hit) => seen.hits.push(hit),
+                Coming::Unknown => seen.hits.extend(self.now(index)),
+                Coming::Misses if self.known.courses.have_struck(contact) => {}
+                Coming::Misses => seen.missed.push(index),
+            }
             return;
         }
         let passes = || {
@@ -539,6 +538,12 @@ impl Look<'_> {
             let prediction = self.other_point(contact, constraint, lane);
             return Some(Hit { prediction, ..Hit::touching(index, constraint, lane) });
         }
+        self.now(index)
+    }
+
+    /// The hit of a contact that has no points, as its shapes lie when the step starts.
+    fn now(&self, index: u32) -> Option<Hit> {
+        let contact = &self.scene.contacts.records[index as usize];
         let meeting = self.meeting(contact, self.far(contact));
         // Whether what is one-way lets it begin is judged later.
         let is_one_way = meeting.shapes.iter().any(|shape| shape.one_way.is_some());
@@ -610,6 +615,11 @@ impl Look<'_> {
         let from = apart.max(meeting.since());
         let toi = impact_within(&a.shape, &sweeps[0], &b.shape, &sweeps[1], (from, 1.0), slop);
         let Some(toi) = toi else { return Coming::Misses };
+        // Closely only where it is known how they go.
+        let (pair, ways) = ([&a.shape, &b.shape], [&sweeps[0], &sweeps[1]]);
+        if courses.iter().all(|it| it.sure) && pass_by(pair, ways, (toi.fraction, 1.0), slop) {
+            return Coming::Misses;
+        }
         let is_solid = one_way::are_solid_along(meeting.shapes, meeting.turned, toi.normal);
         if toi.state == ToiState::Touching || !is_solid {
             return Coming::Unknown;
@@ -633,9 +643,7 @@ impl Look<'_> {
             return None;
         }
         let both = constraint.points.iter().all(|point| point.normal_mass[lane] > 0.0);
-        let struck =
-            [contact.body_a, contact.body_b].iter().any(|&body| self.known.courses.is_struck(body));
-        if both || !struck {
+        if both || !self.known.courses.have_struck(contact) {
             return None;
         }
         let meeting = self.meeting(contact, self.far(contact));
@@ -662,19 +670,7 @@ impl Look<'_> {
 
     fn meeting(&self, contact: &Contact, courses: [Course; 2]) -> Meeting<'_> {
         let Scene { bodies, shapes, dt, .. } = self.scene;
-        let [shape_a, shape_b] = [contact.shape_a, contact.shape_b];
-        let shapes_of = [shape_a, shape_b].map(|shape| &shapes.records[shape as usize]);
-        let both = [contact.body_a, contact.body_b];
-        let [pose_a, pose_b] = both.map(|body| bodies.poses[body as usize]);
-        Meeting {
-            shapes: shapes_of,
-            rows: [shape_a, shape_b].map(|shape| &shapes.rows[shape as usize]),
-            between: pose_b.p.relative_to(pose_a.p),
-            turned: [pose_a.q, pose_b.q],
-            legs: courses.map(|course| course.leg(dt)),
-            extents: [shapes.reach(shape_a), shapes.reach(shape_b)],
-            disks: both.map(|body| bodies.infos[body as usize].max_extent),
-        }
+        Meeting::of((bodies, shapes), [contact.shape_a, contact.shape_b], courses, dt)
     }
 
     /// The manifold where the shapes are then, without what only seams make; nothing where that is all.
