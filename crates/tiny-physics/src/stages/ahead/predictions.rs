@@ -615,9 +615,11 @@ impl Look<'_> {
         let from = apart.max(meeting.since());
         let toi = impact_within(&a.shape, &sweeps[0], &b.shape, &sweeps[1], (from, 1.0), slop);
         let Some(toi) = toi else { return Coming::Misses };
-        // Closely only where it is known how they go.
+        // Closely only where it is known how they go, and what it is that does not give way.
         let (pair, ways) = ([&a.shape, &b.shape], [&sweeps[0], &sweeps[1]]);
-        if courses.iter().all(|it| it.sure) && pass_by(pair, ways, (toi.fraction, 1.0), slop) {
+        let moves = |it: &Course| self.scene.bodies.is_dynamic(it.body);
+        let is_known = courses.iter().all(|it| it.sure) && !courses.iter().all(moves);
+        if is_known && pass_by(pair, ways, (toi.fraction, 1.0), slop) {
             return Coming::Misses;
         }
         let is_solid = one_way::are_solid_along(meeting.shapes, meeting.turned, toi.normal);
