@@ -1,6 +1,6 @@
 //! Effective masses of contacts: what an impulse at a point moves.
 
-use crate::dynamics::{Bodies, Contact, Graph, inverse_mass_along, inverses};
+use crate::dynamics::{Bodies, Contact, Graph, Slot, inverse_mass_along, inverses, lever, locked};
 use crate::math::Vec2;
 use crate::simd::{Lanes, Row};
 
@@ -10,6 +10,46 @@ pub(super) fn effective_mass<L: Lanes>(token: L::Token, arm: [L; 2], [mass, a, b
     let k = mass + a * arm[0] * arm[0] + b * arm[1] * arm[1];
     let zero = L::splat(token, 0.0);
     L::select(k.gt(zero), L::splat(token, 1.0) / k, zero)
+}
+
+/// Inverse masses of both bodies together along normal and tangent, and those of each in turning.
+pub(super) struct Inverses<L> {
+    pub(super) along: L,
+    across: L,
+    turns: [L; 2],
+    /// Do some turn alone?
+    pub(super) pinned: bool,
+}
+
+impl<L: Lanes> Inverses<L> {
+    #[inline(always)]
+    pub(super) fn new(token: L::Token, [x, y]: [L; 2], [mut a, mut b]: [[L; 8]; 2]) -> Self {
+        let mut along = a[Slot::INV_MASS] + b[Slot::INV_MASS];
+        let mut across = along;
+        if let Some([free_a, free_b]) = locked(token, [&mut a, &mut b]) {
+            along = inverse_mass_along(token, [x, y], free_a)
+                + inverse_mass_along(token, [x, y], free_b);
+            across = inverse_mass_along(token, [y, x], free_a)
+                + inverse_mass_along(token, [y, x], free_b);
+        }
+        let (turns, zero) = ([a[Slot::INV_INERTIA], b[Slot::INV_INERTIA]], L::splat(token, 0.0));
+        let alone = L::and(along.min(across).eq(zero), zero.lt(turns[0] + turns[1]));
+        Self { along, across, turns, pinned: L::bits(alone) != 0 }
+    }
+
+    /// Effective masses along normal and tangent, by the arms of these.
+    #[inline(always)]
+    pub(super) fn masses(&self, token: L::Token, [normal, tangent]: [&mut [L; 2]; 2]) -> (L, L) {
+        let Self { along, across, turns: [a, b], pinned } = *self;
+        if pinned {
+            for k in 0..2 {
+                let (n, t) = (normal[k], tangent[k]);
+                (normal[k], tangent[k]) = (lever(token, n, t, along), lever(token, t, n, across));
+            }
+        }
+        let normal = effective_mass(token, *normal, [along, a, b]);
+        (normal, effective_mass(token, *tangent, [across, a, b]))
+    }
 }
 
 /// Inverse masses of a body along a direction and in turning.

@@ -6,13 +6,12 @@
 //! after the pass are simply run again.
 
 use super::ahead::{HARMLESS, HEAVIER, Predictions, SLIGHT, go_by};
-use super::effective_mass::effective_mass;
+use super::effective_mass::Inverses;
 use super::middle::Lead;
 use super::narrow_context::Context;
 use super::surfaces::{self, LanePoints};
 use crate::dynamics::{
-    BlockHead, Blocks, Graph, ManifoldBlock, NULL, Schedule, Slot, flags, inverse_mass_along,
-    lever, locked, straight,
+    BlockHead, Blocks, Graph, ManifoldBlock, NULL, Schedule, Slot, flags, straight,
 };
 use crate::geometry::manifold::{self, LaneManifold, LanePair, Outline, PairClass};
 use crate::math::{Pose, Rot, Transform, Vec2};
@@ -632,7 +631,8 @@ fn write_constraint<L: Lanes, K: PairKernel>(
         };
         let (normal_impulse, tangent_impulse) = (carry(0), carry(1));
         let mut arms = Arms::compute(geometry, normal, k);
-        let (normal_mass, tangent_mass) = inverses.masses(token, &mut arms);
+        let (normal_mass, tangent_mass) =
+            inverses.masses(token, [&mut arms.normal, &mut arms.tangent]);
         *approach = arms.approach(geometry, normal);
 
         if blocks.heads[index].flags & flags::RESTS != 0 {
@@ -696,45 +696,5 @@ impl<L: Lanes> Arms<L> {
     fn approach(&self, geometry: &Geometry<L>, [nx, ny]: [L; 2]) -> L {
         let [a, b] = &geometry.bodies;
         nx * (b[0] - a[0]) + ny * (b[1] - a[1]) + self.normal[1] * b[2] - self.normal[0] * a[2]
-    }
-}
-
-/// Inverse masses of both bodies together along normal and tangent, and those of each in turning.
-struct Inverses<L> {
-    along: L,
-    across: L,
-    turns: [L; 2],
-    /// Do some turn alone?
-    pinned: bool,
-}
-
-impl<L: Lanes> Inverses<L> {
-    #[inline(always)]
-    fn new(token: L::Token, [x, y]: [L; 2], [mut a, mut b]: [[L; 8]; 2]) -> Self {
-        let mut along = a[Slot::INV_MASS] + b[Slot::INV_MASS];
-        let mut across = along;
-        if let Some([free_a, free_b]) = locked(token, [&mut a, &mut b]) {
-            along = inverse_mass_along(token, [x, y], free_a)
-                + inverse_mass_along(token, [x, y], free_b);
-            across = inverse_mass_along(token, [y, x], free_a)
-                + inverse_mass_along(token, [y, x], free_b);
-        }
-        let (turns, zero) = ([a[Slot::INV_INERTIA], b[Slot::INV_INERTIA]], L::splat(token, 0.0));
-        let alone = L::and(along.min(across).eq(zero), zero.lt(turns[0] + turns[1]));
-        Self { along, across, turns, pinned: L::bits(alone) != 0 }
-    }
-
-    /// Effective masses along normal and tangent.
-    #[inline(always)]
-    fn masses(&self, token: L::Token, Arms { normal, tangent }: &mut Arms<L>) -> (L, L) {
-        let Self { along, across, turns: [a, b], pinned } = *self;
-        if pinned {
-            for k in 0..2 {
-                let (n, t) = (normal[k], tangent[k]);
-                (normal[k], tangent[k]) = (lever(token, n, t, along), lever(token, t, n, across));
-            }
-        }
-        let normal = effective_mass(token, *normal, [along, a, b]);
-        (normal, effective_mass(token, *tangent, [across, a, b]))
     }
 }

@@ -53,7 +53,8 @@ const STIRRED_TIME: f32 = 2.0;
 const STRUCK_TIME: f32 = 0.25;
 /// An island hangs if joints hold it up by more than this part of what pulls at its bodies. Only what does not becomes finer for
 /// what its contacts bear: slack bridges under loads of 10, 30 and 100 planks would swing on at .15, .43 and .81 m/s in place of
-/// .07, 0 and .06. What a gripper squeezes with counts as pull, and what it lifts is less.
+/// .07, 0 and .06. What a gripper squeezes with counts as pull, and what it lifts is less. So do those in which a joint pulls more
+/// than all that: it is far out of place, and finer substeps would bring it in faster than its limits are to come.
 const HANGS: f32 = 0.4;
 /// A contact carries no more than this many times what pulls at all bodies of its island: wedges and levers do. What it pushes
 /// with beyond that holds something in that is squeezed; more stiffly, that would shoot out. Of 100 triples of U-shaped bodies put
@@ -220,6 +221,8 @@ struct Island {
     weight: f32,
     /// What joints to something else hold up of that.
     hung: f32,
+    /// Greatest force of a joint that drives nothing, newtons.
+    tie: f32,
     /// Greatest pace of its bodies so far; after [`Island::grant`] the pace of all.
     pace: u8,
     /// Greatest sink that its contacts would have at the plain pace, metres.
@@ -268,7 +271,7 @@ impl Island {
         });
         if self.joined > 0 && self.touches {
             let keeps = usize::from(self.pace) == STRUCK && !self.bears(JOINTED, rules);
-            let hangs = self.hung > HANGS * self.weight;
+            let hangs = self.hung > HANGS * self.weight || self.tie > self.weight;
             let finer = self.struck || !hangs && (wanted.is_some() || keeps);
             for pace in if finer { [STRUCK, JOINTED] } else { [JOINTED; 2] } {
                 let cost = self.bodies * ((REFINEMENT[pace] * ROUNDS[pace]) as usize - 1);
@@ -324,6 +327,7 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
             island.weight += force.length();
         } else {
             island.joints += usize::from(bodies.is_solved(other));
+            island.tie = island.tie.max(force.length());
         }
         if !bodies.is_solved(other) {
             island.hung += (force.dot(up) * sign).max(0.0);
