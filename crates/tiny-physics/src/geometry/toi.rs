@@ -13,7 +13,7 @@
 //! it homes in as Newton's method does. The bound of first order, g / (n . (va - vb) + wa Ra + wb Rb), is
 //! taken where it is larger: shapes that spin very fast.
 
-use super::distance::{Closest, Distance, distance_from};
+use super::distance::{Closest, Distance, distance, distance_from};
 use super::polygon::MAX_VERTICES;
 use super::{Core, Shape, Sweep};
 use crate::math::Vec2;
@@ -111,7 +111,10 @@ pub(crate) fn pass_by(
     range: (f32, f32),
     slop: f32,
 ) -> bool {
-    impact_within(a, sweep_a, b, sweep_b, range, GRAZE * slop).is_none()
+    let (end, slop) = (range.1, GRAZE * slop);
+    // Most do not, which their end shows.
+    distance(a, b, sweep_b.at(end).relative_to(sweep_a.at(end))).separation > toi_target(a, b, slop)
+        && impact_within(a, sweep_a, b, sweep_b, range, slop).is_none()
 }
 
 /// When two moving shapes come within `target` metres (separation, negative is overlap), up to

@@ -166,10 +166,10 @@ impl<K: PairKernel> LaneKernel for Update<'_, K> {
                 }
                 let mut coming = 0;
                 if constrained {
-                    let (context, geometry) = (&context, &geometry);
-                    let pressed;
-                    [pressed, coming] =
-                        write_constraint::<L, K>(token, context, geometry, &mut blocks, index, at);
+                    coming = geometry.coming::<K>(token, context.dt);
+                    let blocks = &mut blocks;
+                    let pressed =
+                        write_constraint::<L, K>(token, &context, &geometry, blocks, index, at);
                     closing |= pressed << at;
                 } else if geometry.touching != 0 {
                     coming = geometry.coming::<K>(token, context.dt);
@@ -327,25 +327,19 @@ impl<L: Lanes> Geometry<L> {
     /// moves: between two that move a near miss is lost in what they do next, and to look at each would take a tenth of a pile's step.
     #[inline(always)]
     fn coming<K: PairKernel>(&self, token: L::Token, dt: f32) -> u32 {
-        let zero = L::splat(token, 0.0);
-        let mut approach = [zero; 2];
-        for (k, approach) in approach.iter_mut().enumerate().take(K::POINTS) {
-            let normal = self.manifold.normal;
-            *approach = Arms::compute(self, normal, k).approach(self, normal);
-        }
-        self.come_together(token, approach, dt)
-    }
-
-    /// The same, as fast as their points part.
-    #[inline(always)]
-    fn come_together(&self, token: L::Token, parting: [L; 2], dt: f32) -> u32 {
-        let (zero, dt) = (L::splat(token, 0.0), L::splat(token, dt));
-        let gap = self.manifold.separation;
-        let least = (gap[0] + dt * parting[0]).min(gap[1] + dt * parting[1]);
-        let [a, b] = &self.bodies;
+        let ([a, b], zero) = (&self.bodies, L::splat(token, 0.0));
         let fixed = a[Slot::INV_MASS].abs().min(b[Slot::INV_MASS].abs()).eq(zero);
-        let comes = L::and(gap[0].min(gap[1]).gt(zero), least.lt(zero));
-        self.touching & L::bits(L::and(comes, fixed))
+        let gap = self.manifold.separation;
+        let apart = self.touching & L::bits(L::and(gap[0].min(gap[1]).gt(zero), fixed));
+        if apart == 0 {
+            return 0;
+        }
+        let (normal, dt) = (self.manifold.normal, L::splat(token, dt));
+        let mut least = gap[0] + dt * Arms::compute(self, normal, 0).approach(self, normal);
+        if K::POINTS == 2 {
+            least = least.min(gap[1] + dt * Arms::compute(self, normal, 1).approach(self, normal));
+        }
+        apart & L::bits(least.lt(zero))
     }
 
     /// Puts predicted contacts in the place of what the lanes have now.
@@ -588,8 +582,7 @@ fn unrotate<L: Lanes>(q: [L; 2], v: [L; 2]) -> [L; 2] {
     [q[0] * v[0] + q[1] * v[1], q[0] * v[1] - q[1] * v[0]]
 }
 
-/// Writes the constraints of a stride. Gives the lanes in which a much lighter body lies deep, and those whose points come
-/// together, as bits.
+/// Writes the constraints of a stride. Gives the lanes in which a much lighter body lies deep, as bits.
 #[inline(always)]
 fn write_constraint<L: Lanes, K: PairKernel>(
     token: L::Token,
@@ -598,7 +591,7 @@ fn write_constraint<L: Lanes, K: PairKernel>(
     blocks: &mut Blocks<'_>,
     index: usize,
     at: usize,
-) -> [u32; 2] {
+) -> u32 {
     let manifold = &mut blocks.manifolds[index];
     let constraint = &mut blocks.constraints[index];
     let [body_a, body_b] = geometry.bodies;
@@ -668,8 +661,7 @@ fn write_constraint<L: Lanes, K: PairKernel>(
     let deepest = geometry.manifold.separation[0].min(geometry.manifold.separation[1]);
     let deep = L::splat(token, -SUNK * context.speculative_distance);
     let uneven = a.max(b).gt(L::splat(token, HEAVIER) * a.min(b));
-    let pressed = L::bits(L::and(deepest.lt(deep), L::and(uneven, a.min(b).gt(zero))));
-    [pressed, geometry.come_together(token, approach, context.dt)]
+    L::bits(L::and(deepest.lt(deep), L::and(uneven, a.min(b).gt(zero))))
 }
 
 /// Lever arms of a point: cross products of its anchors with normal and tangent, for A and B.
