@@ -47,28 +47,7 @@ pub(crate) fn locked<L: Lanes>(token: L::Token, [a, b]: [&mut [L; 8]; 2]) -> Opt
 
 /// A direction within .011 rad of a locked axis counts as that: nothing moves along it. The square of that. On others what is locked goes
 /// up to 90 times as far along its free axis as it is pushed; the 9e-8 by which a wall turned by pi is off made lifts beside it fly.
-const LOCKED: f32 = 1.0 / 8192.0;
-
-/// A direction along which only what is locked could give way and so does not: x or y itself.
-#[inline(always)]
-pub(crate) fn straight<L: Lanes>(token: L::Token, [x, y]: [L; 2], linear: L) -> [L; 2] {
-    let (zero, one, least) = (L::splat(token, 0.0), L::splat(token, 1.0), L::splat(token, LOCKED));
-    let fixed = linear.eq(zero);
-    let (flat, steep) = (L::and(fixed, (y * y).lt(least)), L::and(fixed, (x * x).lt(least)));
-    let signs = [L::select(x.lt(zero), -one, one), L::select(y.lt(zero), -one, one)];
-    [
-        L::select(flat, signs[0], L::select(steep, zero, x)),
-        L::select(steep, signs[1], L::select(flat, zero, y)),
-    ]
-}
-
-/// The arm of what turns alone, given that across it: none where it is as good as none.
-#[inline(always)]
-pub(crate) fn lever<L: Lanes>(token: L::Token, arm: L, across: L, linear: L) -> L {
-    let (zero, square) = (L::splat(token, 0.0), arm * arm);
-    let slight = square.lt((square + across * across) * L::splat(token, LOCKED));
-    L::select(L::and(slight, linear.eq(zero)), zero, arm)
-}
+pub(crate) const LOCKED: f32 = 1.0 / 8192.0;
 
 /// Inverse mass along a unit direction, of those along x and y. Where these are the same it is that to the bit, as in strides without
 /// anything locked.

@@ -33,9 +33,7 @@ pub(crate) use blocks::{
     BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, PointLanes, SurfaceBlock, flags,
 };
 pub(crate) use bodies::{Bodies, BodyInfo, Given, GivenPoint, Motion, NULL};
-pub(crate) use body_rows::{
-    Slot, give_along, inverse_mass_along, inverses, lever, locked, straight,
-};
+pub(crate) use body_rows::{LOCKED, Slot, give_along, inverse_mass_along, inverses, locked};
 pub(crate) use chosen::Chosen;
 pub(crate) use coloured::{COLOURS, IDLE, Place, colour_at, is_overflow, pace_at};
 pub(crate) use contacts::{Contact, Contacts, SavedPoint};

@@ -9,14 +9,14 @@ use super::ahead::{HEAVIER, Predictions};
 use super::islands::Stores;
 use crate::dynamics::{
     Bodies, Bucket, ConstraintBlock, Contact, Contacts, Graph, Joints, ManifoldBlock, Place,
-    Shapes, Slot, inverses, lever, straight,
+    Shapes, Slot, inverses,
 };
 use crate::footprint::footprint;
 use crate::geometry::Shape;
 use crate::geometry::manifold::{self, Manifold};
 use crate::math::{Transform, Vec2};
 use crate::simd::{BLOCK, Row};
-use crate::stages::effective_mass::inverses_along;
+use crate::stages::effective_mass::{inverses_along, lever, straight};
 use crate::threads::Team;
 
 /// What finding contacts needs beyond the stores.

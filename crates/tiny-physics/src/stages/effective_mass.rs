@@ -1,6 +1,6 @@
 //! Effective masses of contacts: what an impulse at a point moves.
 
-use crate::dynamics::{Bodies, Contact, Graph, Slot, inverse_mass_along, inverses, lever, locked};
+use crate::dynamics::{Bodies, Contact, Graph, LOCKED, Slot, inverse_mass_along, inverses, locked};
 use crate::math::Vec2;
 use crate::simd::{Lanes, Row};
 
@@ -10,6 +10,27 @@ pub(super) fn effective_mass<L: Lanes>(token: L::Token, arm: [L; 2], [mass, a, b
     let k = mass + a * arm[0] * arm[0] + b * arm[1] * arm[1];
     let zero = L::splat(token, 0.0);
     L::select(k.gt(zero), L::splat(token, 1.0) / k, zero)
+}
+
+/// A direction along which only what is locked could give way and so does not: x or y itself.
+#[inline(always)]
+pub(super) fn straight<L: Lanes>(token: L::Token, [x, y]: [L; 2], linear: L) -> [L; 2] {
+    let (zero, one, least) = (L::splat(token, 0.0), L::splat(token, 1.0), L::splat(token, LOCKED));
+    let fixed = linear.eq(zero);
+    let (flat, steep) = (L::and(fixed, (y * y).lt(least)), L::and(fixed, (x * x).lt(least)));
+    let signs = [L::select(x.lt(zero), -one, one), L::select(y.lt(zero), -one, one)];
+    [
+        L::select(flat, signs[0], L::select(steep, zero, x)),
+        L::select(steep, signs[1], L::select(flat, zero, y)),
+    ]
+}
+
+/// The arm of what turns alone, given that across it: none where it is as good as none.
+#[inline(always)]
+pub(super) fn lever<L: Lanes>(token: L::Token, arm: L, across: L, linear: L) -> L {
+    let (zero, square) = (L::splat(token, 0.0), arm * arm);
+    let slight = square.lt((square + across * across) * L::splat(token, LOCKED));
+    L::select(L::and(slight, linear.eq(zero)), zero, arm)
 }
 
 /// Inverse masses of both bodies together along normal and tangent, and those of each in turning.

@@ -19,6 +19,7 @@ pub(crate) mod narrow_phase;
 pub(crate) mod one_way;
 pub(crate) mod paces;
 pub(crate) mod pairs;
+mod passing;
 pub(crate) mod passivity;
 pub(crate) mod rests;
 pub(crate) mod rocking;

@@ -510,6 +510,7 @@ impl Look<'_> {
             // What was to go by before others struck it may be near already.
             match self.coming(index) {
                 Coming::Hit(hit) => seen.hits.push(hit),
+                _ if self.both_move(contact) => {}
                 Coming::Unknown => seen.hits.extend(self.now(index)),
                 Coming::Misses if self.known.courses.have_struck(contact) => {}
                 Coming::Misses => seen.missed.push(index),
@@ -592,6 +593,11 @@ impl Look<'_> {
         Coming::Misses
     }
 
+    fn both_move(&self, contact: &Contact) -> bool {
+        let bodies = self.scene.bodies;
+        bodies.is_dynamic(contact.body_a) && bodies.is_dynamic(contact.body_b)
+    }
+
     fn far(&self, contact: &Contact) -> [Course; 2] {
         let Scene { bodies, dt, .. } = self.scene;
         [contact.body_a, contact.body_b].map(|body| self.known.courses.far(bodies, dt, body))
@@ -617,8 +623,7 @@ impl Look<'_> {
         let Some(toi) = toi else { return Coming::Misses };
         // Closely only where it is known how they go, and what it is that does not give way.
         let (pair, ways) = ([&a.shape, &b.shape], [&sweeps[0], &sweeps[1]]);
-        let moves = |it: &Course| self.scene.bodies.is_dynamic(it.body);
-        let is_known = courses.iter().all(|it| it.sure) && !courses.iter().all(moves);
+        let is_known = courses.iter().all(|it| it.sure) && !self.both_move(contact);
         if is_known && pass_by(pair, ways, (toi.fraction, 1.0), slop) {
             return Coming::Misses;
         }
