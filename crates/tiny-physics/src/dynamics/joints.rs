@@ -153,14 +153,14 @@ impl Joints {
     }
 
     /// The joints that tie islands together: those in the graph or of class none.
-    pub(crate) fn tying(&self) -> impl Iterator<Item = (u32, &JointRecord)> {
-        let all = (0..).zip(&self.records);
-        all.filter(|(_, record)| record.alive && record.place != Place::Asleep)
+    pub(crate) fn tying(&self) -> impl Iterator<Item = &JointRecord> {
+        let all = self.records.iter();
+        all.filter(|record| record.alive && record.place != Place::Asleep)
     }
 
     /// Their bodies.
     pub(crate) fn pairs(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
-        self.tying().map(|(_, record)| (record.body_a, record.body_b))
+        self.tying().map(|record| (record.body_a, record.body_b))
     }
 
     /// Keeps the lists of some kinds of joints in line with a joint's description.

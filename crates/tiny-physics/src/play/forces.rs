@@ -251,7 +251,7 @@ impl World {
         let (mass, inertia, spin) = (view.mass(), view.inertia(), view.angular_velocity());
         let (weight, middle) = (gravity * (mass * view.gravity_scale()), view.center());
         let displaced: f32 = parts.iter().map(|part| part.displaced).sum();
-        let is_free = !view.is_held(weight - gravity * displaced);
+        let is_free = !view.is_held(weight - gravity * displaced, gravity);
         let turns = if inertia > 0.0 { 1.0 } else { 0.0 };
         let stiff =
             if is_free { (-gravity.dot(normal)).max(0.0) * water.density * dt } else { 0.0 };
@@ -351,8 +351,9 @@ impl Implicit {
 const HOLDS: f32 = 4.0;
 
 impl Body<'_> {
-    /// Does something that is much heavier keep it from going where a force would take it? What is as light goes along.
-    fn is_held(&self, force: Vec2) -> bool {
+    /// Does something that is much heavier keep it from going where a force would take it: a joint, or what lies on it? What is as
+    /// light goes along.
+    fn is_held(&self, force: Vec2, gravity: Vec2) -> bool {
         let (world, id) = (self.world(), self.id());
         let holds = |(a, b): (BodyId, BodyId)| {
             let other = world.body(if a == id { b } else { a });
@@ -366,7 +367,9 @@ impl Body<'_> {
         };
         let presses = |contact: ContactView| {
             let push = contact.force() * if contact.body_b == id { 1.0 } else { -1.0 };
-            push.dot(force) < 0.0 && holds((contact.body_a, contact.body_b))
+            push.dot(gravity) > 0.0
+                && push.dot(force) < 0.0
+                && holds((contact.body_a, contact.body_b))
         };
         self.joints().filter_map(|joint| world.joint(joint)).any(is_joined)
             || self.contacts().any(presses)

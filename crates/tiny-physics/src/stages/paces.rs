@@ -10,7 +10,6 @@
 //! it has settled: then it goes back step by step, and its contacts get [rests](super::rests).
 
 use super::islands::{Islands, Stores};
-use super::joint_solver;
 use super::passivity::may_drive;
 use super::rests::{Compliance, Sink, is_calm};
 use crate::describe::BodyKind;
@@ -51,11 +50,9 @@ const STIRRED_TIME: f32 = 2.0;
 /// Joined bodies of which one is hit so fast that it would go by its half thickness in a plain substep are solved more finely for
 /// so many seconds: what hits a limb or a plank is stopped by it and by all that hangs on it in turns.
 const STRUCK_TIME: f32 = 0.25;
-/// An island hangs if joints hold it up by more than this part of what pulls at its bodies. Only what does not becomes finer for
-/// what its contacts bear: slack bridges under loads of 10, 30 and 100 planks would swing on at .15, .43 and .81 m/s in place of
-/// .07, 0 and .06. What a gripper squeezes with counts as pull, and what it lifts is less. So do those in which a joint pulls more
-/// than all that: it is far out of place, and finer substeps would bring it in faster than its limits are to come.
-const HANGS: f32 = 0.4;
+/// An island of so many bodies for each with joints is a pile in which there is a joint, if none hangs on something else: that bears
+/// what lies on it.
+const FEW_JOINED: usize = 4;
 /// A contact carries no more than this many times what pulls at all bodies of its island: wedges and levers do. What it pushes
 /// with beyond that holds something in that is squeezed; more stiffly, that would shoot out. Of 100 triples of U-shaped bodies put
 /// into each other 28 went off faster than 8 m/s, with this one.
@@ -217,12 +214,8 @@ fn is_any_strained(bodies: &Bodies, graph: &Graph, rules: Rules) -> bool {
 #[derive(Clone, Copy, Debug, Default)]
 struct Island {
     bodies: usize,
-    /// Weights of its bodies and what else pulls at them, what joints drive with too, newtons.
+    /// Weights of its bodies and what else pulls at them, newtons.
     weight: f32,
-    /// What joints to something else hold up of that.
-    hung: f32,
-    /// Greatest force of a joint that drives nothing, newtons.
-    tie: f32,
     /// Greatest pace of its bodies so far; after [`Island::grant`] the pace of all.
     pace: u8,
     /// Greatest sink that its contacts would have at the plain pace, metres.
@@ -238,6 +231,8 @@ struct Island {
     /// Bodies with joints, and joints between two of them that do no work.
     joined: usize,
     joints: usize,
+    /// Does a joint hold one of them to what is none of it?
+    hangs: bool,
     /// Does anything in it touch something?
     touches: bool,
     /// Do two of its bodies hold each other in?
@@ -245,16 +240,15 @@ struct Island {
 }
 
 impl Island {
-    /// May it rest at a pace? Not where loads are so great that contacts would be springs.
-    fn bears(&self, pace: usize, rules: Rules) -> bool {
-        let refinement = REFINEMENT[pace] as f32;
-        self.sink <= MOST_AT_REST * rules.length_unit * refinement * refinement
-    }
-
-    /// The pace to which an island that settles may go back: one step at a time.
+    /// The pace to which an island that settles may go back: one step at a time, and not where loads are so great that
+    /// contacts would be springs.
     fn slowest(&self, rules: Rules) -> Option<usize> {
+        let bears = |pace: usize| {
+            let refinement = REFINEMENT[pace] as f32;
+            self.sink <= MOST_AT_REST * rules.length_unit * refinement * refinement
+        };
         let now = usize::from(self.pace);
-        let slowest = if now > PLAIN && self.bears(now - 1, rules) { now - 1 } else { now };
+        let slowest = if now > PLAIN && bears(now - 1) { now - 1 } else { now };
         (now < JOINTED && slowest != PLAIN).then_some(slowest)
     }
 
@@ -270,9 +264,8 @@ impl Island {
             self.strain > least && (keeps || !waits)
         });
         if self.joined > 0 && self.touches {
-            let keeps = usize::from(self.pace) == STRUCK && !self.bears(JOINTED, rules);
-            let hangs = self.hung > HANGS * self.weight || self.tie > self.weight;
-            let finer = self.struck || !hangs && (wanted.is_some() || keeps);
+            let few = FEW_JOINED * self.joined <= self.bodies && !self.hangs;
+            let finer = self.struck || few && wanted.is_some();
             for pace in if finer { [STRUCK, JOINTED] } else { [JOINTED; 2] } {
                 let cost = self.bodies * ((REFINEMENT[pace] * ROUNDS[pace]) as usize - 1);
                 if self.bodies <= rules.most_bodies && cost <= *budget {
@@ -298,7 +291,7 @@ impl Island {
 
 /// Counts and strains of all islands.
 fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
-    let Stores { bodies, graph, joints, joint_graph, .. } = stores;
+    let Stores { bodies, graph, joints, .. } = stores;
     let Memory { islands, found, .. } = memory;
     found.resize(bodies.infos.len(), Island::default());
     bodies.awake.iter().for_each(|&body| found[body as usize] = Island::default());
@@ -312,25 +305,14 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         island.struck |= info.stirred > STIRRED_TIME;
         island.joined += usize::from(joints.act_on(info.first_joint));
     }
-    let up = -rules.gravity.normalized();
-    for (index, record) in joints.tying() {
-        let (body, other, sign) = match [record.body_a, record.body_b] {
-            [a, b] if bodies.is_solved(b) => (b, a, 1.0),
-            [a, b] => (a, b, -1.0),
-        };
-        if !bodies.is_solved(body) {
-            continue;
-        }
-        let island = &mut found[islands.root(body) as usize];
-        let force = joint_solver::load(joint_graph, joints, index, 1.0 / rules.h).force;
-        if may_drive(&record.def) {
-            island.weight += force.length();
-        } else {
-            island.joints += usize::from(bodies.is_solved(other));
-            island.tie = island.tie.max(force.length());
-        }
-        if !bodies.is_solved(other) {
-            island.hung += (force.dot(up) * sign).max(0.0);
+    for record in joints.tying() {
+        match [record.body_a, record.body_b].map(|body| bodies.is_solved(body)) {
+            [true, true] if !may_drive(&record.def) => {
+                found[islands.root(record.body_a) as usize].joints += 1;
+            }
+            [true, false] => found[islands.root(record.body_a) as usize].hangs = true,
+            [false, true] => found[islands.root(record.body_b) as usize].hangs = true,
+            _ => {}
         }
     }
     for (place, bucket) in graph.touching_buckets() {

@@ -2,7 +2,7 @@
 
 use super::{CharacterMover, Frame, MoverGround, Obstacle, along};
 use crate::codec::described;
-use crate::{BodyId, BodyKind, ContactView, DVec2, Vec2, World};
+use crate::{BodyId, BodyKind, DVec2, World};
 
 /// A push that is not bounded is at most this strong, newtons.
 const MAX_PUSH: f32 = 1.0e12;
@@ -121,7 +121,7 @@ impl CharacterMover {
             (ground.velocity - before.velocity).dot(frame.gravity)
                 > FALLS * frame.gravity.length_sq() * frame.dt
         });
-        let weight = frame.gravity * self.load(world, ground.body, frame.gravity);
+        let weight = frame.gravity * self.load(world, ground.body);
         if let Some(mut body) = world.body_mut(ground.body)
             && body.as_ref().kind() == BodyKind::Dynamic
             && !falls
@@ -131,14 +131,11 @@ impl CharacterMover {
     }
 
     /// The mass with which it weighs on a body. The body feels no inertia of it, so that is bounded by its own mass, or that of
-    /// what lies on it or bears it.
-    fn load(&self, world: &World, body: BodyId, gravity: Vec2) -> f32 {
+    /// what touches it.
+    fn load(&self, world: &World, body: BodyId) -> f32 {
         let Some(body) = world.body(body) else { return 0.0 };
-        let presses = |contact: &ContactView| {
-            let push = contact.force();
-            push.dot(gravity).abs() > 0.5 * push.length() * gravity.length()
-        };
-        let pairs = body.contacts().filter(presses).map(|found| [found.body_a, found.body_b]);
+        // Not by their forces: a frame has none of those until the next step.
+        let pairs = body.contacts().map(|found| [found.body_a, found.body_b]);
         let masses = pairs.flatten().filter_map(|id| Some(world.body(id)?.mass()));
         let heaviest = masses.fold(body.mass(), |most, mass| if mass > most { mass } else { most });
         self.mass.min(MOST_LOAD * heaviest)
