@@ -23,51 +23,36 @@ use tiny_physics_batch::{Actuator, Reading, Sight, WorldBatch as Inner};
 /// ("ray", body, (offset x, y), (translation x, y)) or with a mask after it. Bodies and joints are those of a template.
 /// A joint that has broken in a world heeds no action there, its angle and speed are 0, and "joint_holds" is 0 in place of 1.
 ///
-/// Raises ValueError where there is no template, a name is unknown, or a body or joint is of another world.
+/// Raises ValueError where there is no template or a name is unknown.
 #[pyclass(module = "tiny_physics")]
 pub struct WorldBatch {
     inner: Inner,
-    /// Whose bodies and joints actuators and readings may name.
-    templates: Vec<Py<World>>,
     actuators: Vec<Actuator>,
     readings: Vec<Reading>,
     observations: Py<PyArray2<f32>>,
 }
 
 /// What stands in a tuple after its name.
-struct Named<'a, 'py> {
+struct Named<'py> {
     name: String,
     rest: Bound<'py, PyTuple>,
-    templates: &'a [Py<World>],
 }
 
-impl<'a, 'py> Named<'a, 'py> {
-    fn new(value: &Bound<'py, PyAny>, templates: &'a [Py<World>]) -> PyResult<Self> {
+impl<'py> Named<'py> {
+    fn new(value: &Bound<'py, PyAny>) -> PyResult<Self> {
         let tuple = value.cast::<PyTuple>().map_err(|_| {
             PyValueError::new_err("actuators and readings are tuples: (\"force_x\", body)")
         })?;
         let name = tuple.get_item(0)?.extract()?;
-        Ok(Self { name, rest: tuple.get_slice(1, tuple.len()), templates })
+        Ok(Self { name, rest: tuple.get_slice(1, tuple.len()) })
     }
 
     fn body(&self) -> PyResult<BodyId> {
-        let item = self.rest.get_item(0)?;
-        let body = item.cast::<Body>()?.get();
-        self.own(&body.world, "body").map(|()| body.id)
+        Ok(self.rest.get_item(0)?.cast::<Body>()?.get().id)
     }
 
     fn joint(&self) -> PyResult<JointId> {
-        let item = self.rest.get_item(0)?;
-        let joint = item.cast::<Joint>()?.get();
-        self.own(&joint.world, "joint").map(|()| joint.id)
-    }
-
-    fn own(&self, world: &Py<World>, what: &str) -> PyResult<()> {
-        if self.templates.iter().any(|template| template.is(world)) {
-            return Ok(());
-        }
-        let reason = format!("\"{}\" names a {what} of a world that is no template", self.name);
-        Err(PyValueError::new_err(reason))
+        Ok(self.rest.get_item(0)?.cast::<Joint>()?.get().id)
     }
 
     fn unknown(&self, what: &str) -> PyErr {
@@ -121,12 +106,12 @@ impl<'a, 'py> Named<'a, 'py> {
     }
 }
 
-fn actuators(list: &[Bound<'_, PyAny>], of: &[Py<World>]) -> PyResult<Vec<Actuator>> {
-    list.iter().map(|item| Named::new(item, of)?.actuator()).collect()
+fn actuators(list: &[Bound<'_, PyAny>]) -> PyResult<Vec<Actuator>> {
+    list.iter().map(|item| Named::new(item)?.actuator()).collect()
 }
 
-fn readings(list: &[Bound<'_, PyAny>], of: &[Py<World>]) -> PyResult<Vec<Reading>> {
-    list.iter().map(|item| Named::new(item, of)?.reading()).collect()
+fn readings(list: &[Bound<'_, PyAny>]) -> PyResult<Vec<Reading>> {
+    list.iter().map(|item| Named::new(item)?.reading()).collect()
 }
 
 #[pymethods]
@@ -148,13 +133,7 @@ impl WorldBatch {
         let worlds: Vec<_> =
             templates.iter().map(|w| Ok(w.try_borrow()?.inner.clone())).collect::<PyResult<_>>()?;
         let inner = py.detach(|| Inner::new(&worlds, count, threads)).map_err(batch_error)?;
-        let templates: Vec<Py<World>> = templates.into_iter().map(Bound::unbind).collect();
-        let actuators = self::actuators(&actuators, &templates)?;
-        let readings = self::readings(&readings, &templates)?;
-        let observations = PyArray2::zeros(py, [inner.len(), readings.len()], false).unbind();
-        let mut batch = Self { inner, templates, actuators, readings, observations };
-        batch.observe(py)?;
-        Ok(batch)
+        Self::with(py, inner, self::actuators(&actuators)?, self::readings(&readings)?)
     }
 
     fn __len__(&self) -> usize {
@@ -241,7 +220,7 @@ impl WorldBatch {
         indices: Option<Vec<Bound<'_, PyAny>>>,
     ) -> PyResult<()> {
         let indices = self.indices(indices, false)?;
-        let actuators = self::actuators(&actuators, &self.templates)?;
+        let actuators = self::actuators(&actuators)?;
         self.inner.scatter(&indices, &actuators, &low, &high).map_err(batch_error)?;
         self.observe(py)
     }
@@ -325,6 +304,18 @@ impl WorldBatch {
 }
 
 impl WorldBatch {
+    fn with(
+        py: Python<'_>,
+        inner: Inner,
+        actuators: Vec<Actuator>,
+        readings: Vec<Reading>,
+    ) -> PyResult<Self> {
+        let observations = PyArray2::zeros(py, [inner.len(), readings.len()], false).unbind();
+        let mut batch = Self { inner, actuators, readings, observations };
+        batch.observe(py)?;
+        Ok(batch)
+    }
+
     /// The worlds that are meant: all where nothing is said. Python takes bools for the numbers 0 and 1; here they are a mask.
     fn indices(
         &self,

@@ -202,15 +202,3 @@ def test_ten_thousand_worlds_go_on_the_same_after_going_back_and_on_any_number_o
         assert later[0] == later[1]
         runs.append((saved, later[0]))
     assert runs[0] == runs[1]
-
-
-def test_what_is_named_is_of_a_template():
-    world, _, cart, actuators, _ = template()
-    _, _, other, *_ = template()
-    with pytest.raises(ValueError, match="of a world that is no template"):
-        tp.WorldBatch(world, 2, 1, [("force_x", other)])
-    with pytest.raises(ValueError, match="of a world that is no template"):
-        tp.WorldBatch(world, 2, 1, actuators, [("position_x", other)])
-    many = tp.WorldBatch(world, 2, 1, [("force_x", cart)])
-    with pytest.raises(ValueError, match="of a world that is no template"):
-        many.scatter([("position_x", other)], [0.0], [1.0])
