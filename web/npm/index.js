@@ -724,7 +724,7 @@ export class FixedStep {
 
   constructor(dt = 1 / 60, maxSteps = 8) {
     this.dt = Number.isFinite(dt) && dt > 0 ? dt : 1 / 60;
-    this.maxSteps = Math.max(maxSteps, 1);
+    this.maxSteps = maxSteps >= 1 ? maxSteps : 1;
   }
 
   advance(elapsed) {

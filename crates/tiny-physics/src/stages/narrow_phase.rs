@@ -163,15 +163,12 @@ impl<K: PairKernel> LaneKernel for Update<'_, K> {
                 if constrained && !predictions.is_empty() {
                     geometry.foresee(token, predictions, &contacts[at..]);
                 }
-                let mut coming = 0;
+                let coming = geometry.coming::<K>(token, context.dt);
                 if constrained {
-                    coming = geometry.coming::<K>(token, context.dt);
                     let blocks = &mut blocks;
                     let pressed =
                         write_constraint::<L, K>(token, &context, &geometry, blocks, index, at);
                     closing |= pressed << at;
-                } else if geometry.touching != 0 {
-                    coming = geometry.coming::<K>(token, context.dt);
                 }
                 let mut bits = geometry.touching;
                 if coming != 0 {

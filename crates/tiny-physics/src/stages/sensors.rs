@@ -10,7 +10,7 @@
 use super::finalize::{FastBody, SAFE_FRACTION};
 use crate::broad_phase::{BroadPhase, ProxyKind};
 use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, Overlap, Sensors, ShapeRecord, Shapes};
+use crate::dynamics::{Bodies, NULL, Overlap, Sensors, ShapeRecord, Shapes};
 use crate::geometry::{LINEAR_SLOP, Sweep, ToiState, distance, impact_within};
 use crate::math::{Aabb, Pose, Vec2};
 use crate::threads::Team;
@@ -37,12 +37,13 @@ pub(crate) struct Scene<'a> {
     pub(crate) continuous: bool,
 }
 
-/// Finds all overlaps after the step, ascending. `fast` are the bodies that were swept, `found` is memory.
-pub(crate) fn find_overlaps<'a>(
+/// Finds all overlaps after the step, ascending. `fast` are the bodies that were swept, ascending in each list; `found` and `turning`
+/// are memory.
+pub(crate) fn find_overlaps(
     team: &Team,
     scene: Scene<'_>,
-    fast: impl Iterator<Item = &'a FastBody> + Clone,
-    found: &mut Vec<Vec<Overlap>>,
+    fast: [&[FastBody]; 2],
+    (found, turning): (&mut Vec<Vec<Overlap>>, &mut Vec<FastBody>),
     overlaps: &mut Vec<Overlap>,
 ) {
     overlaps.clear();
@@ -60,8 +61,8 @@ pub(crate) fn find_overlaps<'a>(
             bounds = bounds.union(fat);
         }
         let far = |body: &&FastBody| sensors.len() <= FEW && scene.goes_past(body, &bounds);
-        let turning = scene.turning(fast.clone());
-        let fast = fast.map(|body| -> &FastBody { body }).chain(&turning);
+        scene.list_turning(fast, turning);
+        let fast = fast.into_iter().flatten().chain(&*turning);
         let near = fast.clone().filter(|body| !far(body));
         near.for_each(|body| scene.look_along(body, &boxes, overlaps));
         scene.look_across(fast, overlaps);
@@ -164,22 +165,26 @@ impl Scene<'_> {
         self.bodies.infos[record.body as usize].kind
     }
 
-    /// The bodies that are not fast but for how far their turning took their sensors.
-    fn turning<'a>(&self, fast: impl Iterator<Item = &'a FastBody> + Clone) -> Vec<FastBody> {
-        let body = |&sensor: &u32| self.shapes.records[sensor as usize].body;
-        let awake = |&body: &u32| self.continuous && self.bodies.infos[body as usize].awake;
-        let bodies = self.sensors.shapes.iter().map(body).filter(awake);
-        let steps = bodies.map(|body| FastBody::of_step(self.bodies, body));
-        let sweeps = |step: &FastBody| {
-            let (extent, least) =
-                (self.extent(step.body), self.bodies.infos[step.body as usize].min_extent);
+    /// Lists the bodies that are not fast but for how far their turning took their sensors.
+    fn list_turning(&self, fast: [&[FastBody]; 2], turning: &mut Vec<FastBody>) {
+        turning.clear();
+        let mut last = NULL;
+        for &sensor in &self.sensors.shapes {
+            let body = self.shapes.records[sensor as usize].body;
+            let info = &self.bodies.infos[body as usize];
+            let is_known = core::mem::replace(&mut last, body) == body;
+            if is_known || !info.awake || !self.continuous {
+                continue;
+            }
+            let step = FastBody::of_step(self.bodies, body);
+            let (extent, least) = (self.extent(body), info.min_extent);
             let turned = (step.turn.abs() * extent).min(extent - least);
-            step.motion.length() + turned > SAFE_FRACTION * least
-                && fast.clone().all(|known| known.body != step.body)
-        };
-        let mut turning: Vec<FastBody> = steps.filter(sweeps).collect();
-        turning.dedup_by_key(|step| step.body);
-        turning
+            let sweeps = step.motion.length() + turned > SAFE_FRACTION * least;
+            let is_in = |list: &[FastBody]| list.binary_search_by_key(&body, |it| it.body).is_ok();
+            if sweeps && !fast.into_iter().any(is_in) {
+                turning.push(step);
+            }
+        }
     }
 
     /// How far the shapes of a body reach, sensors too.

@@ -16,6 +16,7 @@ footprint!(Scratch {
     predictions,
     fast,
     carriers,
+    turning,
     moved,
     islands,
     sets,

@@ -135,6 +135,8 @@ struct Scratch {
     sway: sway::Memory,
     overlaps: Vec<Overlap>,
     found_overlaps: Vec<Vec<Overlap>>,
+    /// Bodies whose sensors are swept though they are not fast.
+    turning: Vec<FastBody>,
     touching: Vec<hooks::At>,
     answers: Vec<Vec<ContactRules>>,
     switched_off: Vec<[u32; 2]>,

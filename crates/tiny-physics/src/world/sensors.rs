@@ -24,12 +24,12 @@ impl World {
     fn look_with_sensors(&mut self, team: &Team) {
         let mut overlaps = take(&mut self.scratch.overlaps);
         let State { bodies, shapes, broad_phase, sensors, .. } = &self.state;
-        let Scratch { fast, carriers, found_overlaps, .. } = &mut self.scratch;
+        let Scratch { fast, carriers, found_overlaps, turning, .. } = &mut self.scratch;
         let Settings { length_unit, continuous, .. } = self.settings;
         let scene =
             sensors::Scene { bodies, shapes, broad_phase, sensors, length_unit, continuous };
-        let fast = fast.iter().chain(&*carriers);
-        sensors::find_overlaps(team, scene, fast, found_overlaps, &mut overlaps);
+        let memory = (found_overlaps, turning);
+        sensors::find_overlaps(team, scene, [fast, carriers], memory, &mut overlaps);
         let mut begun = take(&mut self.state.events.sensor_begin);
         let mut ended = take(&mut self.state.events.sensor_end);
         sensors::compare(

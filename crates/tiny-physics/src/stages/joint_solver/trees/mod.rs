@@ -157,7 +157,8 @@ fn run_tree<S: Simd>(
     if again && tree.is_undisturbed() {
         return;
     }
-    let brakes = substep.leaps && !tree.begun;
+    // At a jointed pace all that is stiff is damped.
+    let brakes = substep.leaps && !tree.begun && !is_jointed(tree.pace);
     let rates = Rates::new(substep, tree.pace, pass == Pass::Solve);
     let moved = pass == Pass::Relax && tree.moved;
     if moved || !tree.fresh {
