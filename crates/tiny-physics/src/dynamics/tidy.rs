@@ -1,9 +1,10 @@
 //! Contacts in the order of their bodies.
 //!
-//! Order within a colour changes no result. But the members of a team take the same parts of all colours, one after the
-//! other: if neighbours in a colour are of neighbouring bodies, each works on bodies of its own, and what moves a body is
-//! seldom far away in another core. As contacts come and go that order is lost: two threads took longer than one then.
-//! So in each step the large buckets of one colour are put in order again, roughly, so that few contacts have to move. With
+//! Order within a colour changes no more than which others lie in the block of a contact that gets more rounds, and get them
+//! too. But the members of a team take the same parts of all colours, one after the other: if neighbours in a colour are of
+//! neighbouring bodies, each works on bodies of its own, and what moves a body is seldom far away in another core. As contacts
+//! come and go that order is lost: two threads took longer than one then. So in each step the large buckets of one colour are
+//! put in order again, roughly, so that few contacts have to move. With
 //! bodies that were added from left to right, say, it is an order in space.
 
 use super::blocks::{BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, SurfaceBlock, flags};
@@ -15,6 +16,8 @@ use crate::simd::BLOCK;
 
 /// Buckets with fewer contacts are not shared out to much effect.
 const MANY: usize = 128;
+/// The first colour, the fullest, comes in a step in which nothing looks at all islands.
+const OFF_BEAT: u64 = 4;
 /// Parts that bodies are divided into.
 const PARTS: usize = 32;
 
@@ -38,7 +41,7 @@ impl Tidy {
         bodies: &Bodies,
         contacts: &mut Contacts,
     ) {
-        let colour = (step % COLOURS as u64) as usize;
+        let colour = ((step + OFF_BEAT) % COLOURS as u64) as usize;
         let part = |(a, b): (u32, u32)| {
             let [first, last] = [a.min(b), a.max(b)];
             let body = if bodies.is_dynamic(last) { last } else { first };
