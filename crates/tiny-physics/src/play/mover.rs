@@ -22,6 +22,8 @@ mod swept;
 
 use push::Push;
 
+/// Overlaps that walls keep it from getting out of are to fall by this part of themselves, 1/s.
+const PUSH_RATE: f32 = 10.0;
 /// Most casts of one movement.
 const MAX_CASTS: u32 = 6;
 /// Motion along a surface counts as parting from it down to this sine of an angle.
@@ -566,31 +568,40 @@ impl CharacterMover {
         if self.is_walkable(normal, up) { normal } else { up }
     }
 
-    /// Gets out of what overlaps it or comes closer than its skin.
-    fn push_out(&mut self, world: &World, frame: Frame) {
+    /// Gets out of what overlaps it or comes closer than its skin; where it cannot, what is loose has to go.
+    fn push_out(&mut self, world: &mut World, frame: Frame) {
         let capsule = self.capsule(frame.up, 0.0);
         let mut last = Vec2::ZERO;
         for _ in 0..MAX_CASTS {
             let pose = Pose::new(self.position, Rot::IDENTITY);
             let bounds = capsule.world_aabb(pose).grown(self.skin);
-            let mut deepest: Option<(f32, Vec2, BodyId)> = None;
+            let mut deepest: Option<(f32, Obstacle)> = None;
             for obstacle in self.obstacles(world, bounds) {
                 let place = obstacle.pose();
                 let gap = distance(obstacle.shape(), &capsule, pose.relative_to(place));
                 let normal = place.q.rotate(gap.normal);
                 let near = gap.separation < 0.9 * self.skin;
                 let solid = self.is_solid(frame, &obstacle, place, -normal);
-                if near && solid && deepest.is_none_or(|(least, ..)| gap.separation < least) {
-                    deepest = Some((gap.separation, normal, obstacle.body()));
+                if near && solid && deepest.is_none_or(|(least, _)| gap.separation < least) {
+                    let (point, shape) = (place.apply(gap.point_a), obstacle.id());
+                    let body = obstacle.body();
+                    let found = Obstacle { fraction: 0.0, normal, point, shape, body };
+                    deepest = Some((gap.separation, found));
                 }
             }
-            let Some((separation, normal, body)) = deepest else { return };
+            let Some((separation, obstacle)) = deepest else { return };
+            let Obstacle { normal, body, .. } = obstacle;
             // Where there is no room for its skin on both sides it goes to the middle.
             let is_tight = separation > 0.0 && normal.dot(last) < -0.9;
             let out = normal * ((self.skin - separation) * if is_tight { 0.5 } else { 1.0 });
             // What moves does not push it into walls.
             if world.body(body).is_some_and(|body| body.kind() != BodyKind::Static) {
+                let before = self.position;
                 self.slide(world, frame, out, Some(body));
+                let left = -separation - self.position.relative_to(before).dot(normal);
+                if left > 0.0 {
+                    return self.push(world, frame, &obstacle, left * PUSH_RATE, 1.0);
+                }
             } else {
                 self.position += out;
             }

@@ -457,14 +457,15 @@ impl Touch {
     /// Friction and rolling resistance.
     #[inline(always)]
     fn rub(&mut self, velocities: &mut Velocities<'_>) {
-        for point in &mut self.points {
-            if !point.there {
-                continue;
-            }
+        let all = self.points[0].load + self.points[1].load;
+        // From the same velocity, each by its part of the load.
+        let speeds = self.points.each_ref().map(|p| velocities.along(&self.sides, &p.tangent));
+        for (point, speed) in self.points.iter_mut().zip(speeds).filter(|(point, _)| point.there) {
             let (line, old) = (&point.tangent, point.rub);
-            let velocity = velocities.along(&self.sides, line) + self.belt;
+            let part = if all > 0.0 { point.load / all } else { 0.0 };
+            let change = line.mass * (part * (speed + self.belt));
             let limit = self.friction * point.load;
-            point.rub = Lanes::clamp(old - line.mass * velocity, -limit, limit);
+            point.rub = Lanes::clamp(old - change, -limit, limit);
             velocities.push(&self.sides, line, point.rub - old);
         }
         if self.rolling > 0.0 {

@@ -605,3 +605,22 @@ fn a_hero_does_not_get_up_through_a_low_chain() {
     assert!(!hero.resize(&world, 1.8, 0.3) && !hero.resize(&world, 1.0, 0.3));
     assert!(hero.resize(&world, 0.8, 0.3));
 }
+
+/// What falls on a hero beside a wall came to rest in it, asleep, for ever: walls kept the hero from getting out, and nothing was done
+/// to the crate.
+#[test]
+fn what_falls_on_a_hero_by_a_wall_does_not_stay_in_it() {
+    for (mass, gap) in [(1.0, 0.01), (5.0, 0.05), (20.0, 0.1), (1.0, 0.2)] {
+        let mut world = World::new((0.0, -10.0));
+        ground(&mut world);
+        let wall =
+            RigidBody::fixed().position((0.7 + gap, 5.0)).shape(Shape::rect(0.5, 5.0).unwrap());
+        world.add_body(wall).unwrap();
+        let mut hero = CharacterMover::new((0.0, 0.41), 0.8, 0.2);
+        let crate_ = RigidBody::dynamic().position((-0.4, 1.6)).shape(square(0.4)).mass(mass);
+        let crate_ = world.add_body(crate_).unwrap();
+        go(&mut world, &mut hero, walk(0.0), 300);
+        let apart = hero.position.x - world.body(crate_).unwrap().position_f64().x;
+        assert!(apart > 0.59, "{mass} kg, {gap} m from the wall: {apart} m apart");
+    }
+}

@@ -4,25 +4,40 @@ use super::pair::{Pair, Stride};
 use crate::dynamics::{ConstraintBlock, PointLanes, Slot, SurfaceBlock};
 use crate::simd::{BLOCK, Lanes};
 
-/// Tangent impulse of one point, within the friction cone. `belt` is the speed of the surface, if any moves.
+/// Tangent impulses of all points, within their friction cones. `belt` is the speed of the surface, if any moves.
+///
+/// Two points are rubbed from the same velocity, each by its part of the load: one after the other the first would take what it
+/// can, and a scene would not go as its mirror image, whose points come in the other order.
 #[inline(always)]
-pub(super) fn solve_friction<L: Lanes>(
+pub(super) fn solve_friction<L: Lanes, const POINTS: usize>(
     stride: &Stride<'_, L>,
     pair: &mut Pair<L>,
-    point: &mut PointLanes,
+    points: &mut [PointLanes; 2],
     friction: L,
     belt: Option<&[f32; BLOCK]>,
 ) {
-    let (arm_a, arm_b) = (stride.load(&point.tangent_arm_a), stride.load(&point.tangent_arm_b));
-    let old = stride.load(&point.tangent_impulse);
-    let mut velocity = pair.tangent_velocity(arm_a, arm_b);
-    if let Some(belt) = belt {
-        velocity = velocity + stride.load(belt);
+    let one = L::splat(stride.token, 1.0);
+    let mut parts = [one; 2];
+    if POINTS == 2 {
+        let loads = [stride.load(&points[0].load), stride.load(&points[1].load)];
+        let all = loads[0] + loads[1];
+        parts[0] = loads[0] / L::select(all.gt(stride.constants.zero), all, one);
+        parts[1] = one - parts[0];
     }
-    let limit = friction * stride.load(&point.load);
-    let impulse = (old - stride.load(&point.tangent_mass) * velocity).clamp(-limit, limit);
-    stride.store(impulse, &mut point.tangent_impulse);
-    pair.rub(impulse - old, arm_a, arm_b);
+    let was = *pair;
+    for (point, part) in points.iter_mut().zip(parts).take(POINTS) {
+        let (arm_a, arm_b) = (stride.load(&point.tangent_arm_a), stride.load(&point.tangent_arm_b));
+        let old = stride.load(&point.tangent_impulse);
+        let mut velocity = was.tangent_velocity(arm_a, arm_b);
+        if let Some(belt) = belt {
+            velocity = velocity + stride.load(belt);
+        }
+        let limit = friction * stride.load(&point.load);
+        let change = stride.load(&point.tangent_mass) * (part * velocity);
+        let impulse = (old - change).clamp(-limit, limit);
+        stride.store(impulse, &mut point.tangent_impulse);
+        pair.rub(impulse - old, arm_a, arm_b);
+    }
 }
 
 /// Angular impulse against rolling, limited by resistance * normal impulse.

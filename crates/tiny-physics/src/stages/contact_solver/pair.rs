@@ -56,6 +56,7 @@ impl<L: Lanes> Stride<'_, L> {
 }
 
 /// The two bodies of each lane's contact, and its normal.
+#[derive(Clone, Copy)]
 pub(super) struct Pair<L: Lanes> {
     pub(super) token: L::Token,
     pub(super) a: [L; 8],

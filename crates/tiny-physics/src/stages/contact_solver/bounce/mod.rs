@@ -376,7 +376,8 @@ fn leave<L: Lanes>(stride: &Stride<'_, L>, block: &mut ConstraintBlock, aims: &A
     let impulses = Normal::solve_both(&normals, stride, &mut pair, block, LEAST_DETERMINANT);
     for (point, impulse) in block.points.iter_mut().zip(impulses) {
         stride.store(impulse, &mut point.load);
-        solve_friction(stride, &mut pair, point, friction, Some(&aims.tangent_speed));
     }
+    let belt = Some(&aims.tangent_speed);
+    solve_friction::<L, 2>(stride, &mut pair, &mut block.points, friction, belt);
     pair.store(stride, block);
 }
