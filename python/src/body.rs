@@ -17,7 +17,11 @@ impl Body {
     }
 
     /// Changes it. Raises ValueError where the engine refuses a number.
-    fn set<T>(&self, py: Python<'_>, set: impl FnOnce(engine::BodyMut<'_>) -> T) -> PyResult<T> {
+    pub(crate) fn set<T>(
+        &self,
+        py: Python<'_>,
+        set: impl FnOnce(engine::BodyMut<'_>) -> T,
+    ) -> PyResult<T> {
         let mut world = self.world.try_borrow_mut(py)?;
         heard(&mut world.inner, |world| world.body_mut(self.id).map(set))?
             .ok_or_else(|| self.stale())

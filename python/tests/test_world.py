@@ -195,6 +195,39 @@ def test_an_explosion_pushes_away_what_it_sees():
         world.explode((0, 0), -1.0)
 
 
+def test_water_carries_what_is_lighter():
+    world = tp.World(gravity=(0, -10))
+    cork = world.add_body(tp.box(0.5, 0.5, density=250), position=(0, 2))
+    stone = world.add_body(tp.box(0.5, 0.5, density=4000), position=(5, 2))
+    aside = world.add_body(tp.box(0.5, 0.5, density=250), position=(50, 2))
+    for _ in range(1200):
+        world.apply_water(area=((-10, -30), (10, 0)))
+        world.step()
+    assert cork.position[1] == pytest.approx(0.25, abs=0.02)  # a quarter of it is under water
+    assert stone.position[1] < -20 and aside.position[1] < -100
+    with pytest.raises(ValueError, match="depth"):
+        world.apply_water(depth=3)
+    with pytest.raises(ValueError):
+        world.apply_water(density=float("nan"))
+
+
+def test_zones_and_wind_push():
+    world = tp.World(gravity=(0, 0))
+    inside = world.add_body(tp.circle(0.5))
+    outside = world.add_body(tp.circle(0.5), position=(9, 0))
+    for _ in range(60):
+        world.apply_zone({"circle": {"radius": 4}}, {"acceleration": (0, 3)}, position=(0, 2))
+        world.step()
+    assert inside.velocity == pytest.approx((0, 3), rel=1e-3) and outside.velocity == (0, 0)
+    sail = world.add_body(tp.box(0.1, 2), position=(0, 30))
+    for _ in range(600):
+        sail.apply_wind((5, 0))
+        world.step()
+    assert 1 < sail.velocity[0] < 5
+    with pytest.raises(ValueError):
+        world.apply_zone({"circle": {"radius": 4}}, {"gust": 3})
+
+
 def test_events_tell_what_happened():
     world, ground, ball = falling()
     zone = ground.add_shape(tp.box(5, 1, offset=(0, 3), sensor=True))

@@ -357,22 +357,70 @@ export interface Bodies {
   states: Uint8Array;
 }
 
-/**
- * Events of the last step, as rows of numbers: `contactBegin`, `contactEnd` [shape, shape]; `hits` [shape, shape, x, y,
- * normal x, normal y, speed, impulse, mass, mass], with the newton seconds by which loudness and damage go, and the masses of
- * the two bodies (kilograms, 0 where they are not dynamic); `sensorBegin`, `sensorEnd` [sensor, visitor]; `jointBreaks`
- * [joint, force x, force y, torque, user data]; `woke`, `fellAsleep` [body]. `world.shape(id)` tells the body of a shape that is
- * still there, and its user data.
- */
-export type EventKind =
-  | "contactBegin"
-  | "contactEnd"
-  | "hits"
-  | "sensorBegin"
-  | "sensorEnd"
-  | "jointBreaks"
-  | "woke"
-  | "fellAsleep";
+/** Two shapes that began or ceased to touch, as they were then: one of them may have been removed since. */
+export interface Touch {
+  shapeA: ShapeId;
+  shapeB: ShapeId;
+  bodyA: BodyId;
+  bodyB: BodyId;
+  shapeDataA: number;
+  bodyDataA: number;
+  shapeDataB: number;
+  bodyDataB: number;
+}
+
+/** A touch faster than `hit_event_threshold`: where (world, metres), along what, from A to B, and how hard. */
+export interface Hit extends Touch {
+  x: number;
+  y: number;
+  normalX: number;
+  normalY: number;
+  /** Of the approach, metres a second. */
+  speed: number;
+  /** Newton seconds, by which loudness and damage go. */
+  impulse: number;
+  /** Kilograms, 0 of what is not dynamic. */
+  massA: number;
+  massB: number;
+}
+
+/** A sensor, and a shape that came into it or left it. */
+export interface Sight {
+  sensor: ShapeId;
+  visitor: ShapeId;
+  sensorBody: BodyId;
+  visitorBody: BodyId;
+  sensorData: number;
+  sensorBodyData: number;
+  visitorData: number;
+  visitorBodyData: number;
+}
+
+/** A joint that bore more than it can, and is gone. */
+export interface JointBreak {
+  joint: JointId;
+  /** Newtons on body B, and newton metres. */
+  forceX: number;
+  forceY: number;
+  torque: number;
+  userData: number;
+  bodyA: BodyId;
+  bodyB: BodyId;
+}
+
+/** What each kind of event tells. */
+export interface EventOf {
+  contactBegin: Touch;
+  contactEnd: Touch;
+  hits: Hit;
+  sensorBegin: Sight;
+  sensorEnd: Sight;
+  jointBreaks: JointBreak;
+  woke: { body: BodyId };
+  fellAsleep: { body: BodyId };
+}
+
+export type EventKind = keyof EventOf;
 
 export interface Counts {
   bodies: number;
@@ -490,7 +538,12 @@ export declare class World {
 
   /** All bodies, between the start (`alpha` 0) and the end (1) of the last step. */
   bodies(alpha?: number): Bodies;
-  /** Events of the last step: a view of the module's memory, valid until the next call of anything. */
+  /** Events of the last step. */
+  eventList<K extends EventKind>(kind: K): EventOf[K][];
+  /**
+   * The same as rows of numbers, which cost no objects, each in the order of the fields of {@link EventOf}: a view of the module's
+   * memory, valid until the next call of anything.
+   */
   events(kind: EventKind): Float64Array;
   /** Contact points: [shape, shape, body, body, normal x, normal y, x, y, separation, normal impulse, tangent impulse]. */
   contacts(): Float64Array;

@@ -143,6 +143,19 @@ const EVENTS = {
   fellAsleep: 7,
 };
 
+const PAIR = ["shapeA", "shapeB", "bodyA", "bodyB", "shapeDataA", "bodyDataA", "shapeDataB", "bodyDataB"];
+const SEEN = ["sensor", "visitor", "sensorBody", "visitorBody", "sensorData", "sensorBodyData", "visitorData", "visitorBodyData"];
+const FIELDS = {
+  contactBegin: PAIR,
+  contactEnd: PAIR,
+  hits: [...PAIR, "x", "y", "normalX", "normalY", "speed", "impulse", "massA", "massB"],
+  sensorBegin: SEEN,
+  sensorEnd: SEEN,
+  jointBreaks: ["joint", "forceX", "forceY", "torque", "userData", "bodyA", "bodyB"],
+  woke: ["body"],
+  fellAsleep: ["body"],
+};
+
 export class World {
   #session;
   #token = {};
@@ -362,6 +375,12 @@ export class World {
   events(which) {
     check(wasm.tp_events(this.session, EVENTS[which] ?? 99));
     return numbers();
+  }
+
+  eventList(which) {
+    const [rows, fields] = [this.events(which), FIELDS[which]];
+    const event = (_, i) => Object.fromEntries(fields.map((field, k) => [field, rows[i * fields.length + k]]));
+    return Array.from({ length: rows.length / fields.length }, event);
   }
 
   contacts() {

@@ -5,7 +5,10 @@ use crate::outcome::{Outcome, words};
 use crate::session::Session;
 use crate::views::{Views, state};
 use crate::with;
-use tiny_physics::{Body, BodyId, BodyKind, DVec2, Error, JointId, ShapeId, World};
+use tiny_physics::{
+    Body, BodyId, BodyKind, ContactBegin, DVec2, Error, JointId, SensorBegin, ShapeId, UserData,
+    World,
+};
 
 /// Brings the rows of all bodies up to date, between the start (`alpha` 0) and the end (1) of the last step. The numbers
 /// are how many there are, and the addresses of handles, poses, velocities and states.
@@ -141,34 +144,53 @@ fn motion(world: &World) -> [f64; 4] {
     sums
 }
 
+/// What two shapes of an event are: they, their bodies, the user's numbers of shape and body of the first and of the second.
+type Pair = ([ShapeId; 2], [BodyId; 2], [UserData; 2]);
+
+fn touch(e: ContactBegin) -> Pair {
+    ([e.shape_a, e.shape_b], [e.body_a, e.body_b], [e.user_data_a, e.user_data_b])
+}
+
+fn sight(e: SensorBegin) -> Pair {
+    ([e.sensor, e.visitor], [e.sensor_body, e.visitor_body], [e.sensor_data, e.visitor_data])
+}
+
+fn note(numbers: &mut Vec<f64>, (shapes, bodies, data): Pair) {
+    numbers.extend(shapes.map(Handle::number));
+    numbers.extend(bodies.map(Handle::number));
+    data.iter().for_each(|data| numbers.extend([data.shape as f64, data.body as f64]));
+}
+
 /// Events of the last step: 0 contact begin, 1 contact end, 2 hits, 3 sensor begin, 4 sensor end, 5 joint breaks, 6 woke,
-/// 7 fell asleep. A row is: the two shapes (0, 1, 3, 4); the shapes, point, normal, speed, impulse, masses (2); the joint, force,
-/// torque, user data (5); the body (6, 7).
+/// 7 fell asleep. A row is: two shapes, their bodies, the user's numbers of shape, body, shape and body (0 to 4), and then of hits
+/// point, normal, speed, impulse and masses; the joint, force, torque, user data, bodies (5); the body (6, 7).
 #[unsafe(no_mangle)]
 pub extern "C" fn tp_events(session: u32, which: u32) -> bool {
     with(session, |session, shelf| {
         let events = session.world().events();
-        let mut pairs = |pairs: &mut dyn Iterator<Item = (ShapeId, ShapeId)>| {
-            shelf.count(pairs.flat_map(|(a, b)| [a.number(), b.number()]));
-        };
+        shelf.numbers.clear();
+        let numbers = &mut shelf.numbers;
+        let mut pairs =
+            |pairs: &mut dyn Iterator<Item = Pair>| pairs.for_each(|pair| note(numbers, pair));
         match which {
-            0 => pairs(&mut events.contact_begin().iter().map(|e| (e.shape_a, e.shape_b))),
-            1 => pairs(&mut events.contact_end().iter().map(|e| (e.shape_a, e.shape_b))),
-            3 => pairs(&mut events.sensor_begin().iter().map(|e| (e.sensor, e.visitor))),
-            4 => pairs(&mut events.sensor_end().iter().map(|e| (e.sensor, e.visitor))),
-            2 => shelf.count(events.hits().iter().flat_map(|hit| {
-                let (a, b) = (hit.shape_a.number(), hit.shape_b.number());
-                let (p, n) = (hit.position, hit.normal);
-                let strength = [hit.speed, hit.impulse, hit.mass_a, hit.mass_b].map(f64::from);
-                let [speed, impulse, mass_a, mass_b] = strength;
-                [a, b, p.x, p.y, n.x.into(), n.y.into(), speed, impulse, mass_a, mass_b]
-            })),
-            5 => shelf.count(events.joint_breaks().iter().flat_map(|e| {
-                let load = [e.force.x, e.force.y, e.torque].map(f64::from);
-                [e.joint.number(), load[0], load[1], load[2], e.user_data as f64]
-            })),
-            6 => shelf.count(events.woke().iter().map(|id| id.number())),
-            7 => shelf.count(events.fell_asleep().iter().map(|id| id.number())),
+            0 => pairs(&mut events.contact_begin().iter().map(|&e| touch(e))),
+            1 => pairs(&mut events.contact_end().iter().map(|&e| touch(e.into()))),
+            3 => pairs(&mut events.sensor_begin().iter().map(|&e| sight(e))),
+            4 => pairs(&mut events.sensor_end().iter().map(|&e| sight(e.into()))),
+            2 => events.hits().iter().for_each(|e| {
+                let data = [e.user_data_a, e.user_data_b];
+                note(numbers, ([e.shape_a, e.shape_b], [e.body_a, e.body_b], data));
+                let rest = [e.normal.x, e.normal.y, e.speed, e.impulse, e.mass_a, e.mass_b];
+                numbers.extend([e.position.x, e.position.y]);
+                numbers.extend(rest.map(f64::from));
+            }),
+            5 => events.joint_breaks().iter().for_each(|e| {
+                numbers.push(e.joint.number());
+                numbers.extend([e.force.x, e.force.y, e.torque].map(f64::from));
+                numbers.extend([e.user_data as f64, e.body_a.number(), e.body_b.number()]);
+            }),
+            6 => numbers.extend(events.woke().iter().map(|id| id.number())),
+            7 => numbers.extend(events.fell_asleep().iter().map(|id| id.number())),
             _ => return Err("there are no such events".to_owned()),
         }
         Ok(())

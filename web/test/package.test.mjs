@@ -41,7 +41,7 @@ test("a ball falls and rests", () => {
   let begun = 0;
   for (let i = 0; i < 300; i++) {
     world.step(1 / 60);
-    begun += world.events("contactBegin").length / 2;
+    begun += world.eventList("contactBegin").length;
   }
   const body = world.body(id);
   assert(body instanceof Body && Math.abs(body.position.y - 1.5) < 0.01);
@@ -61,13 +61,42 @@ test("hits tell their impulse and what the two weigh", () => {
   let hit = [];
   while (!hit.length) {
     world.step(1 / 60);
-    hit = [...world.events("hits")];
+    hit = world.eventList("hits");
   }
-  assert.equal(hit.length, 10);
-  const [, , , , , normal, speed, impulse] = hit;
-  assert.equal(Math.abs(Math.round(normal)), 1);
+  assert.equal(hit.length, 1);
+  const { normalY, speed, impulse, massA, massB, bodyA, bodyB } = hit[0];
+  assert.equal(world.events("hits").length, 16);
+  assert.equal(Math.abs(Math.round(normalY)), 1);
   assert(Math.abs(impulse - 3 * speed) < 3, `${impulse} of ${speed}`);
-  assert.deepEqual(hit.slice(8).sort(), [0, 3]);
+  assert.deepEqual([massA, massB].sort(), [0, 3]);
+  assert.equal(massA === 3 ? bodyA : bodyB, weight);
+});
+
+test("events tell bodies and the user's numbers, of what is gone, too", () => {
+  const world = new World({ gravity: [0, -10] });
+  world.addBody({ ...floor, user_data: 7 });
+  const door = { shape: { circle: { radius: 1 } }, sensor: true, user_data: 5 };
+  const zone = world.addBody({ kind: "static", position: [0, 3], shapes: [door], user_data: 6 });
+  const id = world.addBody({ ...ball(0, 4), user_data: 9 });
+  const seen = [];
+  const touched = [];
+  for (let i = 0; i < 120; i++) {
+    world.step(1 / 60);
+    seen.push(...world.eventList("sensorBegin"));
+    touched.push(...world.eventList("contactBegin"));
+  }
+  assert.deepEqual(
+    seen.map((e) => [e.sensorBody, e.sensorData, e.sensorBodyData, e.visitorBody, e.visitorBodyData]),
+    [[zone, 5, 6, id, 9]],
+  );
+  assert.deepEqual(touched.map((e) => [e.bodyDataA, e.bodyDataB].sort()), [[7, 9]]);
+  world.removeBody(id);
+  world.step(1 / 60);
+  const [end] = world.eventList("contactEnd");
+  assert.deepEqual([end.bodyDataA, end.bodyDataB].sort(), [7, 9]);
+  assert([end.bodyA, end.bodyB].includes(id) && world.body(id) === undefined);
+  assert.deepEqual(world.eventList("hits"), []);
+  assert.throws(() => world.eventList("bangs"), /no such events/);
 });
 
 test("rows are views of the module's memory", () => {
