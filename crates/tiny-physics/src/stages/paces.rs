@@ -50,9 +50,11 @@ const STIRRED_TIME: f32 = 2.0;
 /// Joined bodies of which one is hit so fast that it would go by its half thickness in a plain substep are solved more finely for
 /// so many seconds: what hits a limb or a plank is stopped by it and by all that hangs on it in turns.
 const STRUCK_TIME: f32 = 0.25;
-/// An island of so many bodies for each with joints is a pile in which there is a joint, if none hangs on something else: that bears
-/// what lies on it.
-const FEW_JOINED: usize = 4;
+/// An island hangs if joints hold up more than this part of what pulls at its bodies. Only what does not becomes finer for
+/// what its contacts bear: slack bridges under loads of 10, 30 and 100 planks would swing on at .15, .43 and .81 m/s in place of
+/// .07, 0 and .06. What a gripper squeezes with counts as pull, and what it lifts is less. So do those in which a joint pulls more
+/// than all that: it is far out of place, and finer substeps would bring it in faster than its limits are to come.
+const HANGS: f32 = 0.4;
 /// A contact carries no more than this many times what pulls at all bodies of its island: wedges and levers do. What it pushes
 /// with beyond that holds something in that is squeezed; more stiffly, that would shoot out. Of 100 triples of U-shaped bodies put
 /// into each other 28 went off faster than 8 m/s, with this one.
@@ -214,8 +216,12 @@ fn is_any_strained(bodies: &Bodies, graph: &Graph, rules: Rules) -> bool {
 #[derive(Clone, Copy, Debug, Default)]
 struct Island {
     bodies: usize,
-    /// Weights of its bodies and what else pulls at them, newtons.
+    /// Weights of its bodies and what else pulls at them, what joints drive with too, newtons.
     weight: f32,
+    /// Weights that no contact bears, in the end.
+    hung: f32,
+    /// Greatest force of a joint that drives nothing, newtons.
+    tie: f32,
     /// Greatest pace of its bodies so far; after [`Island::grant`] the pace of all.
     pace: u8,
     /// Greatest sink that its contacts would have at the plain pace, metres.
@@ -240,15 +246,16 @@ struct Island {
 }
 
 impl Island {
-    /// The pace to which an island that settles may go back: one step at a time, and not where loads are so great that
-    /// contacts would be springs.
+    /// May it rest at a pace? Not where loads are so great that contacts would be springs.
+    fn bears(&self, pace: usize, rules: Rules) -> bool {
+        let refinement = REFINEMENT[pace] as f32;
+        self.sink <= MOST_AT_REST * rules.length_unit * refinement * refinement
+    }
+
+    /// The pace to which an island that settles may go back: one step at a time.
     fn slowest(&self, rules: Rules) -> Option<usize> {
-        let bears = |pace: usize| {
-            let refinement = REFINEMENT[pace] as f32;
-            self.sink <= MOST_AT_REST * rules.length_unit * refinement * refinement
-        };
         let now = usize::from(self.pace);
-        let slowest = if now > PLAIN && bears(now - 1) { now - 1 } else { now };
+        let slowest = if now > PLAIN && self.bears(now - 1, rules) { now - 1 } else { now };
         (now < JOINTED && slowest != PLAIN).then_some(slowest)
     }
 
@@ -264,8 +271,10 @@ impl Island {
             self.strain > least && (keeps || !waits)
         });
         if self.joined > 0 && self.touches {
-            let few = FEW_JOINED * self.joined <= self.bodies && !self.hangs;
-            let finer = self.struck || few && wanted.is_some();
+            let keeps = usize::from(self.pace) == STRUCK && !self.bears(JOINTED, rules);
+            let hung = self.hangs && self.hung > HANGS * self.weight;
+            let finer = self.struck
+                || !hung && self.tie <= self.weight && (wanted.is_some() || keeps);
             for pace in if finer { [STRUCK, JOINTED] } else { [JOINTED; 2] } {
                 let cost = self.bodies * ((REFINEMENT[pace] * ROUNDS[pace]) as usize - 1);
                 if self.bodies <= rules.most_bodies && cost <= *budget {
@@ -291,7 +300,7 @@ impl Island {
 
 /// Counts and strains of all islands.
 fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
-    let Stores { bodies, graph, joints, .. } = stores;
+    let Stores { bodies, graph, joints, joint_graph, .. } = stores;
     let Memory { islands, found, .. } = memory;
     found.resize(bodies.infos.len(), Island::default());
     bodies.awake.iter().for_each(|&body| found[body as usize] = Island::default());
@@ -306,13 +315,21 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         island.joined += usize::from(joints.act_on(info.first_joint));
     }
     for record in joints.tying() {
-        match [record.body_a, record.body_b].map(|body| bodies.is_solved(body)) {
-            [true, true] if !may_drive(&record.def) => {
-                found[islands.root(record.body_a) as usize].joints += 1;
-            }
-            [true, false] => found[islands.root(record.body_a) as usize].hangs = true,
-            [false, true] => found[islands.root(record.body_b) as usize].hangs = true,
-            _ => {}
+        let solved = [record.body_a, record.body_b].map(|body| bodies.is_solved(body));
+        let body = if solved[0] { record.body_a } else { record.body_b };
+        if !solved.contains(&true) {
+            continue;
+        }
+        let island = &mut found[islands.root(body) as usize];
+        island.hangs |= solved.contains(&false);
+        // By its impulses alone: their directions are in no frame.
+        let rate = REFINEMENT[joint_graph.pace_of(record)] as f32 / rules.h;
+        let force = joint_graph.pull(record) * rate;
+        if may_drive(&record.def) {
+            island.weight += force;
+        } else {
+            island.joints += usize::from(solved == [true; 2]);
+            island.tie = island.tie.max(force);
         }
     }
     for (place, bucket) in graph.touching_buckets() {
@@ -393,7 +410,11 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
             (contact.touching && lower()).then_some(other)
         }));
         let weight = info.mass * info.gravity_scale.abs() * rules.gravity.length();
-        let share = (weight + loads[body as usize]) / below.len().max(1) as f32;
+        let load = weight + loads[body as usize];
+        if below.is_empty() {
+            found[islands.root(body) as usize].hung += load;
+        }
+        let share = load / below.len().max(1) as f32;
         for &other in below.iter().filter(|&&other| bodies.is_solved(other)) {
             loads[other as usize] += share;
             if is_calm(bodies, body) && is_calm(bodies, other) {
