@@ -12,7 +12,7 @@
 use super::islands::{Islands, Stores};
 use super::passivity::may_drive;
 use super::rests::{Compliance, Sink, is_calm};
-use crate::describe::BodyKind;
+use crate::describe::{BodyKind, JointKind};
 use crate::dynamics::{
     Bodies, Bucket, Graph, JOINTED, NULL, PLAIN, Place, PointLanes, REFINEMENT, ROUNDS, STRUCK,
     WATCHED, next_edge, pace_at,
@@ -52,9 +52,11 @@ const STIRRED_TIME: f32 = 2.0;
 const STRUCK_TIME: f32 = 0.25;
 /// An island hangs if joints hold up more than this part of what pulls at its bodies. Only what does not becomes finer for
 /// what its contacts bear: slack bridges under loads of 10, 30 and 100 planks would swing on at .15, .43 and .81 m/s in place of
-/// .07, 0 and .06. What a gripper squeezes with counts as pull, and what it lifts is less. So do those in which a joint pulls more
-/// than all that: it is far out of place, and finer substeps would bring it in faster than its limits are to come.
+/// .07, 0 and .06. What a gripper squeezes with counts as pull, and what it lifts is less. Nor does one in which a joint is
+/// out of place or pulls more than all that: more stiffly, what it crushes would shoot out.
 const HANGS: f32 = 0.4;
+/// From so far on a joint is out of place, length units.
+const OUT_OF_PLACE: f32 = 0.05;
 /// A contact carries no more than this many times what pulls at all bodies of its island: wedges and levers do. What it pushes
 /// with beyond that holds something in that is squeezed; more stiffly, that would shoot out. Of 100 triples of U-shaped bodies put
 /// into each other 28 went off faster than 8 m/s, with this one.
@@ -218,9 +220,9 @@ struct Island {
     bodies: usize,
     /// Weights of its bodies and what else pulls at them, what joints drive with too, newtons.
     weight: f32,
-    /// Weights that no contact bears, in the end.
+    /// Weights that no contact bears in the end, nor a hinge or weld to something fixed.
     hung: f32,
-    /// Greatest force of a joint that drives nothing, newtons.
+    /// Greatest force of a joint that drives nothing, newtons; without bound where one is out of place.
     tie: f32,
     /// Greatest pace of its bodies so far; after [`Island::grant`] the pace of all.
     pace: u8,
@@ -325,6 +327,9 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         // By its impulses alone: their directions are in no frame.
         let rate = REFINEMENT[joint_graph.pace_of(record)] as f32 / rules.h;
         let force = joint_graph.pull(record) * rate;
+        if record.off(bodies) > OUT_OF_PLACE * rules.length_unit {
+            island.tie = f32::INFINITY;
+        }
         if may_drive(&record.def) {
             island.weight += force;
         } else {
@@ -380,7 +385,7 @@ fn is_tangled(bodies: &Bodies, bucket: &Bucket, slot: usize) -> bool {
 /// touches below and to bodies that nothing moves. So a pile that has just been put in, whose contacts carry
 /// nothing yet, is judged by what they are going to carry.
 fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
-    let Stores { bodies, contacts, .. } = stores;
+    let Stores { bodies, contacts, joints, .. } = stores;
     let Memory { islands, found, order, loads, below, .. } = memory;
     let up = -rules.gravity.normalized();
     let height = |body: u32| {
@@ -411,7 +416,13 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         }));
         let weight = info.mass * info.gravity_scale.abs() * rules.gravity.length();
         let load = weight + loads[body as usize];
-        if below.is_empty() {
+        let is_pin = |(index, _)| {
+            let record = &joints.records[index as usize];
+            let pins = matches!(record.def.kind, JointKind::Revolute { .. } | JointKind::Weld { .. });
+            let stays = !bodies.is_solved(record.other(body));
+            pins && stays && record.def.enabled && !may_drive(&record.def)
+        };
+        if below.is_empty() && !joints.of_body(info.first_joint).any(is_pin) {
             found[islands.root(body) as usize].hung += load;
         }
         let share = load / below.len().max(1) as f32;
