@@ -115,3 +115,70 @@ fn a_press_sinks_in_no_more_than_a_force() {
         }
     }
 }
+
+/// Stacks on a shelf that is welded or hinged to something fixed sank by up to 34 mm, on a fixed one by 3.
+#[test]
+fn what_is_pinned_to_something_fixed_bears_as_that_does() {
+    let mut random = Random::new(13);
+    for case in 0..8 {
+        let (count, seed) = (5 + random.below(12) as usize, random.word());
+        let size = [1.0, 50.0][case % 2];
+        let sinks = |kind: usize| {
+            let (mut world, floor, crates, _) = stack(count, size, &mut Random::new(seed));
+            let board = ShapeDef::new(Shape::rect(1.5 * size, 0.1 * size).unwrap());
+            let board = if kind == 0 { RigidBody::fixed() } else { RigidBody::dynamic().mass(3.0) }
+                .shape(board)
+                .position(Vec2::new(0.0, 3.0 * size));
+            let board = world.add_body(board).unwrap();
+            for &body in &crates {
+                let place = world.body(body).unwrap().position() + Vec2::new(0.0, 3.1 * size);
+                world.body_mut(body).unwrap().set_position(place);
+            }
+            let pin = |x: f32| JointDef::revolute().anchor_at(Vec2::new(x * size, 3.0 * size));
+            let weld = JointDef::weld().anchor_at(Vec2::new(-1.5 * size, 3.0 * size));
+            let pins = match kind {
+                0 => vec![],
+                1 => vec![weld],
+                _ => vec![pin(-1.4), pin(1.4)],
+            };
+            for joint in pins {
+                world.add_joint(floor, board, joint).unwrap();
+            }
+            let start = height(&world, crates[count - 1]);
+            steps(&mut world, 100);
+            (start - height(&world, crates[count - 1])) / size
+        };
+        let fixed = sinks(0);
+        for kind in 1..3 {
+            let sunk = sinks(kind);
+            assert!(sunk < 1.5 * fixed + 0.002, "case {case}, {kind}: {sunk} {fixed}");
+        }
+    }
+}
+
+/// Sliders that were made one to three metres beyond their limits, above crates, with and without a motor. Solved as finely as others
+/// six of 160 shot these out, at up to 230 m/s.
+#[test]
+fn what_is_out_of_place_crushes_and_does_not_throw() {
+    for seed in 0..80 {
+        let mut random = Random::new(seed * 7919 + 13);
+        let size = [1.0, 50.0][seed as usize % 2];
+        let (mut world, floor, crates, top) = stack(3, size, &mut random);
+        let y = top + 0.5 * size;
+        let square = Shape::rect(0.5 * size, 0.5 * size).unwrap();
+        let press = RigidBody::dynamic().shape(square).mass(1.0).position(Vec2::new(0.0, y));
+        let press = world.add_body(press).unwrap();
+        let (near, far) = (random.range(0.5, 2.0) * size, random.range(2.0, 3.0) * size);
+        let joint = rail(y).limits(-far, -near);
+        let motor = joint.motor(0.5 * size, random.range(1.0, 200.0) * size);
+        let joint = if random.below(2) == 0 { joint } else { motor };
+        world.add_joint(floor, press, joint).unwrap();
+        let mut most = 0.0_f32;
+        for _ in 0..240 {
+            world.step(DT);
+            let speed = |&body: &BodyId| world.body(body).unwrap().velocity().length() / size;
+            most = crates.iter().map(speed).fold(most, f32::max);
+        }
+        assert!(most < 6.0, "seed {seed}: {most} m/s");
+    }
+}

@@ -19,7 +19,6 @@ use super::pace::PLAIN;
 use crate::codec::{Data, Reader, Sink, clone_by_field, store};
 use crate::error::Error;
 use crate::footprint::{Footprint, MemoryUse, footprint};
-use crate::math::Vec2;
 use crate::simd::BLOCK;
 use crate::threads::Team;
 use core::ops::Range;
@@ -415,20 +414,6 @@ impl JointGraph {
     pub(crate) fn impulses(&self, record: &JointRecord) -> Impulses {
         let Some((place, class, slot)) = record.lanes() else { return Impulses::default() };
         with_bucket!(&self.colours[place], class, bucket => bucket.saved(slot))
-    }
-
-    /// How hard it has pulled along its lines, as impulse of the last substep.
-    pub(crate) fn pull(&self, record: &JointRecord) -> f32 {
-        let [a, b, c, d, e, f] = self.impulses(record);
-        let (x, y) = match record.class() {
-            Some(JointClass::Revolute | JointClass::Weld) => (a, b),
-            Some(JointClass::Distance) => (a + b + c + d - e, 0.0),
-            Some(JointClass::Slider) => (a, c + d + e - f),
-            Some(JointClass::Drive) => (a + d, b + e),
-            Some(JointClass::Pulley) => (a, 0.0),
-            Some(JointClass::Gear) | None => (0.0, 0.0),
-        };
-        Vec2::new(x, y).length()
     }
 
     /// Brings the forest up to date, and moves joints between lanes and trees.

@@ -14,8 +14,8 @@ use super::passivity::may_drive;
 use super::rests::{Compliance, Sink, is_calm};
 use crate::describe::{BodyKind, JointKind};
 use crate::dynamics::{
-    Bodies, Bucket, Graph, JOINTED, NULL, PLAIN, Place, PointLanes, REFINEMENT, ROUNDS, STRUCK,
-    WATCHED, next_edge, pace_at,
+    Bodies, Bucket, Graph, JOINTED, JointClass, JointGraph, JointRecord, NULL, PLAIN, Place,
+    PointLanes, REFINEMENT, ROUNDS, STRUCK, WATCHED, next_edge, pace_at,
 };
 use crate::math::Vec2;
 use crate::simd::BLOCK;
@@ -222,7 +222,7 @@ struct Island {
     weight: f32,
     /// Weights that no contact bears in the end, nor a hinge or weld to something fixed.
     hung: f32,
-    /// Greatest force of a joint that drives nothing, newtons; without bound where one is out of place.
+    /// Greatest force that a joint holds with, newtons; without bound where one is out of place.
     tie: f32,
     /// Greatest pace of its bodies so far; after [`Island::grant`] the pace of all.
     pace: u8,
@@ -275,8 +275,8 @@ impl Island {
         if self.joined > 0 && self.touches {
             let keeps = usize::from(self.pace) == STRUCK && !self.bears(JOINTED, rules);
             let hung = self.hangs && self.hung > HANGS * self.weight;
-            let finer = self.struck
-                || !hung && self.tie <= self.weight && (wanted.is_some() || keeps);
+            let finer =
+                self.struck || !hung && self.tie <= self.weight && (wanted.is_some() || keeps);
             for pace in if finer { [STRUCK, JOINTED] } else { [JOINTED; 2] } {
                 let cost = self.bodies * ((REFINEMENT[pace] * ROUNDS[pace]) as usize - 1);
                 if self.bodies <= rules.most_bodies && cost <= *budget {
@@ -324,18 +324,11 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         }
         let island = &mut found[islands.root(body) as usize];
         island.hangs |= solved.contains(&false);
-        // By its impulses alone: their directions are in no frame.
-        let rate = REFINEMENT[joint_graph.pace_of(record)] as f32 / rules.h;
-        let force = joint_graph.pull(record) * rate;
-        if record.off(bodies) > OUT_OF_PLACE * rules.length_unit {
-            island.tie = f32::INFINITY;
-        }
-        if may_drive(&record.def) {
-            island.weight += force;
-        } else {
-            island.joints += usize::from(solved == [true; 2]);
-            island.tie = island.tie.max(force);
-        }
+        island.joints += usize::from(solved == [true; 2] && !may_drive(&record.def));
+        let [drives, holds] = forces(joint_graph, record, rules);
+        island.weight += drives;
+        let out = record.off(bodies) > OUT_OF_PLACE * rules.length_unit;
+        island.tie = if out { f32::INFINITY } else { island.tie.max(holds) };
     }
     for (place, bucket) in graph.touching_buckets() {
         let pace = pace_at(place);
@@ -367,6 +360,24 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         }
     }
     foresee(stores, rules, memory);
+}
+
+/// What a joint drives and what it holds with, newtons. By its impulses alone: their directions are in no frame.
+fn forces(graph: &JointGraph, record: &JointRecord, rules: Rules) -> [f32; 2] {
+    let rate = REFINEMENT[graph.pace_of(record)] as f32 / rules.h;
+    let [a, b, c, d, e, f] = graph.impulses(record);
+    let (drives, holds) = match record.class() {
+        Some(JointClass::Distance) => ((b + c, 0.0), (a + d - e, 0.0)),
+        Some(JointClass::Slider) => ((c + d, 0.0), (a, e - f)),
+        Some(JointClass::Drive) => ((a + d, b + e), (0.0, 0.0)),
+        Some(JointClass::Revolute | JointClass::Weld) if may_drive(&record.def) => {
+            ((a, b), (0.0, 0.0))
+        }
+        Some(JointClass::Revolute | JointClass::Weld) => ((0.0, 0.0), (a, b)),
+        Some(JointClass::Pulley) => ((0.0, 0.0), (a, 0.0)),
+        Some(JointClass::Gear) | None => return [0.0; 2],
+    };
+    [drives, holds].map(|(x, y)| rate * Vec2::new(x, y).length())
 }
 
 /// Do the two bodies of a contact overlap by more than the thinner half thickness? They may be held in by each other then, as U-shapes
@@ -418,7 +429,8 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         let load = weight + loads[body as usize];
         let is_pin = |(index, _)| {
             let record = &joints.records[index as usize];
-            let pins = matches!(record.def.kind, JointKind::Revolute { .. } | JointKind::Weld { .. });
+            let pins =
+                matches!(record.def.kind, JointKind::Revolute { .. } | JointKind::Weld { .. });
             let stays = !bodies.is_solved(record.other(body));
             pins && stays && record.def.enabled && !may_drive(&record.def)
         };
