@@ -76,20 +76,19 @@ impl JointRecord {
 
     /// How far it is from where it would have its bodies, metres: not counting angles, nor what is springy.
     pub(crate) fn off(&self, bodies: &Bodies) -> f32 {
-        let (direction, gap) = self.line(bodies);
-        let range = match self.def.kind {
+        use JointKind::{Distance, Prismatic, Revolute, Weld, Wheel};
+        let [least, most] = match self.def.kind {
             _ if !self.def.enabled || self.def.softness.is_some() => return 0.0,
-            JointKind::Revolute { .. } | JointKind::Weld { linear: None, .. } => Some([0.0; 2]),
-            JointKind::Distance { length, limits: None, spring: None, motor: None } => {
-                Some([length; 2])
-            }
-            JointKind::Distance { limits, .. }
-            | JointKind::Prismatic { limits, .. }
-            | JointKind::Wheel { limits, .. } => limits.map(|limits| [limits.lower, limits.upper]),
-            _ => None,
+            Revolute { .. } | Weld { linear: None, .. } => [0.0; 2],
+            Distance { length, limits: None, spring: None, motor: None } => [length; 2],
+            Distance { limits: Some(limits), .. }
+            | Prismatic { limits: Some(limits), .. }
+            | Wheel { limits: Some(limits), .. } => [limits.lower, limits.upper],
+            _ => [f32::NEG_INFINITY, f32::INFINITY],
         };
+        let (direction, gap) = self.line(bodies);
         let (along, across) = (direction.dot(gap), direction.perp().dot(gap).abs());
-        range.map_or(across, |[least, most]| across.max(least - along).max(along - most))
+        across.max(least - along).max(along - most)
     }
 
     /// Where it has lanes: place, class, slot.

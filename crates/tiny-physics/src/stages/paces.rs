@@ -366,18 +366,15 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
 fn forces(graph: &JointGraph, record: &JointRecord, rules: Rules) -> [f32; 2] {
     let rate = REFINEMENT[graph.pace_of(record)] as f32 / rules.h;
     let [a, b, c, d, e, f] = graph.impulses(record);
-    let (drives, holds) = match record.class() {
-        Some(JointClass::Distance) => ((b + c, 0.0), (a + d - e, 0.0)),
-        Some(JointClass::Slider) => ((c + d, 0.0), (a, e - f)),
-        Some(JointClass::Drive) => ((a + d, b + e), (0.0, 0.0)),
-        Some(JointClass::Revolute | JointClass::Weld) if may_drive(&record.def) => {
-            ((a, b), (0.0, 0.0))
-        }
-        Some(JointClass::Revolute | JointClass::Weld) => ((0.0, 0.0), (a, b)),
-        Some(JointClass::Pulley) => ((0.0, 0.0), (a, 0.0)),
-        Some(JointClass::Gear) | None => return [0.0; 2],
+    let parts = match record.class() {
+        Some(JointClass::Distance) => [Vec2::new(b + c, 0.0), Vec2::new(a + d - e, 0.0)],
+        Some(JointClass::Slider) => [Vec2::new(c + d, 0.0), Vec2::new(a, e - f)],
+        Some(JointClass::Drive) => [Vec2::new(a + d, b + e), Vec2::ZERO],
+        Some(JointClass::Gear) | None => [Vec2::ZERO; 2],
+        Some(_) if may_drive(&record.def) => [Vec2::new(a, b), Vec2::ZERO],
+        Some(_) => [Vec2::ZERO, Vec2::new(a, b)],
     };
-    [drives, holds].map(|(x, y)| rate * Vec2::new(x, y).length())
+    parts.map(|impulse| impulse.length() * rate)
 }
 
 /// Do the two bodies of a contact overlap by more than the thinner half thickness? They may be held in by each other then, as U-shapes

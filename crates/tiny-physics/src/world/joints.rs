@@ -77,7 +77,8 @@ impl<'a> JointRef<'a> {
 
     /// How fast [`JointRef::translation`] grows, metres a second.
     pub fn speed(&self) -> f32 {
-        let ((direction, gap), (at_a, at_b)) = (self.record.line(&self.world.state.bodies), self.anchors());
+        let ((direction, gap), (at_a, at_b)) =
+            (self.record.line(&self.world.state.bodies), self.anchors());
         let (a, b) = self.bodies();
         let velocity = |body, at| self.world.body(body).map_or(Vec2::ZERO, |b| b.velocity_at(at));
         match self.record.def.kind {
