@@ -6,9 +6,9 @@ use super::edges::{self, edges};
 use super::joint_blocks::{Impulses, JointClass};
 use super::places::{claim, put};
 use crate::codec::{Generations, record, store};
-use crate::describe::JointDef;
+use crate::describe::{JointDef, JointKind};
 use crate::error::Error;
-use crate::math::Vec2;
+use crate::math::{DVec2, Rot, Vec2};
 
 record! {
     /// The lasting record of a joint.
@@ -47,6 +47,48 @@ impl JointRecord {
         if let Some(class) = self.class() {
             class.scale(&mut self.saved, factor);
         }
+    }
+
+    /// Its anchors on A and B: world, metres.
+    pub(crate) fn anchors(&self, bodies: &Bodies) -> (DVec2, DVec2) {
+        let Self { body_a, body_b, def, .. } = self;
+        let at = |body: u32, anchor| bodies.origin_pose(body).apply(anchor);
+        (at(*body_a, def.anchor_a), at(*body_b, def.anchor_b))
+    }
+
+    /// Its direction, and the way from anchor A to anchor B (of a mouse joint, from anchor B to its target).
+    pub(crate) fn line(&self, bodies: &Bodies) -> (Vec2, Vec2) {
+        let (a, b) = self.anchors(bodies);
+        match self.def.kind {
+            JointKind::Prismatic { .. } | JointKind::Wheel { .. } => {
+                let frame = bodies.poses[self.body_a as usize].q;
+                let direction = Rot::from_angle(self.def.angle_a).x_axis();
+                (frame.rotate(direction), b.relative_to(a))
+            }
+            kind => {
+                let (to, from) =
+                    if let JointKind::Mouse { target, .. } = kind { (target, b) } else { (b, a) };
+                let gap = to.relative_to(from);
+                (gap.direction_and_length().0, gap)
+            }
+        }
+    }
+
+    /// How far it is from where it would have its bodies, metres: not counting angles, nor what is springy.
+    pub(crate) fn off(&self, bodies: &Bodies) -> f32 {
+        use JointKind::{Distance, Prismatic, Revolute, Weld, Wheel};
+        let [least, most] = match self.def.kind {
+            _ if !self.def.enabled || self.def.softness.is_some() => return 0.0,
+            Revolute { .. } | Weld { linear: None, .. } => [0.0; 2],
+            Distance { length, limits: None, spring: None, motor: None } => [length; 2],
+            Distance { limits: Some(limits), .. }
+            | Prismatic { limits: Some(limits), .. }
+            | Wheel { limits: Some(limits), .. } => [limits.lower, limits.upper],
+            _ => [f32::NEG_INFINITY, f32::INFINITY],
+        };
+        let (direction, gap) = self.line(bodies);
+        let (along, across) = (direction.dot(gap), direction.perp().dot(gap).abs());
+        across.max(least - along).max(along - most)
     }
 
     /// Where it has lanes: place, class, slot.

@@ -12,10 +12,10 @@
 use super::islands::{Islands, Stores};
 use super::passivity::may_drive;
 use super::rests::{Compliance, Sink, is_calm};
-use crate::describe::BodyKind;
+use crate::describe::{BodyKind, JointKind};
 use crate::dynamics::{
-    Bodies, Bucket, Graph, JOINTED, NULL, PLAIN, Place, PointLanes, REFINEMENT, ROUNDS, STRUCK,
-    WATCHED, next_edge, pace_at,
+    Bodies, Bucket, Graph, JOINTED, JointClass, JointGraph, JointRecord, NULL, PLAIN, Place,
+    PointLanes, REFINEMENT, ROUNDS, STRUCK, WATCHED, next_edge, pace_at,
 };
 use crate::math::Vec2;
 use crate::simd::BLOCK;
@@ -50,9 +50,13 @@ const STIRRED_TIME: f32 = 2.0;
 /// Joined bodies of which one is hit so fast that it would go by its half thickness in a plain substep are solved more finely for
 /// so many seconds: what hits a limb or a plank is stopped by it and by all that hangs on it in turns.
 const STRUCK_TIME: f32 = 0.25;
-/// An island of so many bodies for each with joints is a pile in which there is a joint, if none hangs on something else: that bears
-/// what lies on it.
-const FEW_JOINED: usize = 4;
+/// An island hangs if joints hold up more than this part of what pulls at its bodies. Only what does not becomes finer for
+/// what its contacts bear: slack bridges under loads of 10, 30 and 100 planks would swing on at .15, .43 and .81 m/s in place of
+/// .07, 0 and .06. What a gripper squeezes with counts as pull, and what it lifts is less. Nor does one in which a joint is
+/// out of place or pulls more than all that: more stiffly, what it crushes would shoot out.
+const HANGS: f32 = 0.4;
+/// From so far on a joint is out of place, length units.
+const OUT_OF_PLACE: f32 = 0.05;
 /// A contact carries no more than this many times what pulls at all bodies of its island: wedges and levers do. What it pushes
 /// with beyond that holds something in that is squeezed; more stiffly, that would shoot out. Of 100 triples of U-shaped bodies put
 /// into each other 28 went off faster than 8 m/s, with this one.
@@ -214,8 +218,12 @@ fn is_any_strained(bodies: &Bodies, graph: &Graph, rules: Rules) -> bool {
 #[derive(Clone, Copy, Debug, Default)]
 struct Island {
     bodies: usize,
-    /// Weights of its bodies and what else pulls at them, newtons.
+    /// Weights of its bodies and what else pulls at them, what joints drive with too, newtons.
     weight: f32,
+    /// Weights that no contact bears in the end, nor a hinge or weld to something fixed.
+    hung: f32,
+    /// Greatest force that a joint holds with, newtons; without bound where one is out of place.
+    tie: f32,
     /// Greatest pace of its bodies so far; after [`Island::grant`] the pace of all.
     pace: u8,
     /// Greatest sink that its contacts would have at the plain pace, metres.
@@ -240,15 +248,16 @@ struct Island {
 }
 
 impl Island {
-    /// The pace to which an island that settles may go back: one step at a time, and not where loads are so great that
-    /// contacts would be springs.
+    /// May it rest at a pace? Not where loads are so great that contacts would be springs.
+    fn bears(&self, pace: usize, rules: Rules) -> bool {
+        let refinement = REFINEMENT[pace] as f32;
+        self.sink <= MOST_AT_REST * rules.length_unit * refinement * refinement
+    }
+
+    /// The pace to which an island that settles may go back: one step at a time.
     fn slowest(&self, rules: Rules) -> Option<usize> {
-        let bears = |pace: usize| {
-            let refinement = REFINEMENT[pace] as f32;
-            self.sink <= MOST_AT_REST * rules.length_unit * refinement * refinement
-        };
         let now = usize::from(self.pace);
-        let slowest = if now > PLAIN && bears(now - 1) { now - 1 } else { now };
+        let slowest = if now > PLAIN && self.bears(now - 1, rules) { now - 1 } else { now };
         (now < JOINTED && slowest != PLAIN).then_some(slowest)
     }
 
@@ -264,8 +273,10 @@ impl Island {
             self.strain > least && (keeps || !waits)
         });
         if self.joined > 0 && self.touches {
-            let few = FEW_JOINED * self.joined <= self.bodies && !self.hangs;
-            let finer = self.struck || few && wanted.is_some();
+            let keeps = usize::from(self.pace) == STRUCK && !self.bears(JOINTED, rules);
+            let hung = self.hangs && self.hung > HANGS * self.weight;
+            let finer =
+                self.struck || !hung && self.tie <= self.weight && (wanted.is_some() || keeps);
             for pace in if finer { [STRUCK, JOINTED] } else { [JOINTED; 2] } {
                 let cost = self.bodies * ((REFINEMENT[pace] * ROUNDS[pace]) as usize - 1);
                 if self.bodies <= rules.most_bodies && cost <= *budget {
@@ -291,7 +302,7 @@ impl Island {
 
 /// Counts and strains of all islands.
 fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
-    let Stores { bodies, graph, joints, .. } = stores;
+    let Stores { bodies, graph, joints, joint_graph, .. } = stores;
     let Memory { islands, found, .. } = memory;
     found.resize(bodies.infos.len(), Island::default());
     bodies.awake.iter().for_each(|&body| found[body as usize] = Island::default());
@@ -306,14 +317,18 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         island.joined += usize::from(joints.act_on(info.first_joint));
     }
     for record in joints.tying() {
-        match [record.body_a, record.body_b].map(|body| bodies.is_solved(body)) {
-            [true, true] if !may_drive(&record.def) => {
-                found[islands.root(record.body_a) as usize].joints += 1;
-            }
-            [true, false] => found[islands.root(record.body_a) as usize].hangs = true,
-            [false, true] => found[islands.root(record.body_b) as usize].hangs = true,
-            _ => {}
+        let solved = [record.body_a, record.body_b].map(|body| bodies.is_solved(body));
+        let body = if solved[0] { record.body_a } else { record.body_b };
+        if !solved.contains(&true) {
+            continue;
         }
+        let island = &mut found[islands.root(body) as usize];
+        island.hangs |= solved.contains(&false);
+        island.joints += usize::from(solved == [true; 2] && !may_drive(&record.def));
+        let [drives, holds] = forces(joint_graph, record, rules);
+        island.weight += drives;
+        let out = record.off(bodies) > OUT_OF_PLACE * rules.length_unit;
+        island.tie = if out { f32::INFINITY } else { island.tie.max(holds) };
     }
     for (place, bucket) in graph.touching_buckets() {
         let pace = pace_at(place);
@@ -347,6 +362,21 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
     foresee(stores, rules, memory);
 }
 
+/// What a joint drives and what it holds with, newtons. By its impulses alone: their directions are in no frame.
+fn forces(graph: &JointGraph, record: &JointRecord, rules: Rules) -> [f32; 2] {
+    let rate = REFINEMENT[graph.pace_of(record)] as f32 / rules.h;
+    let [a, b, c, d, e, f] = graph.impulses(record);
+    let parts = match record.class() {
+        Some(JointClass::Distance) => [Vec2::new(b + c, 0.0), Vec2::new(a + d - e, 0.0)],
+        Some(JointClass::Slider) => [Vec2::new(c + d, 0.0), Vec2::new(a, e - f)],
+        Some(JointClass::Drive) => [Vec2::new(a + d, b + e), Vec2::ZERO],
+        Some(JointClass::Gear) | None => [Vec2::ZERO; 2],
+        Some(_) if may_drive(&record.def) => [Vec2::new(a, b), Vec2::ZERO],
+        Some(_) => [Vec2::ZERO, Vec2::new(a, b)],
+    };
+    parts.map(|impulse| impulse.length() * rate)
+}
+
 /// Do the two bodies of a contact overlap by more than the thinner half thickness? They may be held in by each other then, as U-shapes
 /// are with contacts on both sides of a web. What these push with is no load, and stiffer ones shoot the bodies out: of 400
 /// crowds of up to nine such bodies 46 went off at more than 8 m/s, two at the plain pace.
@@ -363,7 +393,7 @@ fn is_tangled(bodies: &Bodies, bucket: &Bucket, slot: usize) -> bool {
 /// touches below and to bodies that nothing moves. So a pile that has just been put in, whose contacts carry
 /// nothing yet, is judged by what they are going to carry.
 fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
-    let Stores { bodies, contacts, .. } = stores;
+    let Stores { bodies, contacts, joints, .. } = stores;
     let Memory { islands, found, order, loads, below, .. } = memory;
     let up = -rules.gravity.normalized();
     let height = |body: u32| {
@@ -393,7 +423,18 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
             (contact.touching && lower()).then_some(other)
         }));
         let weight = info.mass * info.gravity_scale.abs() * rules.gravity.length();
-        let share = (weight + loads[body as usize]) / below.len().max(1) as f32;
+        let load = weight + loads[body as usize];
+        let is_pin = |(index, _)| {
+            let record = &joints.records[index as usize];
+            let pins =
+                matches!(record.def.kind, JointKind::Revolute { .. } | JointKind::Weld { .. });
+            let stays = !bodies.is_solved(record.other(body));
+            pins && stays && record.def.enabled && !may_drive(&record.def)
+        };
+        if below.is_empty() && !joints.of_body(info.first_joint).any(is_pin) {
+            found[islands.root(body) as usize].hung += load;
+        }
+        let share = load / below.len().max(1) as f32;
         for &other in below.iter().filter(|&&other| bodies.is_solved(other)) {
             loads[other as usize] += share;
             if is_calm(bodies, body) && is_calm(bodies, other) {

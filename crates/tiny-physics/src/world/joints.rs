@@ -50,10 +50,7 @@ impl<'a> JointRef<'a> {
 
     /// Its anchors on A and B: world, metres.
     pub fn anchors(&self) -> (DVec2, DVec2) {
-        let bodies = &self.world.state.bodies;
-        let (a, b) = (self.record.body_a, self.record.body_b);
-        let def = &self.record.def;
-        (bodies.origin_pose(a).apply(def.anchor_a), bodies.origin_pose(b).apply(def.anchor_b))
+        self.record.anchors(&self.world.state.bodies)
     }
 
     /// B's angle against A's as the joint counts it, radians in [-pi, pi]: see [`JointDef::angle_a`].
@@ -74,13 +71,14 @@ impl<'a> JointRef<'a> {
     /// Of a slider or a wheel, how far anchor B is from anchor A along the joint's direction, metres. Of other joints,
     /// the distance of the anchors; of a mouse joint, that to its target.
     pub fn translation(&self) -> f32 {
-        let (direction, gap) = self.line();
+        let (direction, gap) = self.record.line(&self.world.state.bodies);
         direction.dot(gap)
     }
 
     /// How fast [`JointRef::translation`] grows, metres a second.
     pub fn speed(&self) -> f32 {
-        let ((direction, gap), (at_a, at_b)) = (self.line(), self.anchors());
+        let ((direction, gap), (at_a, at_b)) =
+            (self.record.line(&self.world.state.bodies), self.anchors());
         let (a, b) = self.bodies();
         let velocity = |body, at| self.world.body(body).map_or(Vec2::ZERO, |b| b.velocity_at(at));
         match self.record.def.kind {
@@ -90,24 +88,6 @@ impl<'a> JointRef<'a> {
                 let spin = self.world.state.bodies.angular_velocity(self.record.body_a);
                 let apart = velocity(b, at_b) - velocity(a, at_a);
                 apart.dot(direction) + spin * direction.perp().dot(gap)
-            }
-        }
-    }
-
-    /// The joint's direction, and the way from anchor A to anchor B (of a mouse joint, from anchor B to its target).
-    fn line(&self) -> (Vec2, Vec2) {
-        let (a, b) = self.anchors();
-        match self.record.def.kind {
-            JointKind::Prismatic { .. } | JointKind::Wheel { .. } => {
-                let frame = self.world.state.bodies.poses[self.record.body_a as usize].q;
-                let direction = Rot::from_angle(self.record.def.angle_a).x_axis();
-                (frame.rotate(direction), b.relative_to(a))
-            }
-            kind => {
-                let (to, from) =
-                    if let JointKind::Mouse { target, .. } = kind { (target, b) } else { (b, a) };
-                let gap = to.relative_to(from);
-                (gap.direction_and_length().0, gap)
             }
         }
     }
