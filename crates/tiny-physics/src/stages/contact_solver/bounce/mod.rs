@@ -8,6 +8,7 @@
 //! Few contacts bounce at a time, so they are copied out of the graph into blocks of their own, colour by
 //! colour, and those are full.
 
+mod moment;
 mod search;
 
 use super::friction::solve_friction;
@@ -15,7 +16,8 @@ use super::normals::Normal;
 use super::pair::{Constants, Pair, Stride};
 use super::{CHUNK, Parameters};
 use crate::dynamics::{
-    Bodies, ConstraintBlock, Contacts, Graph, LaneBlock, NULL, PointLanes, flags, is_overflow,
+    Bodies, ConstraintBlock, Contacts, Graph, LaneBlock, NULL, PointLanes, Shapes, flags,
+    is_overflow,
 };
 use crate::footprint::footprint;
 use crate::math::Vec2;
@@ -97,7 +99,7 @@ impl Bounces {
         (team, level): (&Team, SimdLevel),
         parameters: &Parameters,
         stores: &mut Stores<'_>,
-        pace: usize,
+        (pace, shapes): (usize, &Shapes),
     ) {
         self.joined.clear();
         if self.approaching.is_empty() && self.waiting.is_empty() {
@@ -112,6 +114,7 @@ impl Bounces {
             let search = Search { graph, rows, parameters, motions, first };
             let found = (&mut self.hits, &mut self.approaching);
             search.run(team, &self.list, &mut self.found, found);
+            self.bring_up(stores, shapes, parameters, first);
             if self.hits.is_empty() && (!first || self.waiting.is_empty()) {
                 return;
             }
@@ -129,6 +132,30 @@ impl Bounces {
             }
             self.list_near((bodies, contacts, graph), pace, parameters.restitution_threshold);
         }
+    }
+
+    /// Brings what hits up to where its bodies are by now; what does not hit there is left to later substeps.
+    fn bring_up(
+        &mut self,
+        stores: &mut Stores<'_>,
+        shapes: &Shapes,
+        parameters: &Parameters,
+        first: bool,
+    ) {
+        let Self { hits, approaching, .. } = self;
+        let Stores { bodies, graph, .. } = stores;
+        for Hit { at, .. } in &*hits {
+            moment::bring_up(bodies, graph.bucket_mut(at.place, at.class), shapes, at.slot);
+        }
+        let (rows, motions) = (SharedRows::new(&mut bodies.rows), &bodies.motions);
+        let search = Search { graph, rows, parameters, motions, first };
+        hits.retain_mut(|hit| {
+            let aimed = search.aim(hit.at).filter(|aimed| aimed.targets != [0.0; 2]);
+            if aimed.is_none() && !first {
+                approaching.push(hit.at);
+            }
+            aimed.inspect(|&aimed| *hit = aimed).is_some()
+        });
     }
 
     /// Lets what bounced off joined bodies bounce off all that hangs on them: each time that joints have taken their part of what that
