@@ -5,7 +5,6 @@
 //! piece about its centre: so no two of its points part or come together by it.
 
 use super::islands::{Islands, Stores, touching};
-use crate::describe::BodyKind;
 use crate::dynamics::{Bodies, BodyInfo, NULL, Slot};
 use crate::math::Vec2;
 
@@ -69,18 +68,18 @@ fn place(bodies: &Bodies, body: u32, root: u32) -> [f64; 2] {
 pub(crate) struct FreeIslands {
     islands: Islands,
     found: Vec<Whole>,
-    any: bool,
+    /// Does nothing pull at all there is?
+    weightless: bool,
 }
 
-crate::footprint::footprint!(FreeIslands { islands, found } none { any });
+crate::footprint::footprint!(FreeIslands { islands, found } none { weightless });
 
 impl FreeIslands {
     /// Looks for them before the substeps.
     pub(crate) fn begin(&mut self, stores: &Stores<'_>, gravity: Vec2) {
         let Stores { bodies, graph, joints, .. } = stores;
-        let is_free = |&body: &u32| is_left_alone(&bodies.infos[body as usize], gravity);
-        self.any = bodies.awake.iter().any(is_free);
-        if !self.any {
+        self.weightless = gravity == Vec2::ZERO;
+        if !self.weightless {
             return;
         }
         let Self { islands, found, .. } = self;
@@ -91,7 +90,7 @@ impl FreeIslands {
         for &body in listed {
             let root = islands.root(body);
             let whole = &mut found[root as usize];
-            whole.held |= !is_free(&body);
+            whole.held |= !is_left_alone(&bodies.infos[body as usize]);
             whole.add(bodies, body, place(bodies, body, root));
         }
         for (a, b) in touching(graph) {
@@ -109,7 +108,7 @@ impl FreeIslands {
 
     /// Gives back after the substeps what they have changed.
     pub(crate) fn end(&mut self, bodies: &mut Bodies) {
-        if !self.any {
+        if !self.weightless {
             return;
         }
         let Self { islands, found, .. } = self;
@@ -133,12 +132,12 @@ impl FreeIslands {
     }
 }
 
-/// Does no force act on a body, and may it go and turn as it is pushed?
-fn is_left_alone(info: &BodyInfo, gravity: Vec2) -> bool {
+/// Does nothing act on a body, and may it go and turn as it is pushed?
+fn is_left_alone(info: &BodyInfo) -> bool {
     let BodyInfo { locks, force, torque, linear_damping, angular_damping, .. } = info;
-    let pulled = gravity * info.gravity_scale + *force != Vec2::ZERO || *torque != 0.0;
+    let pulled = *force != Vec2::ZERO || *torque != 0.0;
     let damped = *linear_damping != 0.0 || *angular_damping != 0.0;
     let locked = locks.x || locks.y || locks.rotation || info.never_turns;
     let joined = info.first_joint != NULL;
-    info.kind == BodyKind::Dynamic && !pulled && !damped && !locked && !joined
+    !pulled && !damped && !locked && !joined
 }
