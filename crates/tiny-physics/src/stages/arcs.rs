@@ -9,14 +9,14 @@ use super::ahead::{HEAVIER, Predictions};
 use super::islands::Stores;
 use crate::dynamics::{
     Bodies, Bucket, ConstraintBlock, Contact, Contacts, Graph, Joints, ManifoldBlock, Place,
-    Shapes, Slot, inverses,
+    Shapes, Slot,
 };
 use crate::footprint::footprint;
 use crate::geometry::Shape;
 use crate::geometry::manifold::{self, Manifold};
 use crate::math::{Transform, Vec2};
 use crate::simd::{BLOCK, Row};
-use crate::stages::effective_mass::{inverses_along, lever, straight};
+use crate::stages::effective_mass::{changes, inverses_along, lever, straight};
 use crate::threads::Team;
 
 /// What finding contacts needs beyond the stores.
@@ -182,9 +182,9 @@ impl Arc {
         let (frame, found) = course.collide(bodies, scope, shapes);
         let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
         if found.count > 0 && frame.q.rotate(found.normal).dot(normal) > TURNED {
-            let before = course.changes(constraint, lane);
+            let before = changes(&course.rows, constraint, lane);
             course.write((constraint, known, lane), frame, &found);
-            let after = course.changes(constraint, lane);
+            let after = changes(&course.rows, constraint, lane);
             // The next substep adds what the impulses have done in this one: now that of the new arms.
             for (k, body) in both.into_iter().enumerate() {
                 let start = &mut bodies.starts[body as usize];
@@ -240,22 +240,6 @@ impl Course {
         let reach = if self.way > scope.reach { self.way } else { scope.reach };
         let b_in_a = frame_b.relative_to(frame_a);
         (frame_a, manifold::collide(&a.shape, &b.shape, b_in_a, reach))
-    }
-
-    /// What the impulses of a contact do to the velocities of its bodies.
-    fn changes(&self, constraint: &ConstraintBlock, lane: usize) -> [[f32; 3]; 2] {
-        let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
-        let (mut linear, mut turning) = (Vec2::ZERO, [0.0; 2]);
-        for point in &constraint.points {
-            let (push, rub) = (point.normal_impulse[lane], point.tangent_impulse[lane]);
-            linear += normal * push - normal.perp() * rub;
-            turning[0] -= point.normal_arm_a[lane] * push + point.tangent_arm_a[lane] * rub;
-            turning[1] += point.normal_arm_b[lane] * push + point.tangent_arm_b[lane] * rub;
-        }
-        [(0, -linear), (1, linear)].map(|(k, linear)| {
-            let [x, y, turn] = inverses::<f32>((), &self.rows[k]);
-            [linear.x * x, linear.y * y, turning[k] * turn]
-        })
     }
 
     /// Puts a manifold in the place of what the lane has; impulses go to the points of the same name.

@@ -1,6 +1,8 @@
 //! Effective masses of contacts: what an impulse at a point moves.
 
-use crate::dynamics::{Bodies, Contact, Graph, LOCKED, Slot, inverse_mass_along, inverses, locked};
+use crate::dynamics::{
+    Bodies, ConstraintBlock, Contact, Graph, LOCKED, Slot, inverse_mass_along, inverses, locked,
+};
 use crate::math::Vec2;
 use crate::simd::{Lanes, Row};
 
@@ -101,4 +103,20 @@ pub(super) fn follow(graph: &mut Graph, contact: &Contact, bodies: &Bodies) {
         let arms = [point.tangent_arm_a[lane], point.tangent_arm_b[lane]];
         anew(&mut point.tangent_mass[lane], arms, across);
     }
+}
+
+/// What the impulses of a contact do to the velocities of its bodies.
+pub(super) fn changes(rows: &[Row; 2], constraint: &ConstraintBlock, lane: usize) -> [[f32; 3]; 2] {
+    let normal = Vec2::new(constraint.normal_x[lane], constraint.normal_y[lane]);
+    let (mut linear, mut turning) = (Vec2::ZERO, [0.0; 2]);
+    for point in &constraint.points {
+        let (push, rub) = (point.normal_impulse[lane], point.tangent_impulse[lane]);
+        linear += normal * push - normal.perp() * rub;
+        turning[0] -= point.normal_arm_a[lane] * push + point.tangent_arm_a[lane] * rub;
+        turning[1] += point.normal_arm_b[lane] * push + point.tangent_arm_b[lane] * rub;
+    }
+    [(0, -linear), (1, linear)].map(|(k, linear)| {
+        let [x, y, turn] = inverses::<f32>((), &rows[k]);
+        [linear.x * x, linear.y * y, turning[k] * turn]
+    })
 }

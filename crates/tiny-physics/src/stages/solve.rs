@@ -6,6 +6,7 @@
 use super::ahead::Predictions;
 use super::arcs::{Arcs, Scope};
 use super::contact_solver::{self, Bounces, Parameters, Pass, Softness};
+use super::free::FreeIslands;
 use super::islands::Stores;
 use super::joint_solver::Substep;
 use super::rests::Compliance;
@@ -155,6 +156,7 @@ pub(crate) struct Solver {
     tree_contacts: tree_contacts::TreeContacts,
     bounces: Bounces,
     pub(crate) passivity: passivity::Memory,
+    free: FreeIslands,
     listed: Vec<u32>,
     pub(crate) broken: joint_solver::Broken,
 }
@@ -169,6 +171,7 @@ footprint!(Solver {
     tree_contacts,
     bounces,
     passivity,
+    free,
     listed,
     broken
 });
@@ -196,6 +199,7 @@ impl Solver {
         self.hit.list(stores.graph, stores.contacts, predictions.hard.iter().copied());
         self.bounces.waiting.clone_from(&predictions.waiting);
         self.jointed.list_blocks(stores.graph, |head| head.jointed_a | head.jointed_b != 0);
+        self.free.begin(stores, rules.gravity);
         let dt = rules.lengths.dt;
         let most = rules.settings.push_speed * rules.settings.length_unit * dt;
         self.arcs.list(team, stores, scope.shapes, predictions, (dt, most));
@@ -220,6 +224,7 @@ impl Solver {
             self.solve_pace(team, stores, rules, PLAIN, &listed, scope);
             stores.bodies.awake = listed;
         }
+        self.free.end(stores.bodies);
         self.broken.found.sort_unstable_by_key(|&(index, _)| index);
     }
 
@@ -274,7 +279,7 @@ impl Solver {
         for substep in 0..lengths.substeps {
             let first = substep == 0;
             self.arcs.renew((stores.bodies, stores.graph), scope, (pace, h), first);
-            bounces.run((team, level), &parameters, stores, pace);
+            bounces.run((team, level), &parameters, stores, (pace, scope.shapes));
             integrate::velocities(team, level, listed, stores.bodies, first);
             joints(stores, joint_solver::Pass::WarmStart);
             if first {

@@ -205,7 +205,7 @@ impl Search<'_> {
     /// and restitution e, the surfaces meet at speed `sqrt(v^2 + 2 c s)`. The bounce takes place here, at separation s,
     /// so the speed that has to be set is `sqrt(e^2 (v^2 + 2 c s) - 2 c s)`. Velocities of the semi-implicit scheme are
     /// half a substep late: `c h / 2` is missing from the approach and needed on top of the speed.
-    fn aim(&self, at: At) -> Option<Hit> {
+    pub(super) fn aim(&self, at: At) -> Option<Hit> {
         let Parameters { inv_h, restitution_threshold: threshold, .. } = *self.parameters;
         let (block, lane) = (at.slot / BLOCK, at.slot % BLOCK);
         let bucket = self.graph.bucket(at.place, at.class);
