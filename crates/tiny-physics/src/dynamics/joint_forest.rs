@@ -162,6 +162,8 @@ pub(crate) struct JointTree {
     pub(crate) pace: usize,
     /// No other joint moves its bodies.
     pub(crate) alone: bool,
+    /// It has more rows, or anchors of one body have, than the bodies have ways to move: they may contradict each other.
+    pub(crate) tight: bool,
     /// See [`JointTree::is_undisturbed`]; but for its axes.
     undisturbed: bool,
     /// The rows have been worked out in this step.
@@ -183,6 +185,7 @@ clone_by_field!(JointTree {
     axes,
     pace,
     alone,
+    tight,
     undisturbed,
     begun,
     fresh,
@@ -194,6 +197,7 @@ footprint!(JointTree { nodes, links, axes } none {
     dynamic,
     pace,
     alone,
+    tight,
     undisturbed,
     begun,
     fresh,
@@ -275,6 +279,18 @@ pub(super) fn is_plain(def: &JointDef) -> bool {
     )
 }
 
+/// How many ways to move a joint of a tree takes.
+fn rows_of(kind: &JointKind) -> usize {
+    match kind {
+        JointKind::Weld { .. } => 3,
+        JointKind::Revolute { limits, .. } | JointKind::Prismatic { limits, .. } => {
+            2 + usize::from(limits.is_some())
+        }
+        JointKind::Wheel { limits, .. } => 1 + usize::from(limits.is_some()),
+        _ => 1,
+    }
+}
+
 impl JointForest {
     /// Notes that any joint may be new.
     pub(super) fn note_all(&mut self) {
@@ -289,6 +305,11 @@ impl JointForest {
     /// Is there anything to do?
     pub(crate) fn is_stale(&self) -> bool {
         self.all_dirty || !self.dirty.is_empty()
+    }
+
+    /// The bodies whose joints have changed; `None` where any may have.
+    pub(super) fn changed(&self) -> Option<&[u32]> {
+        (!self.all_dirty).then_some(&self.dirty)
     }
 
     /// Joints of all trees.
@@ -492,6 +513,7 @@ fn plant(
         let ends = [body_a, body_b].map(|body| planter.node_of(body));
         planter.add_link(joint, ends, NULL, NULL);
     }
+    planter.tree.tight = planter.is_tight();
     let deep =
         planter.depth.last().is_some_and(|&depth| depth + usize::from(anchored) >= least_depth);
     (uneven || deep).then_some(planter.tree)
@@ -546,6 +568,23 @@ impl Planter<'_> {
             links.rotate_right(1);
             (links[0].child, links[0].parent) = (0, NULL);
         }
+    }
+
+    /// See [`JointTree::tight`].
+    fn is_tight(&self) -> bool {
+        let JointTree { links, dynamic, .. } = &self.tree;
+        let rows = |link: &TreeLink| rows_of(&self.joints.records[link.joint as usize].def.kind);
+        let of_anchors = |node: usize| {
+            let own = |link: &&TreeLink| {
+                let [a, b] = [link.a as usize, link.b as usize];
+                a == node && b >= *dynamic || b == node && a >= *dynamic
+            };
+            links.iter().filter(own).map(rows).sum::<usize>()
+        };
+        let free =
+            if links.iter().any(|link| link.a.max(link.b) as usize >= *dynamic) { 0 } else { 3 };
+        links.iter().map(rows).sum::<usize>() + free > 3 * dynamic
+            || (0..*dynamic).any(|node| of_anchors(node) > 3)
     }
 
     /// The dynamic body of an anchor, and the other.

@@ -421,6 +421,16 @@ impl JointGraph {
         if !self.forest.is_stale() {
             return;
         }
+        // How firmly a joint holds goes with what else its body hangs on.
+        match self.forest.changed().map(<[u32]>::to_vec) {
+            Some(changed) => {
+                changed.iter().filter(|&&body| bodies.is_dynamic(body)).for_each(|&body| {
+                    let all = joints.of_body(bodies.infos[body as usize].first_joint);
+                    all.for_each(|(joint, _)| self.mark_stale(joints, joint));
+                })
+            }
+            None => self.described_h = f32::NAN,
+        }
         for (index, place) in self.forest.grow(bodies, joints) {
             self.take(bodies, joints, index);
             match place {

@@ -40,11 +40,11 @@ mod weld;
 #[cfg(test)]
 mod tests;
 
-use crate::describe::{BodyKind, Break, JointDef};
+use crate::describe::{BodyKind, Break, JointDef, JointKind};
 use crate::dynamics::{
     AxisLanes, BodyInfo, FrameLanes, JointBlocks, JointBucket, JointClass, JointColour, JointGraph,
-    JointLanes, JointLoad, Joints, PACES, REFINEMENT, ROUNDS, TreeLink, joint_classes, pace_at,
-    with_bucket,
+    JointLanes, JointLoad, JointRecord, Joints, PACES, Place, REFINEMENT, ROUNDS, TreeLink,
+    is_rigid, joint_classes, pace_at, with_bucket,
 };
 use crate::math::{Pose, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_baseline, dispatch_narrow};
@@ -155,11 +155,26 @@ fn describe_bucket<B: JointKernel>(
             let b = def.anchor_b - infos[record.body_b as usize].local_center;
             (frame.local_a_x[lane], frame.local_a_y[lane]) = (a.x, a.y);
             (frame.local_b_x[lane], frame.local_b_y[lane]) = (b.x, b.y);
-            let moves = |body: u32| infos[body as usize].kind == BodyKind::Dynamic;
-            let anchored = !(moves(record.body_a) && moves(record.body_b));
+            let anchored = is_anchored(joints, infos, index);
             block.describe(lane, def, &rates[usize::from(anchored)]);
         }
     }
+}
+
+/// Is a joint the only one that holds its body to what does not move? Where others do they may contradict each other, and what is very
+/// stiff comes to pull ever harder.
+fn is_anchored(joints: &Joints, infos: &[BodyInfo], index: u32) -> bool {
+    let moves = |body: u32| infos[body as usize].kind == BodyKind::Dynamic;
+    let JointRecord { body_a: a, body_b: b, .. } = joints.records[index as usize];
+    let body = if moves(a) { a } else { b };
+    let holds = |other: u32| {
+        let record = &joints.records[other as usize];
+        let rope = matches!(record.def.kind, JointKind::Distance { .. });
+        let rigid = rope || is_rigid(&record.def);
+        other != index && record.place != Place::Asleep && rigid && !moves(record.other(body))
+    };
+    !(moves(a) && moves(b))
+        && !joints.of_body(infos[body as usize].first_joint).any(|(other, _)| holds(other))
 }
 
 /// Writes what follows from the poses (of the centres of mass) at the start of the step. The blocks have so many joints.
