@@ -234,9 +234,9 @@ pub(crate) struct JointForest {
     /// Tree of each joint, or NULL.
     tree_of: Vec<u32>,
     /// Bodies whose joints have changed.
-    dirty: Vec<u32>,
+    pub(super) dirty: Vec<u32>,
     /// Nothing is known yet.
-    all_dirty: bool,
+    pub(super) all_dirty: bool,
     walk: Walk,
 }
 
@@ -279,15 +279,16 @@ pub(super) fn is_plain(def: &JointDef) -> bool {
     )
 }
 
-/// How many ways to move a joint of a tree takes.
-fn rows_of(kind: &JointKind) -> usize {
-    match kind {
-        JointKind::Weld { .. } => 3,
-        JointKind::Revolute { limits, .. } | JointKind::Prismatic { limits, .. } => {
-            2 + usize::from(limits.is_some())
-        }
+/// How many ways to move a joint takes, or may take by its limits: none where it gives way as a spring.
+pub(crate) fn rows_of(def: &JointDef) -> usize {
+    match def.kind {
+        _ if def.softness.is_some() => 0,
+        JointKind::Weld { linear: None, angular: None } => 3,
+        JointKind::Revolute { spring: None, limits, .. }
+        | JointKind::Prismatic { spring: None, limits, .. } => 2 + usize::from(limits.is_some()),
         JointKind::Wheel { limits, .. } => 1 + usize::from(limits.is_some()),
-        _ => 1,
+        JointKind::Distance { spring: None, .. } | JointKind::Gear { .. } => 1,
+        _ => 0,
     }
 }
 
@@ -305,11 +306,6 @@ impl JointForest {
     /// Is there anything to do?
     pub(crate) fn is_stale(&self) -> bool {
         self.all_dirty || !self.dirty.is_empty()
-    }
-
-    /// The bodies whose joints have changed; `None` where any may have.
-    pub(super) fn changed(&self) -> Option<&[u32]> {
-        (!self.all_dirty).then_some(&self.dirty)
     }
 
     /// Joints of all trees.
@@ -572,19 +568,17 @@ impl Planter<'_> {
 
     /// See [`JointTree::tight`].
     fn is_tight(&self) -> bool {
-        let JointTree { links, dynamic, .. } = &self.tree;
-        let rows = |link: &TreeLink| rows_of(&self.joints.records[link.joint as usize].def.kind);
-        let of_anchors = |node: usize| {
-            let own = |link: &&TreeLink| {
-                let [a, b] = [link.a as usize, link.b as usize];
-                a == node && b >= *dynamic || b == node && a >= *dynamic
-            };
-            links.iter().filter(own).map(rows).sum::<usize>()
-        };
-        let free =
-            if links.iter().any(|link| link.a.max(link.b) as usize >= *dynamic) { 0 } else { 3 };
-        links.iter().map(rows).sum::<usize>() + free > 3 * dynamic
-            || (0..*dynamic).any(|node| of_anchors(node) > 3)
+        let ways = 3 * self.tree.dynamic;
+        let (mut all, mut of_anchors) = (0, vec![0; self.tree.dynamic]);
+        for &TreeLink { joint, a, b, .. } in &self.tree.links {
+            let rows = rows_of(&self.joints.records[joint as usize].def);
+            all += rows;
+            if self.tree.dynamic <= a.max(b) as usize {
+                of_anchors[a.min(b) as usize] += rows;
+            }
+        }
+        let free = if of_anchors.iter().all(|&rows| rows == 0) { 3 } else { 0 };
+        all + free > ways || of_anchors.iter().any(|&rows| rows > 3)
     }
 
     /// The dynamic body of an anchor, and the other.
