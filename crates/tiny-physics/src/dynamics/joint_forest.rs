@@ -162,6 +162,8 @@ pub(crate) struct JointTree {
     pub(crate) pace: usize,
     /// No other joint moves its bodies.
     pub(crate) alone: bool,
+    /// It has more rows, or anchors of one body have, than the bodies have ways to move: they may contradict each other.
+    pub(crate) tight: bool,
     /// See [`JointTree::is_undisturbed`]; but for its axes.
     undisturbed: bool,
     /// The rows have been worked out in this step.
@@ -183,6 +185,7 @@ clone_by_field!(JointTree {
     axes,
     pace,
     alone,
+    tight,
     undisturbed,
     begun,
     fresh,
@@ -194,6 +197,7 @@ footprint!(JointTree { nodes, links, axes } none {
     dynamic,
     pace,
     alone,
+    tight,
     undisturbed,
     begun,
     fresh,
@@ -230,9 +234,9 @@ pub(crate) struct JointForest {
     /// Tree of each joint, or NULL.
     tree_of: Vec<u32>,
     /// Bodies whose joints have changed.
-    dirty: Vec<u32>,
+    pub(super) dirty: Vec<u32>,
     /// Nothing is known yet.
-    all_dirty: bool,
+    pub(super) all_dirty: bool,
     walk: Walk,
 }
 
@@ -273,6 +277,19 @@ pub(super) fn is_plain(def: &JointDef) -> bool {
             | Distance { .. }
             | Gear { .. }
     )
+}
+
+/// How many ways to move a joint takes, or may take by its limits: none where it gives way as a spring.
+pub(crate) fn rows_of(def: &JointDef) -> usize {
+    match def.kind {
+        _ if def.softness.is_some() => 0,
+        JointKind::Weld { linear: None, angular: None } => 3,
+        JointKind::Revolute { spring: None, limits, .. }
+        | JointKind::Prismatic { spring: None, limits, .. } => 2 + usize::from(limits.is_some()),
+        JointKind::Wheel { limits, .. } => 1 + usize::from(limits.is_some()),
+        JointKind::Distance { spring: None, .. } | JointKind::Gear { .. } => 1,
+        _ => 0,
+    }
 }
 
 impl JointForest {
@@ -492,6 +509,7 @@ fn plant(
         let ends = [body_a, body_b].map(|body| planter.node_of(body));
         planter.add_link(joint, ends, NULL, NULL);
     }
+    planter.tree.tight = planter.is_tight();
     let deep =
         planter.depth.last().is_some_and(|&depth| depth + usize::from(anchored) >= least_depth);
     (uneven || deep).then_some(planter.tree)
@@ -546,6 +564,21 @@ impl Planter<'_> {
             links.rotate_right(1);
             (links[0].child, links[0].parent) = (0, NULL);
         }
+    }
+
+    /// See [`JointTree::tight`].
+    fn is_tight(&self) -> bool {
+        let ways = 3 * self.tree.dynamic;
+        let (mut all, mut of_anchors) = (0, vec![0; self.tree.dynamic]);
+        for &TreeLink { joint, a, b, .. } in &self.tree.links {
+            let rows = rows_of(&self.joints.records[joint as usize].def);
+            all += rows;
+            if self.tree.dynamic <= a.max(b) as usize {
+                of_anchors[a.min(b) as usize] += rows;
+            }
+        }
+        let free = if of_anchors.iter().all(|&rows| rows == 0) { 3 } else { 0 };
+        all + free > ways || of_anchors.iter().any(|&rows| rows > 3)
     }
 
     /// The dynamic body of an anchor, and the other.

@@ -13,7 +13,7 @@ use super::joint_blocks::{
     DistanceBlock, DriveBlock, GearBlock, Impulses, JointClass, JointLanes, PulleyBlock,
     RevoluteBlock, SliderBlock, WeldBlock,
 };
-use super::joint_forest::{JointForest, JointTree, is_plain, is_rigid};
+use super::joint_forest::{JointForest, JointTree, is_plain, is_rigid, rows_of};
 use super::joints::{JointRecord, Joints};
 use super::pace::PLAIN;
 use crate::codec::{Data, Reader, Sink, clone_by_field, store};
@@ -421,6 +421,16 @@ impl JointGraph {
         if !self.forest.is_stale() {
             return;
         }
+        // How firmly a joint holds goes with what else its body hangs on.
+        let changed = core::mem::take(&mut self.forest.dirty);
+        for &body in changed.iter().filter(|&&body| bodies.is_dynamic(body)) {
+            let all = joints.of_body(bodies.infos[body as usize].first_joint);
+            all.for_each(|(joint, _)| self.mark_stale(joints, joint));
+        }
+        if self.forest.all_dirty {
+            self.described_h = f32::NAN;
+        }
+        self.forest.dirty = changed;
         for (index, place) in self.forest.grow(bodies, joints) {
             self.take(bodies, joints, index);
             match place {
@@ -444,7 +454,7 @@ impl JointGraph {
         let same = core::mem::discriminant(&record.def.kind) == core::mem::discriminant(&def.kind)
             && record.def.enabled == def.enabled;
         if same && is_rigid(&record.def) == is_rigid(def) {
-            if is_plain(&record.def) != is_plain(def) {
+            if is_plain(&record.def) != is_plain(def) || rows_of(&record.def) != rows_of(def) {
                 // Where joints close a loop, those are left out of a tree that are plain.
                 self.forest.note(record.body_a, record.body_b);
             }

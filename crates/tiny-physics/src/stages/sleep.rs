@@ -19,6 +19,10 @@ pub(crate) const INTERVAL: u64 = 8;
 /// Taking a body out of the list of those awake costs about as much as going past this many that stay.
 const MANY_AWAKE: usize = 16;
 
+/// What slides down at this part of its sleep speed, along the forces on it by this cosine, does not rest.
+const CREEPS: f32 = 0.02;
+const DOWN: f32 = 0.02;
+
 /// A surface slides where its friction is at least this part of the greatest.
 const SLIDES: f32 = 0.99;
 
@@ -28,11 +32,13 @@ pub(crate) struct Sets {
     islands: Islands,
     /// Must the island of this root stay awake?
     restless: Vec<bool>,
+    /// Does it slide down what does not move, is it held by that?
+    slides: Vec<[bool; 2]>,
     /// Root and body of those that may sleep.
     resting: Vec<(u32, u32)>,
 }
 
-crate::footprint::footprint!(Sets { islands, restless, resting });
+crate::footprint::footprint!(Sets { islands, restless, slides, resting });
 
 /// Finds islands at rest and lists their bodies in `found`, each island ended by [`NULL`]: those in which every
 /// body has rested and none is moved or carried by what it lies on, or by a joint. `lengths` are those of a plain substep, seconds,
@@ -50,7 +56,7 @@ pub(crate) fn find_resting(
     if !bodies.awake.iter().any(|&i| bodies.infos[i as usize].sleep_time >= time_to_sleep) {
         return;
     }
-    let Sets { islands: sets, restless, resting } = sets;
+    let Sets { islands: sets, restless, slides, resting } = sets;
     sets.find_all(bodies, graph, joints);
     restless.resize(bodies.infos.len(), false);
     bodies.awake.iter().for_each(|&body| restless[body as usize] = false);
@@ -68,6 +74,11 @@ pub(crate) fn find_resting(
             }
         }
     }
+    slides.resize(bodies.infos.len(), [false; 2]);
+    bodies.awake.iter().for_each(|&body| slides[body as usize] = [false; 2]);
+    for (body, way) in leaning(bodies, graph, joints, lengths.1) {
+        slides[sets.root(body) as usize][usize::from(way)] = true;
+    }
     let driven = joints.driven.iter().map(|&index| &joints.records[index as usize]);
     let rested = |i: u32| bodies.infos[i as usize].sleep_time >= time_to_sleep;
     let may_rest = |body: u32| rested(body) || !bodies.is_dynamic(body);
@@ -80,8 +91,9 @@ pub(crate) fn find_resting(
         }
     }
     for &body in &bodies.awake {
-        if !rested(body) || restless[body as usize] {
-            restless[sets.root(body) as usize] = true;
+        let root = sets.root(body) as usize;
+        if !rested(body) || restless[body as usize] || slides[root] == [true, false] {
+            restless[root] = true;
         }
     }
     resting.clear();
@@ -96,17 +108,46 @@ pub(crate) fn find_resting(
     }
 }
 
+/// The bodies that lean on or hang from what is not dynamic, and whether they are held there: all others slide down.
+fn leaning(
+    bodies: &Bodies,
+    graph: &Graph,
+    joints: &Joints,
+    unit: f32,
+) -> impl Iterator<Item = (u32, bool)> {
+    let body_of = |(a, b)| match (bodies.is_dynamic(a), bodies.is_dynamic(b)) {
+        (true, false) => Some(a),
+        (false, true) => Some(b),
+        _ => None,
+    };
+    let creeps = move |body: u32| {
+        let ([x, y, ..], v) = (bodies.motions[body as usize].gain, bodies.velocity(body));
+        let (pull, least) = (Vec2::new(x, y), bodies.infos[body as usize].sleep_speed * unit);
+        v.length() > CREEPS * least && v.dot(pull) > DOWN * v.length() * pull.length()
+    };
+    let touching = graph.touching_buckets().flat_map(move |(_, bucket)| {
+        (0..bucket.contacts.len()).filter_map(move |slot| {
+            let body = body_of(bucket.bodies(slot))?;
+            Some((body, !(creeps(body) && slides(bucket, slot))))
+        })
+    });
+    touching.chain(joints.pairs().filter_map(body_of).map(|body| (body, true)))
+}
+
+/// Do the surfaces of a contact rub as much as they can?
+fn slides(bucket: &Bucket, slot: usize) -> bool {
+    let (constraint, lane) = (&bucket.constraints[slot / BLOCK], slot % BLOCK);
+    constraint.points.iter().all(|point| {
+        point.tangent_impulse[lane].abs() >= SLIDES * constraint.friction[lane] * point.load[lane]
+    })
+}
+
 /// The bodies of contacts whose surfaces run, and do not slide: however slowly a belt carries something, that does not rest.
 /// What it slides under is held by something else.
 fn carried(bucket: &Bucket) -> impl Iterator<Item = (u32, u32)> + '_ {
     let runs = |slot: &usize| {
-        let (block, lane) = (slot / BLOCK, slot % BLOCK);
-        let constraint = &bucket.constraints[block];
-        let slides = constraint.points.iter().all(|point| {
-            point.tangent_impulse[lane].abs()
-                >= SLIDES * constraint.friction[lane] * point.load[lane]
-        });
-        bucket.surfaces[block].tangent_speed[lane] != 0.0 && !slides
+        let belt = bucket.surfaces[slot / BLOCK].tangent_speed[slot % BLOCK];
+        belt != 0.0 && !slides(bucket, *slot)
     };
     let belts = |slot: &usize| bucket.heads[slot / BLOCK].flags & flags::TANGENT_SPEED != 0;
     (0..bucket.contacts.len()).filter(belts).filter(runs).map(|slot| bucket.bodies(slot))

@@ -306,7 +306,7 @@ impl<L: Lanes> Give<L> {
             let firm = (soft_push - firm_push) / (self.spread * stride.inv_h);
             let firm = firm.clamp(stride.zero, stride.one);
             let share = soft.mass_scale + firm * (stride.one - soft.mass_scale);
-            let decay = ((stride.one - firm) * soft.impulse_scale).max(self.yields) * old;
+            let decay = soft.impulse_scale.max(self.yields) * old;
             let mass = mass * (stride.one + firm * stride.splat(FIRMNESS - 1.0));
             let bias = L::select(apart, room * stride.inv_h, push);
             let velocity = L::select(apart, velocity, share * velocity);

@@ -43,8 +43,8 @@ mod tests;
 use crate::describe::{BodyKind, Break, JointDef};
 use crate::dynamics::{
     AxisLanes, BodyInfo, FrameLanes, JointBlocks, JointBucket, JointClass, JointColour, JointGraph,
-    JointLanes, JointLoad, Joints, PACES, REFINEMENT, ROUNDS, TreeLink, joint_classes, pace_at,
-    with_bucket,
+    JointLanes, JointLoad, JointRecord, Joints, PACES, Place, REFINEMENT, ROUNDS, TreeLink,
+    joint_classes, pace_at, rows_of, with_bucket,
 };
 use crate::math::{Pose, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_baseline, dispatch_narrow};
@@ -120,7 +120,8 @@ pub(crate) fn describe(graph: &mut JointGraph, joints: &Joints, infos: &[BodyInf
     }
     let rates: [_; PACES] = core::array::from_fn(|pace| {
         let h = h / REFINEMENT[pace] as f32;
-        [Rates::new(h, ROUNDS[pace]), Rates::anchored(h, ROUNDS[pace])]
+        let anchored = |alone| Rates::anchored(h, ROUNDS[pace], alone);
+        [Rates::new(h, ROUNDS[pace]), anchored(false), anchored(true)]
     });
     for (place, colour) in graph.colours.entries_mut() {
         let rates = &rates[pace_at(place)];
@@ -139,7 +140,7 @@ fn describe_bucket<B: JointKernel>(
     bucket: &mut JointBucket<B>,
     joints: &Joints,
     infos: &[BodyInfo],
-    rates: &[Rates; 2],
+    rates: &[Rates; 3],
     all: bool,
 ) {
     let JointBucket { joints: indices, blocks, stale } = bucket;
@@ -155,11 +156,27 @@ fn describe_bucket<B: JointKernel>(
             let b = def.anchor_b - infos[record.body_b as usize].local_center;
             (frame.local_a_x[lane], frame.local_a_y[lane]) = (a.x, a.y);
             (frame.local_b_x[lane], frame.local_b_y[lane]) = (b.x, b.y);
-            let moves = |body: u32| infos[body as usize].kind == BodyKind::Dynamic;
-            let anchored = !(moves(record.body_a) && moves(record.body_b));
-            block.describe(lane, def, &rates[usize::from(anchored)]);
+            block.describe(lane, def, &rates[anchors(joints, infos, index)]);
         }
     }
+}
+
+/// Rows with which a body may be held to what does not move before they count as too many: those of two pins, which bear more than
+/// they contradict each other.
+const MOST_HELD: usize = 4;
+
+/// 0 for a joint between bodies that move, 1 for one to what does not move by which a body is held in too many ways, 2 for any other.
+fn anchors(joints: &Joints, infos: &[BodyInfo], index: u32) -> usize {
+    let moves = |body: u32| infos[body as usize].kind == BodyKind::Dynamic;
+    let JointRecord { body_a: a, body_b: b, .. } = joints.records[index as usize];
+    let body = if moves(a) { a } else { b };
+    if moves(a) && moves(b) {
+        return 0;
+    }
+    let all = joints.of_body(infos[body as usize].first_joint);
+    let all = all.map(|(joint, _)| &joints.records[joint as usize]);
+    let held = all.filter(|record| record.place != Place::Asleep && !moves(record.other(body)));
+    2 - usize::from(held.map(|record| rows_of(&record.def)).sum::<usize>() > MOST_HELD)
 }
 
 /// Writes what follows from the poses (of the centres of mass) at the start of the step. The blocks have so many joints.

@@ -648,6 +648,9 @@ impl<L: Lanes> Sides<L> {
 
 /// A determinant below this part of the diagonal's product is rounding.
 const SINGULAR: f32 = 4.0e-7;
+/// And so it is below this part of the square of their sum: a body that is locked along an axis would be turned about an arm as
+/// short as that until it is somewhere along it.
+const LEAST_ARM: f32 = 1.0e-9;
 
 /// A symmetric 2 x 2 matrix.
 pub(super) struct Symmetric<L> {
@@ -663,7 +666,8 @@ impl<L: Lanes> Symmetric<L> {
     pub(super) fn invert(stride: &Stride<L>, xx: L, xy: L, yy: L) -> Self {
         let (product, square) = (xx * yy, (xx + yy) * (xx + yy));
         let det = product - xy * xy;
-        let whole = det.gt(L::splat(stride.token, SINGULAR) * product);
+        let least = (stride.splat(SINGULAR) * product).max(stride.splat(LEAST_ARM) * square);
+        let whole = det.gt(least);
         let inv = stride.invert(L::select(whole, det, square));
         let [x, cross, y] =
             [L::select(whole, yy, xx), L::select(whole, -xy, xy), L::select(whole, xx, yy)];

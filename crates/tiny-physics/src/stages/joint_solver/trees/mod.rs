@@ -365,11 +365,22 @@ fn snap_share<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) -> f64 {
     }
     let grown = 1.0 + f64::from(SNAP_SHARE / SNAP) * largest;
     let (most, most_turn) = (most * grown, most_turn * grown);
-    if sum < most_turn {
+    if sum < most_turn && !tree.tight {
         return 1.0;
     }
     factor::factor(simd, tree);
+    if tree.tight {
+        for axis in &tree.axes {
+            let link = &mut tree.links[axis.link as usize];
+            if link.limit != 0.0 {
+                link.rhs[link.rigid] = overrun(link, axis, 0.0, link.limit, rates);
+            }
+        }
+    }
     factor::solve(simd, tree);
+    if tree.tight {
+        share_errors(tree, rates);
+    }
     let mut over = 1.0;
     for node in &tree.nodes[..tree.dynamic] {
         let [x, y, turn, _] = node.dv;
@@ -378,6 +389,20 @@ fn snap_share<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) -> f64 {
         over = if most > over { most } else { over };
     }
     1.0 / over
+}
+
+/// Leaves of the errors what the tree can make good. What rows that contradict each other want of their bodies remains in the compliance,
+/// and impulses for it would add up.
+fn share_errors(tree: &mut JointTree, rates: &Rates) {
+    for link in &mut tree.links {
+        for i in 0..link.rigid {
+            link.error[i] += link.compliance[i] * link.change[i] / rates.rigid_bias(1.0);
+        }
+        if link.limit != 0.0 {
+            link.error[link.rigid] = link.compliance[link.rigid] * link.change[link.rigid];
+        }
+        link.change = [0.0; 4];
+    }
 }
 
 /// What is missing in the velocity at the lower (1) or upper (-1) limit; above 0 where it would be overrun.
@@ -491,6 +516,7 @@ fn demand<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
             let mut wanted = overrun(link, axis, velocity(link, nodes), link.limit, rates);
             if rates.bias {
                 wanted -= link.coordinate.compliance * link.limit * axis.axis.limits[0];
+                wanted -= link.error[link.rigid];
             }
             link.rhs[link.rigid] = wanted;
         }
