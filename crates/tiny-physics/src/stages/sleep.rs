@@ -19,9 +19,8 @@ pub(crate) const INTERVAL: u64 = 8;
 /// Taking a body out of the list of those awake costs about as much as going past this many that stay.
 const MANY_AWAKE: usize = 16;
 
-/// What slides down at this part of its sleep speed, along the forces on it by this cosine, does not rest.
+/// What slides at this part of its sleep speed, and by this cosine along the forces on it, does not rest.
 const CREEPS: f32 = 0.02;
-const DOWN: f32 = 0.02;
 
 /// A surface slides where its friction is at least this part of the greatest.
 const SLIDES: f32 = 0.99;
@@ -123,7 +122,7 @@ fn leaning(
     let creeps = move |body: u32| {
         let ([x, y, ..], v) = (bodies.motions[body as usize].gain, bodies.velocity(body));
         let (pull, least) = (Vec2::new(x, y), bodies.infos[body as usize].sleep_speed * unit);
-        v.length() > CREEPS * least && v.dot(pull) > DOWN * v.length() * pull.length()
+        v.length() > CREEPS * least && v.dot(pull) > CREEPS * v.length() * pull.length()
     };
     let touching = graph.touching_buckets().flat_map(move |(_, bucket)| {
         (0..bucket.contacts.len()).filter_map(move |slot| {

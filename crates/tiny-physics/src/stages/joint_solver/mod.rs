@@ -120,8 +120,7 @@ pub(crate) fn describe(graph: &mut JointGraph, joints: &Joints, infos: &[BodyInf
     }
     let rates: [_; PACES] = core::array::from_fn(|pace| {
         let h = h / REFINEMENT[pace] as f32;
-        let anchored = |alone| Rates::anchored(h, ROUNDS[pace], alone);
-        [Rates::new(h, ROUNDS[pace]), anchored(false), anchored(true)]
+        [Rates::new(h, ROUNDS[pace]), Rates::anchored(h, ROUNDS[pace])]
     });
     for (place, colour) in graph.colours.entries_mut() {
         let rates = &rates[pace_at(place)];
@@ -140,7 +139,7 @@ fn describe_bucket<B: JointKernel>(
     bucket: &mut JointBucket<B>,
     joints: &Joints,
     infos: &[BodyInfo],
-    rates: &[Rates; 3],
+    rates: &[Rates; 2],
     all: bool,
 ) {
     let JointBucket { joints: indices, blocks, stale } = bucket;
@@ -156,27 +155,30 @@ fn describe_bucket<B: JointKernel>(
             let b = def.anchor_b - infos[record.body_b as usize].local_center;
             (frame.local_a_x[lane], frame.local_a_y[lane]) = (a.x, a.y);
             (frame.local_b_x[lane], frame.local_b_y[lane]) = (b.x, b.y);
-            block.describe(lane, def, &rates[anchors(joints, infos, index)]);
+            block.describe(lane, def, &rates[usize::from(is_anchored(joints, infos, index))]);
         }
     }
 }
 
-/// Rows with which a body may be held to what does not move before they count as too many: those of two pins, which bear more than
-/// they contradict each other.
-const MOST_HELD: usize = 4;
-
-/// 0 for a joint between bodies that move, 1 for one to what does not move by which a body is held in too many ways, 2 for any other.
-fn anchors(joints: &Joints, infos: &[BodyInfo], index: u32) -> usize {
+/// Does a joint hold its body to what does not move, and nothing else does but another pin? Where more do they may contradict each other,
+/// and what is very stiff comes to pull so hard that arms which turn fling the body about.
+fn is_anchored(joints: &Joints, infos: &[BodyInfo], index: u32) -> bool {
     let moves = |body: u32| infos[body as usize].kind == BodyKind::Dynamic;
     let JointRecord { body_a: a, body_b: b, .. } = joints.records[index as usize];
     let body = if moves(a) { a } else { b };
     if moves(a) && moves(b) {
-        return 0;
+        return false;
     }
-    let all = joints.of_body(infos[body as usize].first_joint);
-    let all = all.map(|(joint, _)| &joints.records[joint as usize]);
-    let held = all.filter(|record| record.place != Place::Asleep && !moves(record.other(body)));
-    2 - usize::from(held.map(|record| rows_of(&record.def)).sum::<usize>() > MOST_HELD)
+    let (mut held, mut rows) = (0, 0);
+    for (joint, _) in joints.of_body(infos[body as usize].first_joint) {
+        let record = &joints.records[joint as usize];
+        let own = rows_of(&record.def);
+        if own > 0 && record.place != Place::Asleep && !moves(record.other(body)) {
+            (held, rows) = (held + 1, rows + own);
+        }
+    }
+    // Two pins have one row too many, and have to bear cantilevers.
+    rows <= if held > 2 { 3 } else { 4 }
 }
 
 /// Writes what follows from the poses (of the centres of mass) at the start of the step. The blocks have so many joints.

@@ -650,7 +650,7 @@ impl<L: Lanes> Sides<L> {
 const SINGULAR: f32 = 4.0e-7;
 /// And so it is below this part of the square of their sum: a body that is locked along an axis would be turned about an arm as
 /// short as that until it is somewhere along it.
-const LEAST_ARM: f32 = 1.0e-9;
+const FLAT: f32 = 1.0e-9;
 
 /// A symmetric 2 x 2 matrix.
 pub(super) struct Symmetric<L> {
@@ -666,8 +666,7 @@ impl<L: Lanes> Symmetric<L> {
     pub(super) fn invert(stride: &Stride<L>, xx: L, xy: L, yy: L) -> Self {
         let (product, square) = (xx * yy, (xx + yy) * (xx + yy));
         let det = product - xy * xy;
-        let least = (stride.splat(SINGULAR) * product).max(stride.splat(LEAST_ARM) * square);
-        let whole = det.gt(least);
+        let whole = det.gt((stride.splat(SINGULAR) * product).max(stride.splat(FLAT) * square));
         let inv = stride.invert(L::select(whole, det, square));
         let [x, cross, y] =
             [L::select(whole, yy, xx), L::select(whole, -xy, xy), L::select(whole, xx, yy)];

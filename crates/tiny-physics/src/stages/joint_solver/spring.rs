@@ -16,8 +16,6 @@ const RIGID_DAMPING_RATIO: f32 = 2.0;
 const MAX_RATE_FRACTION: f32 = 0.25;
 /// What joints hold rigid to a body that does not move, as a fraction of the substep rate.
 const ANCHORED_RATE_FRACTION: f32 = 1.5;
-/// The same where others hold that body so, too.
-const SHARED_RATE_FRACTION: f32 = 0.4;
 /// The same for a softness that the user asks for.
 const MAX_SOFTNESS_FRACTION: f32 = 10.0;
 /// In [`SoftLanes::rigid`], what is held as softly as the user asks.
@@ -46,11 +44,10 @@ impl Rates {
     }
 
     /// The same for joints of which one body does not move: no other joint can be in their way at that
-    /// end, and pendulums keep their height. Unless others hold the body so, too: they may contradict each other, and what is very stiff
-    /// comes to pull so hard that arms which turn fling it about.
-    pub(super) fn anchored(h: f32, rounds: u32, alone: bool) -> Self {
-        let fraction = if alone { ANCHORED_RATE_FRACTION } else { SHARED_RATE_FRACTION };
-        let spring = Spring { hertz: fraction / h, damping_ratio: RIGID_DAMPING_RATIO };
+    /// end, and pendulums keep their height.
+    pub(super) fn anchored(h: f32, rounds: u32) -> Self {
+        let spring =
+            Spring { hertz: ANCHORED_RATE_FRACTION / h, damping_ratio: RIGID_DAMPING_RATIO };
         Self { h, rounds, rigid: softness(spring, h), last: Cell::new(None) }
     }
 
