@@ -80,8 +80,8 @@ fn planks(random: &mut Random, odd: Odd, count: usize, unit: f32) -> (World, Vec
     (world, all)
 }
 
-/// Before, 11 of these 12 kinds flung planks about, ropes at 190 m/s, or had them tremble at up to 18 m/s, and of those that are locked 17 in 24
-/// went off by up to 970 lengths.
+/// Before, planks of nearly all of these kinds were flung about, ropes at 190 m/s, or trembled at up to 18 m/s, and of those that are
+/// locked 17 in 24 went off by up to 970 lengths.
 #[test]
 fn joints_that_contradict_each_other_share_it_and_rest() {
     let mut random = Random::new(5);

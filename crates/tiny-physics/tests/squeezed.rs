@@ -347,7 +347,7 @@ fn planks_of_a_bridge_keep_their_loads_out() {
 fn deep_showers(ground: f32) -> usize {
     let mut random = Random::new(15);
     let mut deep = 0;
-    for _ in 0..200 {
+    for _ in 0..500 {
         let mut world = world();
         let floor = ShapeDef::new(rect(100.0, 1.0)).restitution(ground);
         let floor = RigidBody::fixed().position(Vec2::new(0.0, -1.0)).shape(floor);
@@ -370,14 +370,14 @@ fn deep_showers(ground: f32) -> usize {
 #[test]
 fn what_is_hit_and_hits_within_a_step_stays_out() {
     let deep = deep_showers(0.5);
-    assert!(deep <= 16, "{deep} of 200");
+    assert!(deep <= 40, "{deep} of 500");
 }
 
 /// What lies on a corner and is hit comes down on the other within the step: 81 before that was foreseen, now 19.
 #[test]
 fn what_is_hit_on_one_corner_does_not_sink_with_the_other() {
     let deep = deep_showers(0.0);
-    assert!(deep <= 25, "{deep} of 200");
+    assert!(deep <= 62, "{deep} of 500");
 }
 
 /// Bodies of one shape in five rows and columns that fly at as many of their kind.
