@@ -5,7 +5,7 @@ use crate::handles::{Body, World};
 use crate::query::filter;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tiny_physics::{DVec2, Explosion, ForceZone, Pose, Rot, Vec2, Water, Wind};
+use tiny_physics::{Aabb, DVec2, Explosion, ForceZone, Pose, Rot, Vec2, Water, Wind};
 
 #[pymethods]
 impl World {
@@ -39,19 +39,22 @@ impl World {
     /// ((left, bottom), (right, top)) of all that is water. mask, exclude: as for `explode`.
     ///
     /// Raises ValueError where a field is unknown or a number makes no sense.
-    #[pyo3(signature = (dt=1.0 / 60.0, mask=u64::MAX, exclude=None, **fields))]
+    #[pyo3(signature = (dt=1.0 / 60.0, area=None, mask=u64::MAX, exclude=None, **fields))]
     fn apply_water(
         slf: &Bound<'_, Self>,
         dt: f32,
+        area: Option<(Pair, Pair)>,
         mask: u64,
         exclude: Option<&Body>,
         fields: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<()> {
         let filter = filter(slf, mask, exclude, false)?;
-        let water: Water = match fields {
+        let said: Water = match fields {
             Some(fields) => read(fields)?,
             None => Water::default(),
         };
+        let area = area.map(|(min, max)| Aabb::new(Vec2::from(min), Vec2::from(max)));
+        let water = Water { area, ..said };
         heard(&mut slf.try_borrow_mut()?.inner, |world| world.apply_water(&water, &filter, dt))
     }
 

@@ -59,7 +59,12 @@ class World:
         exclude: Body | None = None,
     ) -> None: ...
     def apply_water(
-        self, dt: float = 1 / 60, mask: int = ..., exclude: Body | None = None, **fields: Any
+        self,
+        dt: float = 1 / 60,
+        area: tuple[Vector, Vector] | None = None,
+        mask: int = ...,
+        exclude: Body | None = None,
+        **fields: Any,
     ) -> None: ...
     def apply_zone(
         self,
