@@ -43,10 +43,10 @@ fn motion(info: &BodyInfo, row: &Row, gravity: Vec2, h: f32) -> Motion {
     }
     let linear = (gravity * info.gravity_scale + info.force * row[Slot::INV_MASS].abs()) * h;
     let turning = info.torque * row[Slot::INV_INERTIA].abs() * h;
-    let [left, kept] = damped(h * info.linear_damping);
-    let [left_turning, kept_turning] = damped(h * info.angular_damping);
-    let mut factor = [left, left, left_turning, 1.0];
-    let mut gain = [linear.x * kept, linear.y * kept, turning * kept_turning, carry];
+    let damping = 1.0 / (1.0 + h * info.linear_damping);
+    let mut factor = [damping, damping, 1.0 / (1.0 + h * info.angular_damping), 1.0];
+    // What is gained is damped, too: what falls comes to force over damping, however long a substep is.
+    let mut gain = [linear.x * factor[0], linear.y * factor[1], turning * factor[2], carry];
     let locks = info.locks;
     for (k, locked) in
         [locks.x, locks.y, locks.rotation || info.never_turns].into_iter().enumerate()
@@ -56,15 +56,6 @@ fn motion(info: &BodyInfo, row: &Row, gravity: Vec2, h: f32) -> Motion {
         }
     }
     Motion { gain, factor }
-}
-
-/// What damping by so much leaves in a substep: of a velocity, `e^-x`, and of what is gained all the while, `(1 - e^-x) / x`. By the
-/// third order of its series; what falls comes to force over damping, however long a substep is.
-fn damped(x: f32) -> [f32; 2] {
-    let x = x.min(1.0e6);
-    let growth = 1.0 + x * (0.5 + x * (1.0 / 6.0));
-    let left = 1.0 / (1.0 + x * growth);
-    [left, growth * left]
 }
 
 /// Adds a substep's gain to the velocities and, after the first substep, the impulses of the substep
