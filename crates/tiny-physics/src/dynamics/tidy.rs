@@ -4,8 +4,8 @@
 //! too. But the members of a team take the same parts of all colours, one after the other: if neighbours in a colour are of
 //! neighbouring bodies, each works on bodies of its own, and what moves a body is seldom far away in another core. As contacts
 //! come and go that order is lost: two threads took longer than one then. So in each step the large buckets of one colour are
-//! put in order again, roughly, so that few contacts have to move. With
-//! bodies that were added from left to right, say, it is an order in space.
+//! put in order again, roughly, so that few contacts have to move. With bodies that were added from left to right, say, it is
+//! an order in space.
 
 use super::blocks::{BlockHead, ConstraintBlock, LaneBlock, ManifoldBlock, SurfaceBlock, flags};
 use super::bodies::Bodies;

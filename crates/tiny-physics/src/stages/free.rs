@@ -68,7 +68,7 @@ fn place(bodies: &Bodies, body: u32, root: u32) -> [f64; 2] {
 pub(crate) struct FreeIslands {
     islands: Islands,
     found: Vec<Whole>,
-    /// Does nothing pull at all there is?
+    /// Does nothing pull at all there is, and does anything touch?
     weightless: bool,
 }
 
@@ -78,7 +78,7 @@ impl FreeIslands {
     /// Looks for them before the substeps.
     pub(crate) fn begin(&mut self, stores: &Stores<'_>, gravity: Vec2) {
         let Stores { bodies, graph, joints, .. } = stores;
-        self.weightless = gravity == Vec2::ZERO;
+        self.weightless = gravity == Vec2::ZERO && graph.touching_count() > 0;
         if !self.weightless {
             return;
         }

@@ -176,9 +176,12 @@ fn is_anchored(joints: &Joints, infos: &[BodyInfo], index: u32) -> bool {
         if own > 0 && record.place != Place::Asleep && !moves(record.other(body)) {
             (held, rows) = (held + 1, rows + own);
         }
+        // Two pins have one row too many, and have to bear cantilevers.
+        if rows > if held > 2 { 3 } else { 4 } {
+            return false;
+        }
     }
-    // Two pins have one row too many, and have to bear cantilevers.
-    rows <= if held > 2 { 3 } else { 4 }
+    true
 }
 
 /// Writes what follows from the poses (of the centres of mass) at the start of the step. The blocks have so many joints.
