@@ -114,3 +114,90 @@ fn joints_that_contradict_each_other_share_it_and_rest() {
         }
     }
 }
+
+/// Of doors whose hinges are too far apart, with a limit that their rest contradicts and maybe a motor, 9 in 24 spun at up to 6,400 rad/s, and
+/// of triangles with a bar that does not fit between its pins some.
+#[test]
+fn doors_with_hinges_too_far_apart_hang_still() {
+    let mut random = Random::new(7);
+    for member in 0..192 {
+        let (unit, hertz) = ([0.05, 1.0, 20.0][member % 3], [30, 60, 120, 240][member % 4]);
+        let mut world = World::new(Vec2::new(0.0, -10.0 * unit));
+        world.settings.length_unit = unit;
+        world.settings.substeps = [1, 2, 4, 8][random.below(4) as usize];
+        let base = world.add_body(RigidBody::fixed()).expect("a base");
+        let (half, gap) = (random.range(0.2, 2.5) * unit, random.range(0.005, 0.15));
+        let density = [0.1, 1.0, 100.0][random.below(3) as usize] / (unit * unit);
+        let shape = ShapeDef::new(rect(half, 0.06 * unit)).density(density);
+        let door = world.add_body(RigidBody::dynamic().shape(shape)).expect("a door");
+        let hinge = |side: f32| {
+            let on = |x: f32| Vec2::new(side * x * half, 0.0);
+            JointDef::revolute().anchors(on(1.0 + gap), on(1.0))
+        };
+        let mut second = hinge(1.0);
+        if member % 5 != 0 {
+            second = second.limits(random.range(-0.01, 0.03), 0.2);
+        }
+        if member % 2 == 0 {
+            let weight = 10.0 * unit * world.body(door).expect("a door").mass();
+            second = second.motor(random.range(-5.0, 5.0), 20.0 * weight * half);
+        }
+        world.add_joint(base, door, hinge(-1.0)).expect("a hinge");
+        world.add_joint(base, door, second).expect("a hinge");
+        let (mut fastest, mut late) = (0.0_f32, 0.0_f32);
+        for step in 0..4 * hertz {
+            world.step(1.0 / hertz as f32);
+            let door = world.body(door).expect("a door");
+            let speed = (door.velocity().length() / unit).max(door.angular_velocity().abs());
+            fastest = fastest.max(speed);
+            late = if step < 2 * hertz { 0.0 } else { late.max(speed) };
+        }
+        let gone = common::position(&world, door).length() / half;
+        let what = format!("{member}: {fastest} m/s, {late} late, {gone} of its half");
+        println!("{what}");
+        assert!(fastest < 1.0 && late < 0.01 && gone < 0.02, "{what}");
+    }
+}
+
+/// A triangle of bars of which one is pinned at both ends, up to 15 % too short or too long for that.
+#[test]
+fn a_triangle_with_a_bar_that_does_not_fit_rests() {
+    let mut random = Random::new(11);
+    for member in 0..64 {
+        let mut world = World::new(Vec2::new(0.0, -10.0));
+        let base = world.add_body(RigidBody::fixed()).expect("a base");
+        let (l, more) = (random.range(0.2, 2.5), random.range(-0.15, 0.15));
+        let density = [0.1, 1.0, 100.0][member % 3];
+        let corners = [Vec2::new(-l, 0.0), Vec2::new(l, 0.0), Vec2::new(0.0, 1.3 * l)];
+        let bars = [0, 1, 2].map(|i| {
+            let (from, to) = (corners[i], corners[(i + 1) % 3]);
+            let along = to - from;
+            let half = 0.5 * along.length() * if i == 0 { 1.0 + more } else { 1.0 };
+            let shape = ShapeDef::new(rect(half, 0.05)).density(density);
+            let filter = tiny_physics::Filter { mask: 0, ..Default::default() };
+            let bar = RigidBody::dynamic().position((from + to) * 0.5).shape(shape.filter(filter));
+            (world.add_body(bar.angle(along.y.atan2(along.x))).expect("a bar"), half)
+        });
+        let end = |half: f32| Vec2::new(half, 0.0);
+        for (i, corner) in corners.into_iter().enumerate() {
+            let ((a, ha), (b, hb)) = (bars[i], bars[(i + 1) % 3]);
+            let pin = JointDef::revolute().anchors(end(ha), end(-hb));
+            world.add_joint(a, b, pin).expect("a pin");
+            if i < 2 {
+                let half = bars[0].1 * (2.0 * i as f32 - 1.0);
+                let pin = JointDef::revolute().anchors(corner, end(half));
+                world.add_joint(base, bars[0].0, pin).expect("a pin");
+            }
+        }
+        let mut late = 0.0_f32;
+        for step in 0..480 {
+            world.step(DT);
+            for body in bars.map(|(bar, _)| world.body(bar).expect("a bar")) {
+                let speed = body.velocity().length().max(body.angular_velocity().abs());
+                late = if step < 240 { 0.0 } else { late.max(speed) };
+                assert!(speed < 5.0, "{member}: {speed} m/s in step {step}");
+            }
+        }
+        assert!(late < 0.01, "{member}: {late} m/s late");
+    }
+}

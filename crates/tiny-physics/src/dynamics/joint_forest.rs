@@ -3,7 +3,7 @@
 //! A *component* is what joints of rigid kinds tie together through dynamic bodies. Joints in the order of
 //! their indices span it with a tree; one that closes a loop is a *cut*: it is solved after the tree and through it. One that
 //! has more than rigid rows stays with the lanes. Joints to bodies that nothing moves are *anchors* and close no loop. A component is solved as a tree if it has few cuts
-//! and needs it: where it is long, or joins light bodies to heavy ones. Any other is left to the lanes whole, which
+//! and needs it: where it is long, joins light bodies to heavy ones, or hangs by more joints than it can obey. Any other is left to the lanes whole, which
 //! take a tenth of the time: a thousand ragdolls would make a step of theirs last twice as long.
 //!
 //! The forest follows from the records alone, so a frame need not hold it. It is brought up to date at the
@@ -31,6 +31,8 @@ const LEAST_ANCHORED_DEPTH: usize = 2;
 const LEAST_MASS_RATIO: f32 = 5.0;
 /// A component is a tree if at most one joint in this many is cut.
 const LINKS_PER_CUT: usize = 8;
+/// So is one that hangs from something fixed by more joints than it can obey, with no more cuts than this.
+const MOST_TIGHT_CUTS: usize = 2;
 
 /// A row of a joint's Jacobian.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -65,7 +67,8 @@ pub(crate) struct TreeNode {
     pub(crate) half_gain: Three,
     /// Inverse moment of inertia of its own.
     pub(crate) own_inv_inertia: f64,
-    /// Inverse mass, twice, and inverse moment of inertia: with geometric stiffness once the rows are there.
+    /// Inverse mass, twice, and inverse moment of inertia: with geometric stiffness once the rows are there. The last is kept here while that
+    /// of errors counts as well.
     pub(crate) inv: Three,
     /// Mass matrix as felt from the root's side, or its inverse.
     pub(crate) hat: [Three; 3],
@@ -474,7 +477,8 @@ fn plant(
         return None;
     }
     let cuts = inner_count + 1 - component.bodies.len();
-    if cuts * LINKS_PER_CUT > count {
+    let few = cuts * LINKS_PER_CUT <= count;
+    if !few && !(anchored && cuts <= MOST_TIGHT_CUTS) {
         return None;
     }
     let mut sets = DisjointSets::default();
@@ -512,7 +516,7 @@ fn plant(
     planter.tree.tight = planter.is_tight();
     let deep =
         planter.depth.last().is_some_and(|&depth| depth + usize::from(anchored) >= least_depth);
-    (uneven || deep).then_some(planter.tree)
+    (few && (uneven || deep) || anchored && planter.tree.tight).then_some(planter.tree)
 }
 
 /// A tree in the making.

@@ -160,7 +160,7 @@ fn describe_bucket<B: JointKernel>(
     }
 }
 
-/// Does a joint hold its body to what does not move, and nothing else does but another pin? Where more do they may contradict each other,
+/// Does a joint hold its body to what does not move, and nothing else does? Where more do they may contradict each other,
 /// and what is very stiff comes to pull so hard that arms which turn fling the body about.
 fn is_anchored(joints: &Joints, infos: &[BodyInfo], index: u32) -> bool {
     let moves = |body: u32| infos[body as usize].kind == BodyKind::Dynamic;
@@ -169,19 +169,11 @@ fn is_anchored(joints: &Joints, infos: &[BodyInfo], index: u32) -> bool {
     if moves(a) && moves(b) {
         return false;
     }
-    let (mut held, mut rows) = (0, 0);
-    for (joint, _) in joints.of_body(infos[body as usize].first_joint) {
-        let record = &joints.records[joint as usize];
-        let own = rows_of(&record.def);
-        if own > 0 && record.place != Place::Asleep && !moves(record.other(body)) {
-            (held, rows) = (held + 1, rows + own);
-        }
-        // Two pins have one row too many, and have to bear cantilevers.
-        if rows > if held > 2 { 3 } else { 4 } {
-            return false;
-        }
-    }
-    true
+    let all = joints.of_body(infos[body as usize].first_joint);
+    let all = all.map(|(joint, _)| &joints.records[joint as usize]);
+    let mut held = all.filter(|it| it.place != Place::Asleep && !moves(it.other(body)));
+    let more = |rows, it: &JointRecord| Some(rows + rows_of(&it.def)).filter(|&rows| rows <= 3);
+    held.try_fold(0, more).is_some()
 }
 
 /// Writes what follows from the poses (of the centres of mass) at the start of the step. The blocks have so many joints.

@@ -368,8 +368,8 @@ fn snap_share<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) -> f64 {
     if sum < most_turn && !tree.tight {
         return 1.0;
     }
-    factor::factor(simd, tree);
     if tree.tight {
+        rows::stiffen_errors(tree, rates.stride.h);
         for axis in &tree.axes {
             let link = &mut tree.links[axis.link as usize];
             if link.limit != 0.0 {
@@ -377,6 +377,7 @@ fn snap_share<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) -> f64 {
             }
         }
     }
+    factor::factor(simd, tree);
     factor::solve(simd, tree);
     if tree.tight {
         share_errors(tree, rates);
@@ -391,9 +392,11 @@ fn snap_share<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) -> f64 {
     1.0 / over
 }
 
-/// Leaves of the errors what the tree can make good. What rows that contradict each other want of their bodies remains in the compliance,
-/// and impulses for it would add up.
+/// Leaves of the errors what the tree can make good, and takes back what made bodies stiff for that. What rows that contradict each
+/// other want of their bodies remains in the compliance, and impulses for it would add up.
 fn share_errors(tree: &mut JointTree, rates: &Rates) {
+    tree.nodes.iter_mut().for_each(|node| node.inv[2] = core::mem::take(&mut node.inv[3]));
+    tree.factored = false;
     for link in &mut tree.links {
         for i in 0..link.rigid {
             link.error[i] += link.compliance[i] * link.change[i] / rates.rigid_bias(1.0);

@@ -19,6 +19,11 @@ use crate::threads::SharedRows;
 const COMPLIANCE: f64 = 3.0e-5;
 /// What a row gives that nothing answers, such as one against turning between what cannot turn: it has no share in its link.
 const UNANSWERED: f64 = 1.0e30;
+/// It counts as no less than this part of what an impulse across the arm would give: what is locked along an axis gives by
+/// its turning alone, and about a short arm that would be held as firmly as about a long one.
+const LOCKED: f64 = 0.01;
+/// And nothing about an arm whose square is no more than this, length units: that is rounding.
+const ROUNDING: f64 = 1.0e-10;
 
 impl Row<f64> {
     /// That of the angle.
@@ -194,17 +199,17 @@ pub(super) fn refresh<S: Simd>(
             }
         });
         let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
+        let rounding = ROUNDING * f64::from(substep.unit * substep.unit) * (a.inv[2] + b.inv[2]);
         for i in 0..link.rigid {
-            link.compliance[i] = COMPLIANCE.max(yields) * give(&link.row(i), a, b);
+            let along = [0, 1].map(|side: usize| link.reach[side][i] * link.reach[side][i]);
+            let least = LOCKED * (a.inv[2] * along[0] + b.inv[2] * along[1]);
+            let give = give(&link.row(i), a, b).max(least);
+            let give = if give > rounding { give } else { UNANSWERED };
+            link.compliance[i] = COMPLIANCE.max(yields) * give;
         }
-        stiffen(link, nodes);
+        stiffen(link, nodes, |i| link.impulses[i]);
     }
-    for node in nodes.iter_mut() {
-        let least = f64::from(substep.h) * node.g[2];
-        if node.inv[2] * least > 1.0 {
-            node.inv[2] = 1.0 / least;
-        }
-    }
+    heed(nodes, substep.h.into());
     for axis in axes {
         let link = &mut links[axis.link as usize];
         tie(simd, link, axis, &nodes[link.a as usize], &nodes[link.b as usize]);
@@ -264,11 +269,32 @@ pub(super) fn brake(tree: &mut JointTree) {
 ///
 /// Rods turn their force too, which makes beads on them stiff against moving. Counting it into their masses made
 /// things worse: masses that change with the tension pump energy into what moves.
-fn stiffen(link: &TreeLink, nodes: &mut [TreeNode]) {
-    for (i, impulse) in link.impulses[..link.rigid].iter().enumerate() {
-        nodes[link.a as usize].g[2] -= link.reach[0][i] * impulse;
-        nodes[link.b as usize].g[2] += link.reach[1][i] * impulse;
+fn stiffen(link: &TreeLink, nodes: &mut [TreeNode], impulse: impl Fn(usize) -> f64) {
+    for i in 0..link.rigid {
+        nodes[link.a as usize].g[2] -= link.reach[0][i] * impulse(i);
+        nodes[link.b as usize].g[2] += link.reach[1][i] * impulse(i);
     }
+}
+
+/// Gives nodes moments of inertia that are as stiff as `g` says.
+fn heed(nodes: &mut [TreeNode], h: f64) {
+    for node in nodes {
+        let least = h * node.g[2];
+        if node.inv[2] * least > 1.0 {
+            node.inv[2] = 1.0 / least;
+        }
+    }
+}
+
+/// Makes bodies as stiff against turning as the errors would pull at them were none made good: along a line that is stretched an error
+/// falls with the square of a turn, and by its slope alone the turn would be too wide.
+pub(super) fn stiffen_errors(JointTree { nodes, links, factored, .. }: &mut JointTree, h: f64) {
+    for node in nodes.iter_mut() {
+        (node.g, node.inv[3]) = ([0.0; 4], node.inv[2]);
+    }
+    links.iter().for_each(|link| stiffen(link, nodes, |i| link.rhs[i] / link.compliance[i]));
+    heed(nodes, h);
+    *factored = false;
 }
 
 /// Works out how the two bodies of a link answer an impulse along its free coordinate, as its rigid rows tie them.
