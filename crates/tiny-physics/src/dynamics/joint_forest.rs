@@ -478,7 +478,7 @@ fn plant(
     }
     let cuts = inner_count + 1 - component.bodies.len();
     let few = cuts * LINKS_PER_CUT <= count;
-    if !few && !(anchored && cuts <= MOST_TIGHT_CUTS) {
+    if !few && (!anchored || cuts > MOST_TIGHT_CUTS) {
         return None;
     }
     let mut sets = DisjointSets::default();
