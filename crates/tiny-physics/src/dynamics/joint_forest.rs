@@ -114,6 +114,8 @@ pub(crate) struct TreeLink {
     pub(crate) felt: [Three; 3],
     pub(crate) follow: TreeJacobian,
     pub(crate) rhs: Three,
+    /// Velocities that the rows' bodies lack on their circles.
+    pub(crate) curve: Three,
     pub(crate) change: Three,
 }
 

@@ -294,6 +294,14 @@ fn solve<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
     begin_limits(simd, tree, rates);
     let share = if rates.bias { snap_share(simd, tree, rates) } else { 0.0 };
     let rates = &Rates { push: share * rates.push, ..*rates };
+    if rates.bias {
+        // What is taken back between two solves leaves velocities that nothing has.
+        let JointTree { nodes, links, .. } = tree;
+        for link in links {
+            let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
+            link.curve = curve(simd, link, a, b, &rates.stride);
+        }
+    }
     for solves in 1..=MOST_SOLVES + 1 {
         factor::factor(simd, tree);
         demand(simd, tree, rates);
@@ -568,7 +576,7 @@ fn short_of<S: Simd>(simd: S, link: &TreeLink, nodes: &[TreeNode], rates: &Rates
     let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
     let mut rhs = [0.0; 4];
     if rates.bias {
-        rhs = curve(simd, link, a, b, &rates.stride);
+        rhs = link.curve;
         let rows = link.error.iter().zip(&link.compliance).zip(&link.impulses);
         for (rhs, ((error, compliance), impulse)) in rhs.iter_mut().zip(rows) {
             *rhs -= rates.rigid_bias(1.0) * error + compliance * impulse;
