@@ -108,6 +108,8 @@ pub(crate) struct TreeLink {
     pub(crate) value: f64,
     /// Limit that holds: 1 the lower, -1 the upper, 0 none. Its row, of that sign, comes after the rigid ones.
     pub(crate) limit: f64,
+    /// That row is the motor's, which pushes either way.
+    pub(crate) driven: bool,
     /// Inverse of the joint's block of the factorisation, right side, change of the impulses.
     pub(crate) inverse: [Three; 3],
     /// How the child answers impulses on each row; what the parent feels of each right side; how the child follows the parent.
@@ -115,6 +117,8 @@ pub(crate) struct TreeLink {
     pub(crate) felt: [Three; 3],
     pub(crate) follow: TreeJacobian,
     pub(crate) rhs: Three,
+    /// Velocities that the rows' bodies lack on their circles.
+    pub(crate) curve: Three,
     pub(crate) change: Three,
 }
 
@@ -144,8 +148,6 @@ pub(crate) struct TreeAxis {
     pub(crate) motor: Option<[f64; 3]>,
     /// Velocity per impulse of the two bodies, as the rigid rows tie them.
     pub(crate) tied: f64,
-    /// Of all that hangs on them, by the motor along the coordinate and by that which turns; 0 where it is not known yet.
-    pub(crate) whole: [f64; 2],
     /// The row that an impulse of one acts along with what the rigid rows then give, and how much they give.
     pub(crate) on: [Three; 2],
     pub(crate) given: Three,

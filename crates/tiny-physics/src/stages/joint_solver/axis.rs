@@ -154,7 +154,8 @@ impl AxisLanes {
         let Coordinate { value, mut velocity, inv_mass } = coordinate;
         let mass = stride.invert(inv_mass);
         let mut axis = self.load(stride);
-        let total = axis.drive::<BIAS>(value, &mut velocity, [mass, inv_mass], [mass, inv_mass]);
+        let spring = axis.pull::<BIAS>(value, &mut velocity, [mass, inv_mass]);
+        let total = spring + axis.drive(&mut velocity, [mass, inv_mass]);
         stride.store(axis.spring, &mut self.spring);
         stride.store(axis.motor, &mut self.motor);
         let ([old_lower, old_upper], [lower, upper]) = (axis.limits, axis.ends);
@@ -177,34 +178,38 @@ impl<L: Lanes> Axis<L> {
         self.spring + self.motor + self.limits[0] - self.limits[1]
     }
 
-    /// Spring and motor: what they change in the impulse and in the velocity. With the mass of the spring and its inverse, and those of the
-    /// motor.
-    ///
-    /// The motor sees the velocity that would be without the limits: against one that holds it gives no more than it
-    /// needs to be held, and the two do not wind each other up.
+    /// What the spring changes in its impulse and in the velocity. With the mass and its inverse.
     #[inline(always)]
-    pub(super) fn drive<const BIAS: bool>(
+    pub(super) fn pull<const BIAS: bool>(
         &mut self,
         value: L,
         velocity: &mut L,
         [mass, inv_mass]: [L; 2],
-        [driven, inv_driven]: [L; 2],
     ) -> L {
-        let spring = if BIAS {
+        let change = if BIAS {
             let demand = self.mass_scale * *velocity + self.push * (value - self.rest);
             -(mass * demand) - self.impulse_scale * self.spring
         } else {
             -(mass * (self.ease * *velocity))
         };
-        self.spring = self.spring + spring;
-        *velocity = *velocity + inv_mass * spring;
+        self.spring = self.spring + change;
+        *velocity = *velocity + inv_mass * change;
+        change
+    }
+
+    /// The same of the motor.
+    ///
+    /// It sees the velocity that would be without the limits: against one that holds it gives no more than it
+    /// needs to be held, and the two do not wind each other up.
+    #[inline(always)]
+    pub(super) fn drive(&mut self, velocity: &mut L, [mass, inv_mass]: [L; 2]) -> L {
         let held = self.limits[0] - self.limits[1];
         let motor = [self.motor_speed, self.motor_max, self.motor];
-        let motor = drive(motor, *velocity - inv_driven * held, driven);
+        let motor = drive(motor, *velocity - inv_mass * held, mass);
         let change = motor - self.motor;
         self.motor = motor;
         *velocity = *velocity + inv_mass * change;
-        spring + change
+        change
     }
 }
 

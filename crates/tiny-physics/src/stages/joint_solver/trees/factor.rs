@@ -231,25 +231,6 @@ pub(super) fn answer<S: Simd>(simd: S, tree: &mut JointTree, node: u32) {
     }
 }
 
-/// Velocity per impulse along a row on two nodes, with all that hangs on them.
-#[inline(always)]
-pub(super) fn response<S: Simd>(
-    simd: S,
-    tree: &mut JointTree,
-    ends: [u32; 2],
-    on: &[Three; 2],
-) -> f64 {
-    let moving = tree.dynamic;
-    tree.nodes[..moving].iter_mut().for_each(|node| (node.g, node.dv) = ([0.0; 4], [0.0; 4]));
-    tree.links.iter_mut().for_each(|link| link.rhs = [0.0; 4]);
-    let ends = || ends.into_iter().map(|end| end as usize).zip(on).filter(|&(end, _)| end < moving);
-    for (end, on) in ends() {
-        add_times(simd, &mut tree.nodes[end].g, on, 1.0);
-    }
-    gather_and_scatter(simd, tree);
-    ends().map(|(end, on)| dot3(on, &tree.nodes[end].dv)).sum()
-}
-
 /// Has the root an anchor?
 fn is_rooted(links: &[TreeLink]) -> bool {
     links.first().is_some_and(|link| link.parent == NULL)

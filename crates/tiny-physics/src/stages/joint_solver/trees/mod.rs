@@ -9,8 +9,8 @@
 //!   impulses p at arms r (S. Andrews, M. Teichmann, P. Kry, "Geometric Stiffness for Real-time Constrained
 //!   Multibody Dynamics", 2017): no link swings faster than the substeps come.
 //!
-//! Springs and motors act joint by joint before the tree is solved; limits join it one by one as they are found
-//! to hold, and leave it where they would pull.
+//! Springs act joint by joint before the tree is solved. Limits join it one by one as they are found to hold, and leave it where
+//! they would pull; so do motors, and leave it where they would push with more than they have.
 
 mod factor;
 mod rows;
@@ -20,7 +20,8 @@ mod tests;
 use super::parts::{SNAP, SNAP_SHARE, Stride, Substep, slow_turn};
 use super::{Pass, axis};
 use crate::dynamics::{
-    JointClass, JointColour, JointTree, Joints, Motion, TreeAxis, TreeLink, TreeNode, is_jointed,
+    Axis, JointClass, JointColour, JointTree, Joints, Motion, TreeAxis, TreeLink, TreeNode,
+    is_jointed,
 };
 use crate::simd::{
     FourKernel, Simd, SimdLevel, Three, add_times, dispatch_fours, take_product, times,
@@ -33,17 +34,13 @@ const PUSH: f64 = 1.0;
 /// The same where the tree touches something: contacts do not know of it. Of 42 ropes of 10 to 32 links dropped on
 /// a floor 2 never came to rest, at 0.5 it was 5, at 1 6.
 const TOUCHED_PUSH: f64 = 0.25;
-/// Most solves in a pass to find the limits that hold.
+/// Most solves in a pass to find the limits and motors that hold.
 const MOST_SOLVES: usize = 4;
 /// Overrun of a limit that is pushed back softly, length units or radians; what is beyond goes within a substep.
 /// At 0.003, which limbs in lanes have, chains at their limits run over them by 0.024 radians; the test allows 0.01.
 const SOFT_OVERRUN: f64 = 0.005;
 /// Velocity at a limit that does not matter, length units or radians a second.
 const LEAST_OVERRUN: f64 = 1.0e-5;
-/// A motor counts what hangs on its bodies as no heavier than these by more than the inverse.
-const LEAST_SHARE: f64 = 1.0e-9;
-/// An angular impulse, on A and on B.
-const ABOUT: [Three; 2] = [[0.0, 0.0, -1.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
 /// Trees that one member of the team works on at a time.
 const CHUNK: usize = 4;
 
@@ -238,88 +235,80 @@ fn turn(nodes: &mut [TreeNode], [a, b]: [u32; 2], impulse: f64) {
     nodes[b as usize].v[2] += ib * impulse;
 }
 
-/// Works out once a step how the tree answers its motor: one that reckoned with its two bodies alone would swing about its speed, as
-/// its impulse is carried on. Of several, or with springs, each would see what the others do to its bodies before the rest has felt it.
-#[inline(always)]
-fn weigh_motor<S: Simd>(simd: S, tree: &mut JointTree) {
-    let all = tree.axes.iter().enumerate();
-    let mut all =
-        all.flat_map(|(i, axis)| (0..3).filter(|&k| drives(axis)[k]).map(move |k| (i, k)));
-    let (Some((i, k @ 0..2)), None) = (all.next(), all.next()) else { return };
-    if tree.axes[i].whole[k] == 0.0 {
-        factor::factor(simd, tree);
-        let TreeAxis { link, on, .. } = tree.axes[i];
-        let TreeLink { a, b, .. } = tree.links[link as usize];
-        tree.axes[i].whole[k] = factor::response(simd, tree, [a, b], &[on, ABOUT][k]);
-    }
-}
-
-/// The inverse mass of a motor's two bodies, or of all that hangs on them where that is known and more.
-fn heavier(alone: f64, whole: f64) -> f64 {
-    if LEAST_SHARE * alone < whole && whole < alone { whole } else { alone }
-}
-
-/// Springs and motors, joint by joint.
+/// Springs, motors that only turn, and motors where a limit holds, joint by joint.
 #[inline(always)]
 fn drive<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
-    weigh_motor(simd, tree);
     let JointTree { nodes, links, axes, .. } = tree;
     for axis in axes {
         let link = &mut links[axis.link as usize];
         let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
         if let Some(motor) = &mut axis.motor {
-            let mass = rates.stride.invert(heavier(a.inv[2] + b.inv[2], axis.whole[1]));
+            let mass = rates.stride.invert(a.inv[2] + b.inv[2]);
             let impulse = axis::drive(*motor, b.v[2] - a.v[2], mass);
             let change = impulse - core::mem::replace(&mut motor[2], impulse);
             turn(nodes, [link.a, link.b], change);
         }
-        // A motor without force still lets go of what it has pushed with.
-        let drives = axis.axis.motor != 0.0 || axis.axis.spring != 0.0;
-        if drives || axis.axis.push != 0.0 || axis.axis.motor_max != 0.0 {
-            drive_axis(simd, link, axis, nodes, rates);
+        let (mut velocity, masses) =
+            (velocity(link, nodes), [rates.stride.invert(axis.tied), axis.tied]);
+        let mut change = 0.0;
+        if axis.axis.spring != 0.0 || axis.axis.push != 0.0 {
+            let (own, value) = (&mut axis.axis, link.value);
+            change += if rates.bias {
+                own.pull::<true>(value, &mut velocity, masses)
+            } else {
+                own.pull::<false>(value, &mut velocity, masses)
+            };
+        }
+        let idle = axis.axis.motor == 0.0 && axis.axis.motor_max == 0.0;
+        if link.limit != 0.0 && !link.driven && !idle {
+            change += axis.axis.drive(&mut velocity, masses);
+        }
+        if change != 0.0 {
+            push_along(simd, link, axis, nodes, change);
         }
     }
 }
 
-/// Along the free coordinate, with the mass of the two bodies as the joint's rigid rows tie them.
+/// An impulse along the free coordinate, with what the joint's rigid rows give with it.
 #[inline(always)]
-fn drive_axis<S: Simd>(
+fn push_along<S: Simd>(
     simd: S,
     link: &mut TreeLink,
-    axis: &mut TreeAxis,
+    axis: &TreeAxis,
     nodes: &mut [TreeNode],
-    Rates { stride, bias, .. }: &Rates,
+    change: f64,
 ) {
-    let mut velocity = velocity(link, nodes);
-    let driven = heavier(axis.tied, axis.whole[0]);
-    let masses = [axis.tied, driven].map(|inverse| [stride.invert(inverse), inverse]);
-    let change = if *bias {
-        axis.axis.drive::<true>(link.value, &mut velocity, masses[0], masses[1])
-    } else {
-        axis.axis.drive::<false>(link.value, &mut velocity, masses[0], masses[1])
-    };
     rows::push(simd, nodes, [link.a, link.b], &axis.on, change);
     for (impulse, given) in link.impulses[..link.rigid].iter_mut().zip(axis.given) {
         *impulse += given * change;
     }
 }
 
-/// Solves the rigid rows together with the limits that hold.
+/// Solves the rigid rows together with the limits and motors that hold.
 ///
 /// Which do is not known before: those that pushed before, and those that would be overrun, begin. A limit that
-/// would have to pull goes, one that is overrun comes, and the tree is solved again.
+/// would have to pull goes, one that is overrun comes, a motor that would need more than it has pushes with that; and the tree is
+/// solved again.
 #[inline(always)]
 fn solve<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
     begin_limits(simd, tree, rates);
     let share = if rates.bias { snap_share(simd, tree, rates) } else { 0.0 };
     let rates = &Rates { push: share * rates.push, ..*rates };
-    for _ in 0..MOST_SOLVES {
+    if rates.bias {
+        // What is taken back between two solves leaves velocities that nothing has.
+        let JointTree { nodes, links, .. } = tree;
+        for link in links {
+            let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
+            link.curve = curve(simd, link, a, b, &rates.stride);
+        }
+    }
+    for solves in 1..=MOST_SOLVES + 1 {
         factor::factor(simd, tree);
         demand(simd, tree, rates);
         factor::solve(simd, tree);
         apply(simd, tree);
         close(simd, tree, rates);
-        if !change_limits(simd, tree, rates) {
+        if !change_limits(simd, tree, rates, solves < MOST_SOLVES) {
             break;
         }
     }
@@ -372,7 +361,9 @@ fn snap_share<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) -> f64 {
         rows::stiffen_errors(tree, rates.stride.h);
         for axis in &tree.axes {
             let link = &mut tree.links[axis.link as usize];
-            if link.limit != 0.0 {
+            if link.driven {
+                link.rhs[link.rigid] = 0.0;
+            } else if link.limit != 0.0 {
                 link.rhs[link.rigid] = overrun(link, axis, 0.0, link.limit, rates);
             }
         }
@@ -443,7 +434,32 @@ fn release<S: Simd>(simd: S, link: &TreeLink, axis: &mut TreeAxis, nodes: &mut [
     rows::push(simd, nodes, [link.a, link.b], &link.coordinate.on, -impulse);
 }
 
-/// Begins with the limits that pushed or would be overrun.
+/// The impulse that a motor would need if nothing but its own bodies answered: what else hangs on them asks for more.
+fn needed(link: &TreeLink, axis: &TreeAxis, nodes: &[TreeNode], rates: &Rates) -> f64 {
+    let mass = rates.stride.invert(axis.tied);
+    let Axis { motor, motor_speed, .. } = axis.axis;
+    if mass > 0.0 { motor + mass * (motor_speed - velocity(link, nodes)) } else { 0.0 }
+}
+
+/// Gives a motor this impulse, or as much of it as it has. Is it less?
+#[inline(always)]
+fn bound<S: Simd>(
+    simd: S,
+    link: &mut TreeLink,
+    axis: &mut TreeAxis,
+    nodes: &mut [TreeNode],
+    impulse: f64,
+) -> bool {
+    let most = axis.axis.motor_max;
+    let bounded = impulse.clamp(-most, most);
+    let change = bounded - core::mem::replace(&mut axis.axis.motor, bounded);
+    if change != 0.0 {
+        push_along(simd, link, axis, nodes, change);
+    }
+    bounded != impulse
+}
+
+/// Begins with the limits that pushed or would be overrun, and the motors that have not given all they have.
 #[inline(always)]
 fn begin_limits<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
     let JointTree { nodes, links, axes, factored, .. } = tree;
@@ -457,21 +473,31 @@ fn begin_limits<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
         if side * axis.axis.limits[0] < 0.0 {
             release(simd, link, axis, nodes);
         }
-        if side != link.limit {
-            link.limit = side;
-            *factored = false;
+        let needed = needed(link, axis, nodes, rates);
+        let can = axis.tied > 0.0 && axis.axis.motor_max > 0.0;
+        let driven = side == 0.0 && can && needed.abs() <= axis.axis.motor_max;
+        if side == 0.0 && !driven {
+            bound(simd, link, axis, nodes, needed);
         }
+        let holds = if driven { 1.0 } else { side };
+        *factored &= holds == link.limit;
+        (link.limit, link.driven) = (holds, driven);
     }
 }
 
-/// Lets go of limits that pull, takes hold of those that are overrun. Has anything changed?
+/// Lets go of limits that pull and of motors that would give too much, takes hold of limits that are overrun and of motors that have
+/// given too much, if it may. Has anything changed?
 #[inline(always)]
-fn change_limits<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) -> bool {
+fn change_limits<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates, takes: bool) -> bool {
     let JointTree { nodes, links, axes, factored, .. } = tree;
     let mut changed = false;
     for axis in axes {
         let link = &mut links[axis.link as usize];
-        if link.limit != 0.0 {
+        if link.driven && bound(simd, link, axis, nodes, axis.axis.motor) {
+            (link.limit, link.driven) = (0.0, false);
+            changed = true;
+        }
+        if link.limit != 0.0 && !link.driven {
             if link.limit * axis.axis.limits[0] < 0.0 {
                 release(simd, link, axis, nodes);
                 link.limit = 0.0;
@@ -479,13 +505,28 @@ fn change_limits<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) -> bool 
             }
             continue;
         }
+        if !takes {
+            continue;
+        }
         let velocity = velocity(link, nodes);
         let unit = if link.class == JointClass::Revolute { 1.0 } else { rates.stride.unit };
+        let least = LEAST_OVERRUN * unit;
         for side in [1.0, -1.0] {
-            if overrun(link, axis, velocity, side, rates) > LEAST_OVERRUN * unit {
-                link.limit = side;
+            if overrun(link, axis, velocity, side, rates) > least {
+                (link.limit, link.driven) = (side, false);
                 changed = true;
             }
+        }
+        // It has pushed as hard as it can, and that was too much.
+        let Axis { motor, motor_max, motor_speed, .. } = axis.axis;
+        let beyond = (velocity - motor_speed) * motor.signum();
+        if link.limit == 0.0
+            && motor.abs() >= motor_max
+            && beyond > least
+            && needed(link, axis, nodes, rates).abs() < motor_max
+        {
+            (link.limit, link.driven) = (1.0, true);
+            changed = true;
         }
     }
     *factored &= !changed;
@@ -516,9 +557,15 @@ fn demand<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
     for axis in axes {
         let link = &mut links[axis.link as usize];
         if link.limit != 0.0 {
-            let mut wanted = overrun(link, axis, velocity(link, nodes), link.limit, rates);
+            let velocity = velocity(link, nodes);
+            let (mut wanted, impulse) = if link.driven {
+                (axis.axis.motor_speed - velocity, axis.axis.motor)
+            } else {
+                let wanted = overrun(link, axis, velocity, link.limit, rates);
+                (wanted, link.limit * axis.axis.limits[0])
+            };
             if rates.bias {
-                wanted -= link.coordinate.compliance * link.limit * axis.axis.limits[0];
+                wanted -= link.coordinate.compliance * impulse;
                 wanted -= link.error[link.rigid];
             }
             link.rhs[link.rigid] = wanted;
@@ -532,7 +579,7 @@ fn short_of<S: Simd>(simd: S, link: &TreeLink, nodes: &[TreeNode], rates: &Rates
     let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
     let mut rhs = [0.0; 4];
     if rates.bias {
-        rhs = curve(simd, link, a, b, &rates.stride);
+        rhs = link.curve;
         let rows = link.error.iter().zip(&link.compliance).zip(&link.impulses);
         for (rhs, ((error, compliance), impulse)) in rhs.iter_mut().zip(rows) {
             *rhs -= rates.rigid_bias(1.0) * error + compliance * impulse;
@@ -580,7 +627,8 @@ fn apply<S: Simd>(simd: S, tree: &mut JointTree) {
         let link = &mut links[axis.link as usize];
         if link.limit != 0.0 {
             let change = core::mem::take(&mut link.change[link.rigid]);
-            axis.axis.limits[0] += link.limit * change;
+            let of = if link.driven { &mut axis.axis.motor } else { &mut axis.axis.limits[0] };
+            *of += link.limit * change;
         }
     }
     for link in links {

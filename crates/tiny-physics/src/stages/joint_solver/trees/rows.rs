@@ -85,7 +85,7 @@ pub(super) fn prepare(tree: &mut JointTree, joints: &Joints) {
         let lanes = joints.records[link.joint as usize].lanes();
         debug_assert!(lanes.is_some(), "a joint of a tree has no lanes");
         link.slot = lanes.map_or(link.slot, |(.., slot)| slot);
-        link.limit = 0.0;
+        (link.limit, link.driven) = (0.0, false);
     }
 }
 
@@ -108,6 +108,13 @@ fn begin<B: JointKernel>(
     {
         let mut axis = lanes.load(stride);
         axis.limits = [axis.limits[0] - axis.limits[1], 0.0];
+        link.driven =
+            axis.limits[0] == 0.0 && axis.motor != 0.0 && axis.motor.abs() < axis.motor_max;
+        link.limit = if link.driven || axis.limits[0] > 0.0 {
+            1.0
+        } else {
+            -f64::from(u8::from(axis.limits[0] < 0.0))
+        };
         axes.push(TreeAxis { link: index as u32, axis, motor, ..TreeAxis::default() });
     }
 }
