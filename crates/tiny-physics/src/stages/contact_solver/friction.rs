@@ -8,6 +8,10 @@ use crate::simd::{BLOCK, Lanes};
 ///
 /// Two points are rubbed from the same velocity, each by its part of the load: one after the other the first would take what it
 /// can, and a scene would not go as its mirror image, whose points come in the other order.
+///
+/// `slips` are the speeds with which the points of a hit came, if it is one. The work of friction is its impulse times the
+/// mean of the slip before and after, so it may push the way that it came only as far as to turn it round: else what the
+/// normal impulse has turned round is braked, and has gained energy (Kane's paradox of Newton's restitution).
 #[inline(always)]
 pub(super) fn solve_friction<L: Lanes, const POINTS: usize>(
     stride: &Stride<'_, L>,
@@ -15,6 +19,7 @@ pub(super) fn solve_friction<L: Lanes, const POINTS: usize>(
     points: &mut [PointLanes; 2],
     friction: L,
     belt: Option<&[f32; BLOCK]>,
+    slips: Option<&[[f32; BLOCK]; 2]>,
 ) {
     let one = L::splat(stride.token, 1.0);
     let mut parts = [one; 2];
@@ -25,7 +30,7 @@ pub(super) fn solve_friction<L: Lanes, const POINTS: usize>(
         parts[1] = one - parts[0];
     }
     let was = *pair;
-    for (point, part) in points.iter_mut().zip(parts).take(POINTS) {
+    for (k, (point, part)) in points.iter_mut().zip(parts).take(POINTS).enumerate() {
         let (arm_a, arm_b) = (stride.load(&point.tangent_arm_a), stride.load(&point.tangent_arm_b));
         let old = stride.load(&point.tangent_impulse);
         let mut velocity = was.tangent_velocity(arm_a, arm_b);
@@ -33,8 +38,18 @@ pub(super) fn solve_friction<L: Lanes, const POINTS: usize>(
             velocity = velocity + stride.load(belt);
         }
         let limit = friction * stride.load(&point.load);
-        let change = stride.load(&point.tangent_mass) * (part * velocity);
-        let impulse = (old - change).clamp(-limit, limit);
+        let mass = stride.load(&point.tangent_mass);
+        let mut impulse = old - mass * (part * velocity);
+        if let Some(slips) = slips {
+            let zero = stride.constants.zero;
+            let mut slip = stride.load(&slips[k]);
+            if let Some(belt) = belt {
+                slip = slip + stride.load(belt);
+            }
+            let turned = mass * (part * slip);
+            impulse = impulse - turned.clamp(impulse.min(zero), impulse.max(zero));
+        }
+        let impulse = impulse.clamp(-limit, limit);
         stride.store(impulse, &mut point.tangent_impulse);
         pair.rub(impulse - old, arm_a, arm_b);
     }

@@ -47,6 +47,8 @@ pub(super) struct Hit {
     pub(super) at: At,
     /// Speeds at which its points are to leave; 0 for one that does not hit, as yet.
     pub(super) targets: [f32; 2],
+    /// Speeds along the tangent with which they came.
+    pub(super) slips: [f32; 2],
     /// Impulses that its points have had in bounces of the substep: along the normal, along the tangent.
     pub(super) given: [[f32; 2]; 2],
 }
@@ -213,10 +215,8 @@ impl Search<'_> {
         let restitution = bucket.surfaces[block].restitution[lane];
         let (body_a, body_b) = bucket.bodies(at.slot);
         let pair = pair_of(self.graph, self.rows, at);
-        let (mut targets, mut any) = ([0.0; 2], false);
-        for (point, target) in
-            constraint.points.iter().zip(&mut targets).take(at.class.max_points())
-        {
+        let (mut targets, mut slips, mut any) = ([0.0; 2], [0.0; 2], false);
+        for (k, point) in constraint.points.iter().enumerate().take(at.class.max_points()) {
             let arms = [point.normal_arm_a[lane], point.normal_arm_b[lane]];
             let velocity = pair.normal_velocity(arms[0], arms[1]);
             let comes = match self.first {
@@ -246,9 +246,11 @@ impl Search<'_> {
             let meet = approach * approach + fall;
             if velocity < -least && arrives && meet > 0.0 {
                 let speed = (restitution * restitution * meet - fall).max(0.0).sqrt() + late;
-                *target = speed * (1.0 - LOST);
+                targets[k] = speed * (1.0 - LOST);
+                slips[k] =
+                    pair.tangent_velocity(point.tangent_arm_a[lane], point.tangent_arm_b[lane]);
             }
         }
-        any.then_some(Hit { at, targets, given: [[0.0; 2]; 2] })
+        any.then_some(Hit { at, targets, slips, given: [[0.0; 2]; 2] })
     }
 }
