@@ -9,9 +9,11 @@ use crate::simd::{BLOCK, Lanes};
 /// Two points are rubbed from the same velocity, each by its part of the load: one after the other the first would take what it
 /// can, and a scene would not go as its mirror image, whose points come in the other order.
 ///
-/// `slips` are the speeds with which the points of a hit came, if it is one. The work of friction is its impulse times the
-/// mean of the slip before and after, so it may push the way that it came only as far as to turn it round: else what the
-/// normal impulse has turned round is braked, and has gained energy (Kane's paradox of Newton's restitution).
+/// `slips` are, for a hit, the speeds along the tangent with which its points came, times restitution e. Newton's rule that normal speeds
+/// go from u to -e u makes energy with friction where the normal impulse turns the slip round (Kane's paradox). It makes none where
+/// impulses P and speeds u before and v after are such that `P . (e u + v) <= 0`: with v = u + K P the work
+/// `P . (u + v) / 2` is then at most `-(1 - e) / (1 + e) P . K P / 2`. So along the tangent, too: friction
+/// may push on the way that a point came as far as its slip is turned to -e times what it was.
 #[inline(always)]
 pub(super) fn solve_friction<L: Lanes, const POINTS: usize>(
     stride: &Stride<'_, L>,
@@ -42,11 +44,7 @@ pub(super) fn solve_friction<L: Lanes, const POINTS: usize>(
         let mut impulse = old - mass * (part * velocity);
         if let Some(slips) = slips {
             let zero = stride.constants.zero;
-            let mut slip = stride.load(&slips[k]);
-            if let Some(belt) = belt {
-                slip = slip + stride.load(belt);
-            }
-            let turned = mass * (part * slip);
+            let turned = mass * (part * stride.load(&slips[k]));
             impulse = impulse - turned.clamp(impulse.min(zero), impulse.max(zero));
         }
         let impulse = impulse.clamp(-limit, limit);
