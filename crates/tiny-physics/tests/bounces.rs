@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{DT, Random, steps};
+use common::{DT, Random, capsule, circle, rect, steps};
 use tiny_physics::{BodyId, JointDef, RigidBody, Shape, ShapeDef, Vec2, World};
 
 fn elastic(shape: Shape) -> ShapeDef {
@@ -272,4 +272,53 @@ fn joined_elastic_crates_gain_no_energy() {
         }
     }
     assert!(hot.len() <= 1, "{hot:.3?}");
+}
+
+/// Two disks, boxes, triangles or capsules, or one of them and the ground, hit each other once.
+fn one_hit(random: &mut Random, with_ground: bool, friction: f32, restitution: f32) -> [f64; 2] {
+    let shape = |random: &mut Random| {
+        let (r, thin) = (random.range(0.2, 0.6), random.range(0.2, 1.0));
+        let shape = match random.below(4) {
+            0 => circle(r),
+            1 => rect(r, r * thin),
+            2 => capsule(r, 0.5 * r * thin),
+            _ => Shape::regular(3, r).expect("a triangle"),
+        };
+        ShapeDef::new(shape).friction(friction).restitution(restitution)
+    };
+    let hertz = [30.0, 60.0, 120.0, 240.0][random.below(4) as usize];
+    let mut world = World::new(Vec2::ZERO);
+    world.settings.substeps = 1 << random.below(4);
+    let ground = ShapeDef::new(rect(50.0, 1.0)).friction(friction).restitution(restitution);
+    let ground = RigidBody::fixed().position(Vec2::new(0.0, -1.0)).shape(ground);
+    let other = RigidBody::dynamic().angle(random.range(0.0, 6.3)).shape(shape(random));
+    world.add_body(if with_ground { ground } else { other }).expect("what is hit");
+    let velocity = Vec2::new(random.range(-2.0, 2.0), random.range(-8.0, -2.0));
+    let body = RigidBody::dynamic().position(Vec2::new(0.0, 1.6)).angle(random.range(0.0, 6.3));
+    let body = body.velocity(velocity).angular_velocity(random.range(-8.0, 8.0));
+    world.add_body(body.shape(shape(random))).expect("what hits");
+    let start = world.kinetic_energy();
+    let mut shares = [1.0; 2];
+    for _ in 0..hertz as usize {
+        world.step(1.0 / hertz);
+        shares[1] = world.kinetic_energy() / start;
+        shares[0] = shares[1].max(shares[0]);
+    }
+    shares
+}
+
+/// Friction in a hit takes energy or leaves it: where the normal impulse turned the slip round, it had braked that as well. Before,
+/// 30 of 800 such hits gained over a hundredth, the most a fifth. Without friction what is elastic loses nothing.
+#[test]
+fn hits_that_rub_gain_no_energy() {
+    let mut random = Random::new(5);
+    for member in 0..800 {
+        let (friction, restitution) = (random.range(0.05, 1.0), random.range(0.3, 1.3).min(1.0));
+        let [most, _] = one_hit(&mut random, member % 2 == 0, friction, restitution);
+        assert!(most < 1.002, "member {member}, e {restitution}, friction {friction}: {most}");
+    }
+    for member in 0..100 {
+        let [most, end] = one_hit(&mut random, member % 2 == 0, 0.0, 1.0);
+        assert!(most < 1.002 && end > 0.998, "member {member} without friction: {most}, {end}");
+    }
 }

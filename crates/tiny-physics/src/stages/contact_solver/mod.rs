@@ -311,7 +311,7 @@ fn relax<L: Lanes, const POINTS: usize>(
     let mut pair = Pair::load(stride, block);
     let friction = stride.load(&block.friction);
     let belt = if flags & flags::TANGENT_SPEED != 0 { Some(&surface.tangent_speed) } else { None };
-    solve_friction::<L, POINTS>(stride, &mut pair, &mut block.points, friction, belt);
+    solve_friction::<L, POINTS>(stride, &mut pair, &mut block.points, friction, belt, None);
     if flags & flags::ROLLING != 0 {
         solve_rolling::<L, POINTS>(stride, &mut pair, block, surface);
     }

@@ -49,11 +49,15 @@ const SPRINGY: f32 = 0.25;
 struct Aims {
     /// Speeds at which the points are to leave; 0 for one that does not hit. See [`search`].
     targets: [[f32; BLOCK]; 2],
+    slips: [[f32; BLOCK]; 2],
     tangent_speed: [f32; BLOCK],
 }
 
 impl Aims {
-    const NULL: Self = Self { targets: [[0.0; BLOCK]; 2], tangent_speed: [0.0; BLOCK] };
+    const NULL: Self = {
+        let none = [[0.0; BLOCK]; 2];
+        Self { targets: none, slips: none, tangent_speed: [0.0; BLOCK] }
+    };
 }
 
 /// Contacts that bounce and have no bodies in common: those of a colour, or one of an overflow.
@@ -292,7 +296,7 @@ impl Batch {
     /// Copies the contacts out of the graph, with the speeds at which their points are to leave.
     fn fill(&mut self, graph: &Graph) {
         let Self { blocks, aims, hits, .. } = self;
-        for (index, Hit { at: source, targets, given }) in hits.iter().enumerate() {
+        for (index, Hit { at: source, targets, slips, given }) in hits.iter().enumerate() {
             let (from, at) = (source.slot / BLOCK, source.slot % BLOCK);
             let lane = index % BLOCK;
             if lane == 0 {
@@ -307,8 +311,8 @@ impl Batch {
                 [point.normal_impulse[lane], point.tangent_impulse[lane]] = *given;
             }
             aims.tangent_speed[lane] = bucket.surfaces[from].tangent_speed[at];
-            for (lanes, target) in aims.targets.iter_mut().zip(targets) {
-                lanes[lane] = *target;
+            for k in 0..2 {
+                (aims.targets[k][lane], aims.slips[k][lane]) = (targets[k], slips[k]);
             }
         }
     }
@@ -410,7 +414,7 @@ fn leave<L: Lanes>(stride: &Stride<'_, L>, block: &mut ConstraintBlock, aims: &A
     for (point, impulse) in block.points.iter_mut().zip(impulses) {
         stride.store(impulse, &mut point.load);
     }
-    let belt = Some(&aims.tangent_speed);
-    solve_friction::<L, 2>(stride, &mut pair, &mut block.points, friction, belt);
+    let (belt, slips) = (Some(&aims.tangent_speed), Some(&aims.slips));
+    solve_friction::<L, 2>(stride, &mut pair, &mut block.points, friction, belt, slips);
     pair.store(stride, block);
 }

@@ -47,6 +47,8 @@ pub(super) struct Hit {
     pub(super) at: At,
     /// Speeds at which its points are to leave; 0 for one that does not hit, as yet.
     pub(super) targets: [f32; 2],
+    /// Speeds along the tangent with which they came, times restitution.
+    pub(super) slips: [f32; 2],
     /// Impulses that its points have had in bounces of the substep: along the normal, along the tangent.
     pub(super) given: [[f32; 2]; 2],
 }
@@ -210,13 +212,12 @@ impl Search<'_> {
         let (block, lane) = (at.slot / BLOCK, at.slot % BLOCK);
         let bucket = self.graph.bucket(at.place, at.class);
         let constraint = &bucket.constraints[block];
-        let restitution = bucket.surfaces[block].restitution[lane];
+        let surface = &bucket.surfaces[block];
+        let (restitution, belt) = (surface.restitution[lane], surface.tangent_speed[lane]);
         let (body_a, body_b) = bucket.bodies(at.slot);
         let pair = pair_of(self.graph, self.rows, at);
-        let (mut targets, mut any) = ([0.0; 2], false);
-        for (point, target) in
-            constraint.points.iter().zip(&mut targets).take(at.class.max_points())
-        {
+        let (mut targets, mut slips, mut any) = ([0.0; 2], [0.0; 2], false);
+        for (k, point) in constraint.points.iter().enumerate().take(at.class.max_points()) {
             let arms = [point.normal_arm_a[lane], point.normal_arm_b[lane]];
             let velocity = pair.normal_velocity(arms[0], arms[1]);
             let comes = match self.first {
@@ -246,9 +247,11 @@ impl Search<'_> {
             let meet = approach * approach + fall;
             if velocity < -least && arrives && meet > 0.0 {
                 let speed = (restitution * restitution * meet - fall).max(0.0).sqrt() + late;
-                *target = speed * (1.0 - LOST);
+                targets[k] = speed * (1.0 - LOST);
+                let arms = [point.tangent_arm_a[lane], point.tangent_arm_b[lane]];
+                slips[k] = restitution * (pair.tangent_velocity(arms[0], arms[1]) + belt);
             }
         }
-        any.then_some(Hit { at, targets, given: [[0.0; 2]; 2] })
+        any.then_some(Hit { at, targets, slips, given: [[0.0; 2]; 2] })
     }
 }
