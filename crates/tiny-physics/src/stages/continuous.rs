@@ -313,14 +313,19 @@ impl Search<'_> {
         // All geometry is relative to where the centre of mass was: 32 bits are enough.
         let sweep = self.fast.seen_from(self.fast.start);
         let whole = Course { sweep, from: 0.0 };
-        let stop = self.first(&whole, ProxyKind::Static, Meeting::none(1.0));
-        let ride = self.first(&whole, ProxyKind::Kinematic, stop);
+        let mut stop = self.first(&whole, ProxyKind::Static, Meeting::none(1.0));
+        let mut ride = self.first(&whole, ProxyKind::Kinematic, stop);
         if ride.fraction == 1.0 {
             return *self.fast;
         }
-        if ride.deeper != Vec2::ZERO && slides > 0 {
-            let fast = &self.slid(ride);
-            return Search { fast, ..*self }.outcome(slides - 1);
+        if ride.deeper != Vec2::ZERO {
+            if slides > 0 {
+                let fast = &self.slid(ride);
+                return Search { fast, ..*self }.outcome(slides - 1);
+            }
+            // No way is left, and no speed.
+            let all = self.scene.bodies.velocity(self.fast.body) - self.fast.lost;
+            (stop.lost, ride.lost) = (all, all);
         }
         let place = sweep.at(ride.fraction);
         if ride.fraction < stop.fraction {
