@@ -78,7 +78,7 @@ pub(crate) fn run(
     scene.add_what_is_hit(fast);
     team.for_each_chunk_mut(fast, CHUNK, |_, fast| {
         for fast in fast {
-            *fast = Search { fast, scene }.outcome(SLIDES);
+            *fast = Search { fast, scene, slides: SLIDES }.outcome();
         }
     });
     hold_together(fast, bodies, rules.joints);
@@ -293,6 +293,8 @@ impl Meeting {
 struct Search<'a> {
     fast: &'a FastBody,
     scene: Scene<'a>,
+    /// So many times more it may slide.
+    slides: u32,
 }
 
 /// A motion that starts at a fraction of the step; that of the body, or a part of it.
@@ -305,7 +307,7 @@ struct Course {
 impl Search<'_> {
     /// What becomes of the body. What would take its middle on into something that this is in is left out, and the rest looked at anew,
     /// so many times: set back to its start again and again it would hang there while its speed grows.
-    fn outcome(&self, slides: u32) -> FastBody {
+    fn outcome(&self) -> FastBody {
         let info = &self.scene.bodies.infos[self.fast.body as usize];
         if self.scene.bounds.iter().all(|bounds| self.fast.misses(info, bounds)) {
             return *self.fast;
@@ -319,9 +321,9 @@ impl Search<'_> {
             return *self.fast;
         }
         if ride.deeper != Vec2::ZERO {
-            if slides > 0 {
-                let fast = &self.slid(ride);
-                return Search { fast, ..*self }.outcome(slides - 1);
+            if self.slides > 0 {
+                let (fast, slides) = (&self.slid(ride), self.slides - 1);
+                return Search { fast, slides, ..*self }.outcome();
             }
             // No way is left, and no speed.
             let all = self.scene.bodies.velocity(self.fast.body) - self.fast.lost;
@@ -511,11 +513,12 @@ impl Search<'_> {
             && manifold.points().iter().all(|point| point.separation > -most)
     }
 
-    /// Does the body move so little, seen from something that does not turn, that its contact is all that is needed?
+    /// Does the body move so little, seen from something that does not turn, that its contact is all that is needed? Not where it is in
+    /// something deeply.
     fn cannot_jump(&self, relative: Vec2) -> bool {
         let info = &self.scene.bodies.infos[self.fast.body as usize];
         let reach = relative.length() + info.turned_reach(self.fast.turn);
-        reach <= finalize::SAFE_FRACTION * info.min_extent
+        self.slides == SLIDES && reach <= finalize::SAFE_FRACTION * info.min_extent
     }
 
     /// The part of the body's velocity that drives its middle, which goes by `way` relative to the other, along a
