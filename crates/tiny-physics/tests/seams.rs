@@ -694,3 +694,34 @@ fn planks_lean_on_the_peaks_of_chains() {
         }
     }
 }
+
+/// At rest on the floor as the step begins, over another piece as it ends: neither bore it, and it fell freely for the step.
+#[test]
+fn what_rolls_over_a_seam_in_its_first_step_does_not_sink() {
+    for member in 0..960 {
+        let (is_line, speed) = (member % 2 == 0, (member / 2 % 60) as f32 * 0.1);
+        let (seam, length) =
+            ([0.01, 0.03, 0.0429, 0.06][member / 120 % 4], [0.2, 1.0][member / 480]);
+        let mut ground = RigidBody::fixed();
+        for (from, to) in [(seam - length, seam), (seam, seam + length)] {
+            let [a, b] = [from, to].map(|x| Vec2::new(x, 0.0));
+            let down = Vec2::new(0.0, -0.3);
+            let shape = if is_line {
+                Shape::segment(b, a)
+            } else {
+                Shape::hull(&[a + down, b + down, b, a])
+            };
+            ground = ground.shape(shape.unwrap());
+        }
+        let mut world = World::new(Vec2::new(0.0, -9.8));
+        world.settings.substeps = 2;
+        world.add_body(ground).unwrap();
+        let radius = 0.076;
+        let ball = RigidBody::dynamic().position(Vec2::new(0.0, radius));
+        let ball = ball.velocity(Vec2::new(speed, 0.0)).angular_velocity(-speed / radius);
+        let ball = world.add_body(ball.shape(Shape::circle(radius).unwrap())).unwrap();
+        world.step(1.0 / 60.0);
+        let depth = radius - world.body(ball).unwrap().position().y;
+        assert!(depth < 8.0e-4, "{depth} m deep: lines {is_line}, {speed} m/s, seam at {seam}");
+    }
+}

@@ -55,6 +55,8 @@ const SAME_SIDE: f32 = 0.5;
 /// A middle that is inside something may go on by this much in a step: it is being pushed out. Metres; multiplied by the
 /// length unit.
 const CREEP: f32 = 0.1 * LINEAR_SLOP;
+/// A body slides along so many things in a step that its middles are in: in the plane two leave no way.
+const SLIDES: u32 = 3;
 
 /// Sweeps the fast bodies, and those that fast kinematic bodies (`carriers`, ascending) may have gone through.
 /// `moved` is memory.
@@ -76,7 +78,7 @@ pub(crate) fn run(
     scene.add_what_is_hit(fast);
     team.for_each_chunk_mut(fast, CHUNK, |_, fast| {
         for fast in fast {
-            *fast = Search { fast, scene }.outcome();
+            *fast = Search { fast, scene, slides: SLIDES }.outcome();
         }
     });
     hold_together(fast, bodies, rules.joints);
@@ -270,18 +272,20 @@ impl Scene<'_> {
     }
 }
 
-/// An impact: when, with which body, and the velocity that it takes.
+/// An impact: when, with which body, and the velocity that it takes; where a middle is in something from the start, what of the
+/// body's way takes it further in.
 #[derive(Clone, Copy)]
 struct Meeting {
     fraction: f32,
     body: u32,
     lost: Vec2,
+    deeper: Vec2,
 }
 
 impl Meeting {
     /// With nothing up to a fraction.
     fn none(fraction: f32) -> Self {
-        Self { fraction, body: 0, lost: Vec2::ZERO }
+        Self { fraction, body: 0, lost: Vec2::ZERO, deeper: Vec2::ZERO }
     }
 }
 
@@ -289,6 +293,8 @@ impl Meeting {
 struct Search<'a> {
     fast: &'a FastBody,
     scene: Scene<'a>,
+    /// So many times more it may slide.
+    slides: u32,
 }
 
 /// A motion that starts at a fraction of the step; that of the body, or a part of it.
@@ -299,7 +305,8 @@ struct Course {
 }
 
 impl Search<'_> {
-    /// What becomes of the body.
+    /// What becomes of the body. What would take its middle on into something that this is in is left out, and the rest looked at anew,
+    /// so many times: set back to its start again and again it would hang there while its speed grows.
     fn outcome(&self) -> FastBody {
         let info = &self.scene.bodies.infos[self.fast.body as usize];
         if self.scene.bounds.iter().all(|bounds| self.fast.misses(info, bounds)) {
@@ -308,10 +315,19 @@ impl Search<'_> {
         // All geometry is relative to where the centre of mass was: 32 bits are enough.
         let sweep = self.fast.seen_from(self.fast.start);
         let whole = Course { sweep, from: 0.0 };
-        let stop = self.first(&whole, ProxyKind::Static, Meeting::none(1.0));
-        let ride = self.first(&whole, ProxyKind::Kinematic, stop);
+        let mut stop = self.first(&whole, ProxyKind::Static, Meeting::none(1.0));
+        let mut ride = self.first(&whole, ProxyKind::Kinematic, stop);
         if ride.fraction == 1.0 {
             return *self.fast;
+        }
+        if ride.deeper != Vec2::ZERO {
+            if self.slides > 0 {
+                let (fast, slides) = (&self.slid(ride), self.slides - 1);
+                return Search { fast, slides, ..*self }.outcome();
+            }
+            // No way is left, and no speed.
+            let all = self.scene.bodies.velocity(self.fast.body) - self.fast.lost;
+            (stop.lost, ride.lost) = (all, all);
         }
         let place = sweep.at(ride.fraction);
         if ride.fraction < stop.fraction {
@@ -330,11 +346,19 @@ impl Search<'_> {
         self.ended(place, stop)
     }
 
+    /// The body without what of its way takes it deeper.
+    fn slid(&self, Meeting { lost, deeper, .. }: Meeting) -> FastBody {
+        let FastBody { start, end, .. } = *self.fast;
+        let motion = self.fast.motion - deeper;
+        let (end, lost) = (Pose::new(start.p + motion, end.q), self.fast.lost + lost);
+        FastBody { end, motion, lost, ..*self.fast }
+    }
+
     /// The body at a place where it was stopped or taken.
     fn ended(&self, place: Transform, meeting: Meeting) -> FastBody {
         let FastBody { start, turn, .. } = *self.fast;
         let end = Pose::new(start.p + place.p, place.q.normalized());
-        let Meeting { fraction, lost, .. } = meeting;
+        let (fraction, lost) = (meeting.fraction, self.fast.lost + meeting.lost);
         FastBody { end, motion: place.p, turn: turn * fraction, lost, fraction, ..*self.fast }
     }
 
@@ -369,7 +393,8 @@ impl Search<'_> {
                 first = meeting;
             }
         });
-        let any_does = kind == ProxyKind::Static && first.lost == Vec2::ZERO;
+        let any_does =
+            kind == ProxyKind::Static && first.lost == Vec2::ZERO && first.deeper == Vec2::ZERO;
         if any_does || first.fraction == limit.fraction {
             return first;
         }
@@ -454,7 +479,7 @@ impl Search<'_> {
             && !self.is_ghost(shape, index, there(toi.fraction))
             && (course.from != 0.0 || !held())
         {
-            return Some(Meeting { fraction: toi.fraction, body: other.body, lost: Vec2::ZERO });
+            return Some(Meeting { body: other.body, ..Meeting::none(toi.fraction) });
         }
         // What it touches it may be passing through from behind.
         if !solid_along(relative.normalized()) {
@@ -465,8 +490,10 @@ impl Search<'_> {
         if !solid_along(normal) {
             return None;
         }
-        let lost = self.driving_velocity(inner.relative_way(&motion), normal);
-        Some(Meeting { fraction, body: other.body, lost })
+        let way = inner.relative_way(&motion);
+        let lost = self.driving_velocity(way, normal);
+        let deeper = if fraction > 0.0 { Vec2::ZERO } else { normal * normal.dot(way) };
+        Some(Meeting { fraction, body: other.body, lost, deeper })
     }
 
     /// Has a contact held a shape of a joined body at what it hit? To set that body back would open its joints by what the others
@@ -486,17 +513,18 @@ impl Search<'_> {
             && manifold.points().iter().all(|point| point.separation > -most)
     }
 
-    /// Does the body move so little, seen from something that does not turn, that its contact is all that is needed?
+    /// Does the body move so little, seen from something that does not turn, that its contact is all that is needed? Not where it is in
+    /// something deeply.
     fn cannot_jump(&self, relative: Vec2) -> bool {
         let info = &self.scene.bodies.infos[self.fast.body as usize];
         let reach = relative.length() + info.turned_reach(self.fast.turn);
-        reach <= finalize::SAFE_FRACTION * info.min_extent
+        self.slides == SLIDES && reach <= finalize::SAFE_FRACTION * info.min_extent
     }
 
     /// The part of the body's velocity that drives its middle, which goes by `way` relative to the other, along a
     /// normal into that.
     fn driving_velocity(&self, way: Vec2, normal: Vec2) -> Vec2 {
-        let velocity = self.scene.bodies.velocity(self.fast.body);
+        let velocity = self.scene.bodies.velocity(self.fast.body) - self.fast.lost;
         let other = (self.fast.motion - way) * (1.0 / self.scene.rules.dt);
         let speed = normal.dot(velocity - other);
         if speed > 0.0 { normal * speed } else { Vec2::ZERO }
@@ -514,8 +542,7 @@ impl Search<'_> {
         let gap = distance(&hit.shape, &record.shape, place);
         let point = hit.box_frame.unapply(gap.point_a);
         let normal = hit.box_frame.q.unrotate(gap.normal);
-        let place = place.compose(record.box_frame).relative_to(hit.box_frame);
-        Seams::new(ground, other, shape, place).is_ghost([Some(point), None], normal)
+        Seams::of(ground, other, shape, place).is_ghost([Some(point), None], normal)
     }
 
     fn may_collide(&self, (shape, record): (u32, &ShapeRecord), index: u32) -> bool {

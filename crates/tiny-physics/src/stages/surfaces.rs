@@ -157,6 +157,13 @@ pub(crate) struct Seams<'a> {
 }
 
 impl<'a> Seams<'a> {
+    /// The same from the place of the other shape in the frame of its own.
+    pub(crate) fn of(ground: Ground<'a>, own: u32, other: u32, place: Transform) -> Self {
+        let [own_frame, frame] =
+            [own, other].map(|shape| ground.shapes.records[shape as usize].box_frame);
+        Self::new(ground, own, other, place.compose(frame).relative_to(own_frame))
+    }
+
     /// `place` is that of the other shape's rounded box in the frame of its own.
     pub(crate) fn new(ground: Ground<'a>, own: u32, other: u32, place: Transform) -> Self {
         let record = &ground.shapes.records[own as usize];
@@ -246,6 +253,24 @@ impl<'a> Seams<'a> {
             }
         });
         count > 0 && covered[..count].iter().all(|covered| *covered)
+    }
+
+    /// Do others go on from the end of a face, as high as that or higher? Looked at is no further beyond it than need be.
+    pub(crate) fn goes_on_level(&self, end: Vec2, beyond: Vec2) -> bool {
+        if self.guard == 0 {
+            return false;
+        }
+        let (unit, frame) = (self.ground.length_unit, self.record.box_frame);
+        let most = REACH * unit / beyond.length();
+        let further = end + beyond * if most < 1.0 { most } else { 1.0 };
+        let probes = [end, further].map(|point| frame.unapply(point));
+        let mut covered = [false; 2];
+        self.each_neighbour(&probes, |neighbour| {
+            for (probe, covered) in probes.iter().zip(&mut covered) {
+                *covered |= point_gap(neighbour, *probe) <= TOLERANCE * unit;
+            }
+        });
+        covered == [true; 2]
     }
 
     /// Does another static shape go on from a corner in the direction of the normal?

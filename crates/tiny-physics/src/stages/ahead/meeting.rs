@@ -9,6 +9,7 @@ use crate::math::{Rot, Transform, Vec2};
 use crate::simd::Row;
 use crate::stages::narrow_context::{Context, Ground};
 use crate::stages::one_way;
+use crate::stages::surfaces::Seams;
 
 /// What rounding makes of places, as a part of how large and far away things are.
 const ROUNDING: f32 = 1.0e-6;
@@ -38,8 +39,8 @@ pub(crate) fn go_by(context: &Context<'_>, both: [u32; 2], normal: Vec2) -> bool
     let meeting = Meeting::of((bodies, shapes), both, courses, context.dt);
     let ([a, b], [way_a, way_b]) = (meeting.shapes, meeting.sweeps());
     !meeting.shapes.iter().any(|shape| shape.one_way.is_some())
-        && !meeting.ends_on_face(0, normal)
-        && !meeting.ends_on_face(1, -normal)
+        && !meeting.ends_on_face(context.ground, both, 0, normal)
+        && !meeting.ends_on_face(context.ground, both, 1, -normal)
         && pass_by([&a.shape, &b.shape], [&way_a, &way_b], (0.0, 1.0), LINEAR_SLOP * length_unit)
 }
 
@@ -108,21 +109,27 @@ impl<'a> Meeting<'a> {
         [sweep(0, Vec2::ZERO, Vec2::ZERO), sweep(1, self.begin(), self.way())]
     }
 
-    /// Is this the normal of a face of one shape, past whose ends the other's nearest corner cannot come?
-    fn ends_on_face(&self, k: usize, out: Vec2) -> bool {
-        let (frames, way) = (self.frames(), self.longest_way());
-        let ([own, other], [frame, place]) = if k == 0 {
-            (self.shapes, frames)
-        } else {
-            ([self.shapes[1], self.shapes[0]], [frames[1], frames[0]])
-        };
-        let (core, corners) = (own.shape.core(), other.shape.core());
+    /// Is this the normal of a face of one shape (`k`), past whose ends the other's nearest corner cannot come, or only where others
+    /// go on from there?
+    fn ends_on_face(&self, ground: Ground<'_>, both: [u32; 2], k: usize, out: Vec2) -> bool {
+        let frames = self.frames();
+        let (frame, place) = (frames[k], frames[1 - k]);
+        let [core, corners] = [k, 1 - k].map(|k| self.shapes[k].shape.core());
         let normal = frame.q.unrotate(out);
         manifold::face_of(&core, normal).is_some_and(|face| {
             let corner = corners.points[corners.support(place.q.unrotate(-out))];
             let (along, (start, end)) = (normal.perp(), core.edge(face));
             let at = along.dot(frame.unapply(place.apply(corner)) - start);
-            way < at && at + way < along.dot(end - start)
+            let way = frame.q.rotate(along).dot(self.way()) * if k == 0 { 1.0 } else { -1.0 };
+            // The corner of what is round does not go on as that turns.
+            let turned = self.turned_way_of([0, 1].map(|k| self.extents[k] - self.rows[k][6]));
+            let (least, most) = (at + way.min(0.0) - turned, at + way.max(0.0) + turned);
+            let length = along.dot(end - start);
+            let goes_on = |from: Vec2, beyond: f32| {
+                Seams::of(ground, both[k], both[1 - k], place.relative_to(frame))
+                    .goes_on_level(from, along * beyond)
+            };
+            (least > 0.0 || goes_on(start, least)) && (most < length || goes_on(end, most - length))
         })
     }
 
@@ -180,7 +187,11 @@ impl<'a> Meeting<'a> {
 
     /// How far turning takes a point at most, metres.
     fn turned_way(&self) -> f32 {
-        self.legs[0].turn.abs() * self.extents[0] + self.legs[1].turn.abs() * self.extents[1]
+        self.turned_way_of(self.extents)
+    }
+
+    fn turned_way_of(&self, reach: [f32; 2]) -> f32 {
+        self.legs[0].turn.abs() * reach[0] + self.legs[1].turn.abs() * reach[1]
     }
 
     /// Do the disks around the shapes meet on their ways?
