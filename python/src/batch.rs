@@ -1,14 +1,14 @@
 //! Batches of worlds.
 
-use crate::convert::{Pair, batch_error, locked};
+use crate::convert::{self, Pair, batch_error, locked};
 use crate::handles::Body;
 use crate::handles::Joint;
 use crate::handles::World;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple};
-use tiny_physics::{BodyId, DVec2, JointId, QueryFilter, RayCast, Vec2};
+use tiny_physics::{BodyId, JointId, QueryFilter, Vec2};
 use tiny_physics_batch::{Actuator, Reading, Sight, WorldBatch as Inner};
 
 /// Many copies of worlds, stepped at once on all cores.
@@ -161,7 +161,8 @@ impl WorldBatch {
     /// Does the actions in every step and moves all worlds on by `dt` seconds, `steps` times; gives `observations`.
     /// Other Python threads run meanwhile.
     ///
-    /// actions: float32, shape (worlds, actuators); may be left out where nothing is to be done.
+    /// actions: float32, shape (worlds, actuators), or (worlds * actuators,), world after world; what NumPy makes floats of is
+    /// rounded to that. May be left out where nothing is to be done.
     ///
     /// Raises ValueError where the shape is another, a number is not finite, or `dt` is not above 0; nothing has changed
     /// then. Raises it, too, where a body does not take a number, and says in which world; the others have had their actions then.
@@ -169,14 +170,16 @@ impl WorldBatch {
     fn step<'py>(
         &mut self,
         py: Python<'py>,
-        actions: Option<PyReadonlyArray2<'py, f32>>,
+        actions: Option<&Bound<'py, PyAny>>,
         dt: f32,
         steps: u32,
     ) -> PyResult<Bound<'py, PyArray2<f32>>> {
         if !(dt.is_finite() && dt > 0.0) {
             return Err(PyValueError::new_err(format!("dt is {dt}; allowed is above 0")));
         }
-        let actions = actions.map(|actions| self.copied(&actions)).transpose()?;
+        let (worlds, each) = (self.inner.len(), self.actuators.len());
+        let actions =
+            actions.map(|actions| convert::actions(actions, worlds, each)).transpose()?;
         let Self { inner, actuators, .. } = self;
         py.detach(|| {
             for _ in 0..steps {
@@ -231,24 +234,17 @@ impl WorldBatch {
     fn ray_casts<'py>(
         &mut self,
         py: Python<'py>,
-        rays: PyReadonlyArray2<'py, f64>,
+        rays: &Bound<'py, PyAny>,
         mask: u64,
     ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let (count, rays) = (self.inner.len(), rays.as_array());
-        if rays.shape()[1] != 4 {
-            return Err(PyValueError::new_err("rays must have the shape (n, 4)"));
-        }
-        let ray = |i: usize| {
-            let r = rays.row(i % rays.shape()[0]);
-            RayCast::new(DVec2::new(r[0], r[1]), Vec2::new(r[2] as f32, r[3] as f32))
-        };
-        let all: Vec<RayCast> = (0..count * rays.shape()[0]).map(ray).collect();
+        let (count, rays) = (self.inner.len(), convert::rays(rays)?);
+        let all = rays.repeat(count);
         let (inner, mut hits) = (&mut self.inner, Vec::new());
         py.detach(|| inner.ray_casts(&all, &QueryFilter::new().mask(mask), &mut hits))
             .map_err(batch_error)?;
         let fractions: Vec<f32> =
             hits.into_iter().map(|hit| hit.map_or(1.0, |hit| hit.fraction)).collect();
-        fractions.into_pyarray(py).reshape([count, rays.shape()[0]])
+        fractions.into_pyarray(py).reshape([count, rays.len()])
     }
 
     /// The state hash of each world, uint64, shape (worlds,).
@@ -337,20 +333,6 @@ impl WorldBatch {
             return Err(PyValueError::new_err(words));
         }
         Ok((0..worlds).filter(|&i| mask[i]).collect())
-    }
-
-    /// The actions, world after world, however the array lies in memory. A copy: it may be the array that is written
-    /// afterwards.
-    fn copied(&self, actions: &PyReadonlyArray2<'_, f32>) -> PyResult<Vec<f32>> {
-        let (actions, needed) = (actions.as_array(), [self.inner.len(), self.actuators.len()]);
-        let shape = actions.shape();
-        if shape == needed {
-            return Ok(actions.iter().copied().collect());
-        }
-        let ([rows, columns], [worlds, each]) = ([shape[0], shape[1]], needed);
-        let reason =
-            format!("actions has the shape ({rows}, {columns}); needed is ({worlds}, {each})");
-        Err(PyValueError::new_err(reason))
     }
 
     /// Reads all worlds into the array that Python sees.

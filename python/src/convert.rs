@@ -1,14 +1,14 @@
 //! Between Python's values and the engine's.
 
-use numpy::PyUntypedArray;
+use numpy::{Element, PyArrayDyn, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::create_exception;
-use pyo3::exceptions::{PyLookupError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyLookupError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 use pythonize::{depythonize, pythonize};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use tiny_physics::{DVec2, Error, Vec2, World};
+use tiny_physics::{DVec2, Error, RayCast, Vec2, World};
 use tiny_physics_batch::BatchError;
 
 create_exception!(
@@ -43,6 +43,55 @@ pub fn heard<T>(world: &mut World, change: impl FnOnce(&mut World) -> T) -> PyRe
 /// That of an array that cannot be written, or is borrowed elsewhere.
 pub fn locked(error: numpy::BorrowError) -> PyErr {
     PyValueError::new_err(error.to_string())
+}
+
+/// The numbers of an array, row after row however it lies in memory, and its shape; whatever NumPy makes an array of will do, as
+/// long as its numbers are of that kind. `wanted` says in words which shape `fits`.
+pub fn numbers<T: Element + Copy>(
+    given: &Bound<'_, PyAny>,
+    [name, wanted]: [&str; 2],
+    fits: impl Fn(&[usize]) -> bool,
+) -> PyResult<(Vec<T>, Vec<usize>)> {
+    let py = given.py();
+    let dtype = numpy::dtype::<T>(py);
+    let array = match given.cast::<PyArrayDyn<T>>() {
+        Ok(array) => array.clone(),
+        Err(_) => {
+            let numpy = py.import("numpy")?;
+            let array = numpy.call_method1("asarray", (given,))?;
+            let from = array.getattr("dtype")?;
+            if !numpy.call_method1("can_cast", (&from, &dtype, "same_kind"))?.is_truthy()? {
+                let words = format!("{name} is of {from}; needed is {wanted} of {dtype}");
+                return Err(PyTypeError::new_err(words));
+            }
+            numpy.call_method1("asarray", (array, &dtype))?.cast_into()?
+        }
+    };
+    if !fits(array.shape()) {
+        let shape = array.getattr("shape")?;
+        let words = format!("{name} has the shape {shape}; needed is {wanted} of {dtype}");
+        return Err(PyValueError::new_err(words));
+    }
+    let array = array.try_readonly().map_err(locked)?;
+    Ok((array.as_array().iter().copied().collect(), array.shape().to_vec()))
+}
+
+/// Actions of a batch of worlds: a row for each, or all in one row, world after world.
+pub fn actions(given: &Bound<'_, PyAny>, worlds: usize, each: usize) -> PyResult<Vec<f32>> {
+    let all = worlds * each;
+    let wanted = format!("({worlds}, {each}) or ({all},)");
+    let fits = |shape: &[usize]| shape == [worlds, each] || shape == [all];
+    Ok(numbers(given, ["actions", &wanted], fits)?.0)
+}
+
+/// Rays: origin x, y, translation x, y each.
+pub fn rays(given: &Bound<'_, PyAny>) -> PyResult<Vec<RayCast>> {
+    let fits = |shape: &[usize]| matches!(shape, [_, 4]);
+    let (numbers, _) = numbers::<f64>(given, ["rays", "(n, 4)"], fits)?;
+    let ray = |r: &[f64]| {
+        RayCast::new(DVec2::new(r[0], r[1]), Vec2::new(r[2] as f32, r[3] as f32))
+    };
+    Ok(numbers.chunks_exact(4).map(ray).collect())
 }
 
 /// The batch's error as Python's.

@@ -1,7 +1,7 @@
 //! Pictures of worlds.
 
-use crate::convert::Pair;
-use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray3};
+use crate::convert::{Pair, numbers};
+use numpy::{PyArray1, PyArray3, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -94,17 +94,13 @@ fn core(shape: &Shape) -> (Vec<Vec2>, f32) {
 #[pyo3(signature = (frames, ms=40))]
 pub fn gif<'py>(
     py: Python<'py>,
-    frames: Vec<PyReadonlyArray3<'py, u8>>,
+    frames: Vec<Bound<'py, PyAny>>,
     ms: u32,
 ) -> PyResult<Bound<'py, PyBytes>> {
     let mut animation = Animation::new(Vec::new(), ms);
     for frame in &frames {
-        let shape = frame.as_array().shape().to_vec();
-        if shape[2] != 3 {
-            return Err(PyValueError::new_err("a frame must have the shape (height, width, 3)"));
-        }
-        // Row after row, however the array lies in memory.
-        let bytes: Vec<u8> = frame.as_array().iter().copied().collect();
+        let fits = |shape: &[usize]| matches!(shape, [_, _, 3]);
+        let (bytes, shape) = numbers::<u8>(frame, ["a frame", "(height, width, 3)"], fits)?;
         let pixels: Vec<[u8; 3]> =
             bytes.chunks_exact(3).map(|rgb| [rgb[0], rgb[1], rgb[2]]).collect();
         let canvas = Canvas::from_rgb(shape[1] as u32, shape[0] as u32, &pixels);

@@ -1,15 +1,15 @@
 //! Queries of a world.
 
-use crate::convert::{Pair, place, read, tuple};
+use crate::convert::{self, Pair, place, read, tuple};
 use crate::handles::Body;
 use crate::handles::Shape;
 use crate::handles::World;
 use crate::world::own;
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tiny_physics::{self as engine, Aabb, DVec2, Pose, QueryFilter, RayCast, Rot, Vec2};
+use tiny_physics::{self as engine, Aabb, DVec2, Pose, QueryFilter, Rot, Vec2};
 
 /// What a query of a world sees.
 ///
@@ -92,17 +92,10 @@ impl World {
     fn ray_casts<'py>(
         &self,
         py: Python<'py>,
-        rays: PyReadonlyArray2<'py, f64>,
+        rays: &Bound<'py, PyAny>,
         mask: u64,
     ) -> PyResult<Bound<'py, PyArray1<f32>>> {
-        if rays.as_array().shape()[1] != 4 {
-            return Err(PyValueError::new_err("rays must have the shape (n, 4)"));
-        }
-        let rays: Vec<RayCast> = rays
-            .as_array()
-            .outer_iter()
-            .map(|r| RayCast::new(DVec2::new(r[0], r[1]), Vec2::new(r[2] as f32, r[3] as f32)))
-            .collect();
+        let rays = convert::rays(rays)?;
         let (world, mut hits) = (&self.inner, Vec::new());
         py.detach(|| world.ray_casts(&rays, &QueryFilter::new().mask(mask), &mut hits));
         let fractions = hits.into_iter().map(|hit| hit.map_or(1.0, |hit| hit.fraction));

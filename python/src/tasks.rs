@@ -1,9 +1,9 @@
 //! Tasks for agents.
 
-use crate::convert::{batch_error, locked};
+use crate::convert::{self, batch_error, locked};
 use crate::draw::{Picture, View};
 use crate::handles::World;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -148,7 +148,7 @@ impl TaskBatch {
         self.show(py)
     }
 
-    /// Does the actions (float32, world after world) and moves all worlds on by one step. Gives rewards (float64),
+    /// Does the actions (float32, shape (worlds, numbers of an action), or all in one row, world after world) and moves all worlds on by one step. Gives rewards (float64),
     /// terminations and truncations (bool), shape (worlds,) each. Other Python threads run meanwhile.
     ///
     /// Raises ValueError where an action is not finite or no choice of the task, or an episode is over and nothing
@@ -156,11 +156,11 @@ impl TaskBatch {
     fn step<'py>(
         &mut self,
         py: Python<'py>,
-        actions: PyReadonlyArray1<'py, f32>,
+        actions: &Bound<'py, PyAny>,
     ) -> PyResult<Results<'py>> {
         // A copy: they may be part of what is written afterwards.
-        let (copy, inner) = (actions.as_slice()?.to_vec(), &mut self.inner);
-        drop(actions);
+        let copy = convert::actions(actions, self.inner.len(), self.inner.spec().action)?;
+        let inner = &mut self.inner;
         py.detach(|| inner.step(&copy)).map_err(batch_error)?;
         self.show(py)?;
         let outcomes = || (0..self.inner.len()).filter_map(|i| self.inner.outcome(i));

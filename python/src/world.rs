@@ -286,14 +286,19 @@ impl World {
     fn states<'py>(
         &self,
         py: Python<'py>,
-        out: Option<Bound<'py, PyArray2<f64>>>,
+        out: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let count = self.inner.body_count();
-        let out = out.unwrap_or_else(|| PyArray2::zeros(py, [count, 6], false));
+        let form = || {
+            PyValueError::new_err(format!("out must have the shape ({count}, 6), of float64"))
+        };
+        let out = match out {
+            Some(out) => out.cast_into::<PyArray2<f64>>().map_err(|_| form())?,
+            None => PyArray2::zeros(py, [count, 6], false),
+        };
         let mut rows: PyReadwriteArray2<'_, f64> = out.try_readwrite().map_err(locked)?;
         if rows.shape() != [count, 6] {
-            let reason = format!("out must have the shape ({count}, 6)");
-            return Err(PyValueError::new_err(reason));
+            return Err(form());
         }
         if !rows.is_c_contiguous() {
             return Err(PyValueError::new_err("out must be in order C"));

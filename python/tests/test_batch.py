@@ -162,6 +162,40 @@ def test_rays_of_all_worlds():
     assert (found == world.ray_casts(rays)).all()
 
 
+def test_actions_are_what_numpy_makes_floats_of():
+    ends = []
+    for given in [np.float32, np.float64, np.int64, np.ravel, np.ndarray.tolist]:
+        many = batch(4)
+        pushes = np.arange(4).reshape(4, 1)
+        many.step(given(pushes))
+        ends.append(many.state_hashes().tolist())
+        tasks = tp.TaskBatch("bipedal_walker", 3, 1)
+        tasks.reset()
+        tasks.step(given(np.eye(3, 4, dtype=np.int64)))
+        ends.append(tasks.state_hashes().tolist())
+    assert ends[::2] == ends[:1] * 5 and ends[1::2] == ends[1:2] * 5
+    world = template()[0]
+    rays = [[0, 5, 0, -10], [1, 5, 0, -10]]
+    for caster in (many, world):
+        assert (caster.ray_casts(rays) == caster.ray_casts(np.array(rays, float))).all()
+
+
+def test_arrays_of_another_form_are_told_what_is_needed():
+    many, tasks, world = batch(4), tp.TaskBatch("bipedal_walker", 3), template()[0]
+    for call, given, kind, words in [
+        (many.step, np.zeros((4, 1), complex), TypeError, r"complex128; needed is \(4, 1\) or \(4,\) of float32"),
+        (many.step, np.zeros((4, 1, 1)), ValueError, r"shape \(4, 1, 1\); needed is \(4, 1\)"),
+        (many.step, ["left"] * 4, TypeError, "actions is of <U4"),
+        (tasks.step, np.zeros((4, 3)), ValueError, r"shape \(4, 3\); needed is \(3, 4\) or \(12,\) of float32"),
+        (many.ray_casts, np.zeros(4), ValueError, r"rays has the shape \(4,\); needed is \(n, 4\) of float64"),
+        (world.ray_casts, np.zeros((4, 2)), ValueError, r"needed is \(n, 4\)"),
+        (world.states, np.zeros((3, 6), np.float32), ValueError, r"shape \(3, 6\), of float64"),
+        (tp.gif, [np.zeros((2, 2, 3))], TypeError, "a frame is of float64; needed is .* of uint8"),
+    ]:
+        with pytest.raises(kind, match=words):
+            call(given)
+
+
 def test_bad_input_is_named():
     many = batch(4)
     before = many.state_hashes()

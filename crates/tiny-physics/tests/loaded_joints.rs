@@ -409,3 +409,44 @@ fn loaded_chains_hold_as_steps_change() {
         assert!(gap < 0.2, "a thousand times the mass, {links} links, 1/{short} s: {gap}");
     }
 }
+
+/// However stiff its rods are asked to be, a truss on a pin and a roller comes to rest, and so do three welds in a row.
+#[test]
+fn nets_of_any_softness_come_to_rest() {
+    for (rate, substeps) in [(60.0, 2), (60.0, 4), (60.0, 8), (240.0, 8)] {
+        for (hertz, ratio) in [(100.0, 2.0), (1.0e3, 2.0), (1.0e5, 1.0), (1.0e5, 5.0)] {
+            let mut world = world();
+            world.settings.substeps = substeps;
+            let ground = world.add_body(RigidBody::fixed()).unwrap();
+            let mut add = |world: &mut World, x: f32, y: f32| {
+                let ball = ghost(Shape::Circle { radius: 0.05 });
+                world
+                    .add_body(RigidBody::dynamic().position(Vec2::new(x, y)).shape(ball).mass(1.0))
+                    .unwrap()
+            };
+            let knots: Vec<_> = (0..13_u8)
+                .map(|i| add(&mut world, 0.25 * f32::from(i), 0.433_012_7 * f32::from(i % 2)))
+                .collect();
+            for (a, b) in
+                knots.windows(2).map(|w| (w[0], w[1])).chain(knots.windows(3).map(|w| (w[0], w[2])))
+            {
+                world.add_joint(a, b, JointDef::distance(0.5).softness(hertz, ratio)).unwrap();
+            }
+            world.add_joint(ground, knots[0], JointDef::revolute()).unwrap();
+            let roller = JointDef::prismatic((1.0, 0.0)).anchors((3.0, 0.0), (0.0, 0.0));
+            world.add_joint(ground, knots[12], roller).unwrap();
+            let mut last = ground;
+            for i in 0..3_u8 {
+                let x = 10.25 + 0.5 * f32::from(i);
+                let board = RigidBody::dynamic().position(Vec2::new(x, 0.0));
+                let board = world.add_body(board.shape(ghost(rect(0.25, 0.05))).mass(1.0)).unwrap();
+                let weld = JointDef::weld().anchor_at((x - 0.25, 0.0)).softness(hertz, ratio);
+                world.add_joint(last, board, weld).unwrap();
+                last = board;
+            }
+            (0..300).for_each(|_| world.step(1.0 / rate));
+            let fastest = world.bodies().map(|body| body.velocity().length()).fold(0.0, f32::max);
+            assert!(fastest < 0.05, "{hertz} Hz, ratio {ratio}, {rate}/{substeps}: {fastest} m/s");
+        }
+    }
+}
