@@ -1,6 +1,8 @@
 //! Joints that bear something: what only touches them, motors against limits, gears, errors of those who made them.
 
-use tiny_physics::{BodyId, Filter, JointDef, Polygon, RigidBody, Shape, ShapeDef, Vec2, World};
+use tiny_physics::{
+    BodyId, DVec2, Filter, JointDef, Polygon, RigidBody, Shape, ShapeDef, Vec2, World,
+};
 
 const DT: f32 = 1.0 / 60.0;
 
@@ -440,7 +442,9 @@ fn nets_of_any_softness_come_to_rest() {
                 let x = 10.25 + 0.5 * f32::from(i);
                 let board = RigidBody::dynamic().position(Vec2::new(x, 0.0));
                 let board = world.add_body(board.shape(ghost(rect(0.25, 0.05))).mass(1.0)).unwrap();
-                let weld = JointDef::weld().anchor_at((x - 0.25, 0.0)).softness(hertz, ratio);
+                let weld = JointDef::weld()
+                    .anchor_at(DVec2::new(f64::from(x) - 0.25, 0.0))
+                    .softness(hertz, ratio);
                 world.add_joint(last, board, weld).unwrap();
                 last = board;
             }

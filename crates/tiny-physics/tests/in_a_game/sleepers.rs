@@ -264,7 +264,7 @@ fn hung(joint: JointDef, position: Vec2, damping: f32) -> (World, BodyId) {
     let mut world = World::new((0.0, -10.0));
     let hook = world.add_body(RigidBody::fixed()).unwrap();
     let ball = RigidBody::dynamic().position(position).shape(circle(0.3)).mass(1.0);
-    let ball = world.add_body(ball.linear_damping(damping)).unwrap();
+    let ball = world.add_body(ball.damping(damping, 0.0)).unwrap();
     world.add_joint(hook, ball, joint).unwrap();
     (world, ball)
 }
@@ -308,7 +308,9 @@ fn what_is_a_little_out_of_balance_tips() {
         let mut world = World::new((0.0, -10.0));
         let hook = world.add_body(RigidBody::fixed()).unwrap();
         let mut add = |x: f32, shape: Shape, mass: f32| {
-            world.add_body(RigidBody::dynamic().position((x, 0.0)).shape(shape).mass(mass)).unwrap()
+            world
+                .add_body(RigidBody::dynamic().position(Vec2::new(x, 0.0)).shape(shape).mass(mass))
+                .unwrap()
         };
         let board = add(0.0, Shape::rect(2.0, 0.05).unwrap(), 1.0);
         let (left, right) = (add(-2.0, circle(0.1), 10.0), add(2.0, circle(0.1), 10.0 * more));
