@@ -13,10 +13,9 @@ use super::finalize::{self, FastBody};
 use super::narrow_context::Ground;
 use super::one_way;
 use super::pairs::{PairRule, may_collide};
-use super::slips;
 use super::surfaces::{self, Seams};
 use crate::broad_phase::{BroadPhase, ProxyKind};
-use crate::dynamics::{Bodies, Contacts, Joints, NULL, ShapeRecord, Shapes, Slot, is_rigid};
+use crate::dynamics::{Bodies, Joints, NULL, ShapeRecord, Shapes, Slot, is_rigid};
 use crate::geometry::manifold::{self, ShapeClass};
 use crate::geometry::{
     LINEAR_SLOP, Shape, Sweep, SweptBox, ToiState, distance, hit_at, impact_within, pass_by,
@@ -30,7 +29,6 @@ use crate::threads::{SharedSlice, Team};
 pub(crate) struct Rules<'a> {
     /// Joined bodies do not collide.
     pub(crate) joints: &'a Joints,
-    pub(crate) contacts: &'a Contacts,
     /// The user's word on a pair of shapes, if there is any.
     pub(crate) custom: Option<&'a dyn PairRule>,
     /// Shapes, each with a body that the user has switched a contact of it with off in this step, sorted. By bodies, since of neighbours
@@ -61,7 +59,7 @@ const CREEP: f32 = 0.1 * LINEAR_SLOP;
 const SLIDES: u32 = 3;
 
 /// Sweeps the fast bodies, and those that fast kinematic bodies (`carriers`, ascending) may have gone through.
-/// `moved` and `slipped` are memory.
+/// `moved` is memory.
 pub(crate) fn run(
     team: &Team,
     (fast, carriers): (&mut Vec<FastBody>, &[FastBody]),
@@ -69,7 +67,7 @@ pub(crate) fn run(
     shapes: &mut Shapes,
     broad_phase: &mut BroadPhase,
     rules: Rules<'_>,
-    (moved, slipped): (&mut Vec<Moved>, &mut slips::Found),
+    moved: &mut Vec<Moved>,
 ) {
     if fast.is_empty() && carriers.is_empty() {
         return;
@@ -83,9 +81,6 @@ pub(crate) fn run(
             *fast = Search { fast, scene, slides: SLIDES }.outcome();
         }
     });
-    let Rules { contacts, joints, off, length_unit, .. } = rules;
-    let slips = slips::Scene { bodies, shapes, contacts, joints, off, length_unit };
-    slips::set_back(team, fast, slips, slipped);
     hold_together(fast, bodies, rules.joints);
     settle(team, fast, bodies, shapes, broad_phase, moved);
 }
@@ -101,8 +96,12 @@ fn hold_together(fast: &mut Vec<FastBody>, bodies: &Bodies, joints: &Joints) {
         }
         let Some((members, count)) = joined(body, bodies, joints) else { continue };
         for member in &members[..count] {
-            let (place, known) = FastBody::place_in(fast, bodies, *member);
-            at += usize::from(!known && place < at);
+            let known = fast.binary_search_by_key(member, |fast| fast.body);
+            let place = known.unwrap_or_else(|place| {
+                fast.insert(place, FastBody::of_step(bodies, *member));
+                at += usize::from(place < at);
+                place
+            });
             fast[place].set_back(fraction);
         }
     }

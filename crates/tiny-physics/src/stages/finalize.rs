@@ -39,17 +39,6 @@ impl FastBody {
         Self { body, start, end, motion, turn, lost: Vec2::ZERO, fraction: 1.0 }
     }
 
-    /// Where a body stands in a list, ascending, into which it is put if it is not there yet; and whether it was.
-    pub(crate) fn place_in(list: &mut Vec<Self>, bodies: &Bodies, body: u32) -> (usize, bool) {
-        match list.binary_search_by_key(&body, |fast| fast.body) {
-            Ok(at) => (at, true),
-            Err(at) => {
-                list.insert(at, Self::of_step(bodies, body));
-                (at, false)
-            }
-        }
-    }
-
     /// Sets it back to a part of the step, unless it was stopped before or taken along.
     pub(crate) fn set_back(&mut self, fraction: f32) {
         if fraction >= self.fraction || self.fraction > 1.0 {

@@ -26,7 +26,6 @@ pub(crate) mod rests;
 pub(crate) mod rocking;
 pub(crate) mod sensors;
 pub(crate) mod sleep;
-pub(crate) mod slips;
 pub(crate) mod solve;
 pub(crate) mod surfaces;
 pub(crate) mod sway;

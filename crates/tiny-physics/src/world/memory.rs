@@ -29,7 +29,7 @@ footprint!(Scratch {
     overlaps,
     touching,
     switched_off
-} each { found_changes, findings, found_overlaps, answers, slipped } none { solving });
+} each { found_changes, findings, found_overlaps, answers } none { solving });
 
 /// Memory that a world holds on the heap, by what it is for. What is left out: closures given as hooks, threads and
 /// what they share, and what the allocator adds to each block.

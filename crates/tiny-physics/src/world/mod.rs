@@ -57,8 +57,8 @@ use crate::stages::narrow_context::{Context, Ground};
 use crate::stages::solve::{Lengths, Solver};
 use crate::stages::touching::Changes;
 use crate::stages::{
-    ahead, arcs, boxes, continuous, finalize, narrow_phase, paces, pairs, rocking, sleep, slips,
-    solve, surfaces, sway, touching,
+    ahead, arcs, boxes, continuous, finalize, narrow_phase, paces, pairs, rocking, sleep, solve,
+    surfaces, sway, touching,
 };
 use crate::threads::{Habit, Pool, Team};
 use state::State;
@@ -123,7 +123,6 @@ struct Scratch {
     fast: Vec<FastBody>,
     carriers: Vec<FastBody>,
     moved: Vec<Moved>,
-    slipped: slips::Found,
     islands: Vec<u32>,
     sets: sleep::Sets,
     paces: paces::Memory,
@@ -529,18 +528,16 @@ impl World {
 
     /// Stops fast bodies where they would have gone through something.
     fn sweep_fast_bodies(&mut self, team: &Team, lengths: Lengths) {
-        let State { bodies, shapes, broad_phase, joints, contacts, .. } = &mut self.state;
-        let Scratch { fast, carriers, moved, slipped, switched_off, .. } = &mut self.scratch;
+        let State { bodies, shapes, broad_phase, joints, .. } = &mut self.state;
+        let Scratch { fast, carriers, moved, switched_off, .. } = &mut self.scratch;
         let rules = continuous::Rules {
             joints,
-            contacts,
             custom: self.hooks.pair_filter(),
             off: switched_off,
             length_unit: self.settings.length_unit,
             dt: lengths.dt,
         };
-        let memory = (moved, slipped);
-        continuous::run(team, (fast, carriers), bodies, shapes, broad_phase, rules, memory);
+        continuous::run(team, (fast, carriers), bodies, shapes, broad_phase, rules, moved);
     }
 
     /// Looks for islands at rest now and then, and lets them sleep.
