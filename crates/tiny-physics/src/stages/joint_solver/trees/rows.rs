@@ -110,11 +110,7 @@ fn begin<B: JointKernel>(
         axis.limits = [axis.limits[0] - axis.limits[1], 0.0];
         link.driven =
             axis.limits[0] == 0.0 && axis.motor != 0.0 && axis.motor.abs() < axis.motor_max;
-        link.limit = if link.driven || axis.limits[0] > 0.0 {
-            1.0
-        } else {
-            -f64::from(u8::from(axis.limits[0] < 0.0))
-        };
+        link.limit = f64::from(u8::from(link.driven));
         axes.push(TreeAxis { link: index as u32, axis, motor, ..TreeAxis::default() });
     }
 }
