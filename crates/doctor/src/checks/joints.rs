@@ -141,23 +141,36 @@ pub(crate) fn check(
     let ends = [joint.bodies().0, joint.bodies().1];
     let awake = ends.iter().filter_map(|&id| look.world.body(id)).any(|body| body.is_awake());
     let mut ill = memory.ill.get(&joint.id()).copied().unwrap_or_default();
-    if !awake {
-        fell_asleep_apart(look, joint, ends, &state, ill, findings);
-        memory.ill.remove(&joint.id());
-        return;
-    }
-    check_ratio(look, joint, ends, findings);
-    check_springs(look, joint, ends, &state, &mut ill.apart_since, findings);
-    check_gap(look, joint, ends, &state, &mut ill, findings);
+    // Two that are as strong hold each other, and may sleep.
     check_rival_motor(look, joint, ends, &mut ill.against_since, findings);
-    check_limits(look, joint, ends, &state, &mut ill.over_since, findings);
-    check_motor(look, joint, ends, &state, &mut ill.motor_since, findings);
+    if awake {
+        look_closer(look, joint, ends, &state, &mut ill, findings);
+    } else {
+        fell_asleep_apart(look, joint, ends, &state, ill, findings);
+        ill = Ill { against_since: ill.against_since, ..Ill::default() };
+    }
     let since = [ill.apart_since, ill.over_since, ill.motor_since, ill.against_since];
     if since.iter().any(Option::is_some) {
         memory.ill.insert(joint.id(), ill);
     } else {
         memory.ill.remove(&joint.id());
     }
+}
+
+/// What can be wrong with a joint that is awake.
+fn look_closer(
+    look: &Look<'_>,
+    joint: &JointRef<'_>,
+    ends: [BodyId; 2],
+    state: &State,
+    ill: &mut Ill,
+    findings: &mut Findings,
+) {
+    check_ratio(look, joint, ends, findings);
+    check_springs(look, joint, ends, state, &mut ill.apart_since, findings);
+    check_gap(look, joint, ends, state, ill, findings);
+    check_limits(look, joint, ends, state, &mut ill.over_since, findings);
+    check_motor(look, joint, ends, state, &mut ill.motor_since, findings);
 }
 
 /// Radius that holds all shapes of a body, metres.
