@@ -178,8 +178,7 @@ impl WorldBatch {
             return Err(PyValueError::new_err(format!("dt is {dt}; allowed is above 0")));
         }
         let (worlds, each) = (self.inner.len(), self.actuators.len());
-        let actions =
-            actions.map(|actions| convert::actions(actions, worlds, each)).transpose()?;
+        let actions = actions.map(|actions| convert::actions(actions, worlds, each)).transpose()?;
         let Self { inner, actuators, .. } = self;
         py.detach(|| {
             for _ in 0..steps {

@@ -88,9 +88,7 @@ pub fn actions(given: &Bound<'_, PyAny>, worlds: usize, each: usize) -> PyResult
 pub fn rays(given: &Bound<'_, PyAny>) -> PyResult<Vec<RayCast>> {
     let fits = |shape: &[usize]| matches!(shape, [_, 4]);
     let (numbers, _) = numbers::<f64>(given, ["rays", "(n, 4)"], fits)?;
-    let ray = |r: &[f64]| {
-        RayCast::new(DVec2::new(r[0], r[1]), Vec2::new(r[2] as f32, r[3] as f32))
-    };
+    let ray = |r: &[f64]| RayCast::new(DVec2::new(r[0], r[1]), Vec2::new(r[2] as f32, r[3] as f32));
     Ok(numbers.chunks_exact(4).map(ray).collect())
 }
 

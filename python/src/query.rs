@@ -6,7 +6,6 @@ use crate::handles::Shape;
 use crate::handles::World;
 use crate::world::own;
 use numpy::{IntoPyArray, PyArray1};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use tiny_physics::{self as engine, Aabb, DVec2, Pose, QueryFilter, Rot, Vec2};

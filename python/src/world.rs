@@ -289,9 +289,8 @@ impl World {
         out: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let count = self.inner.body_count();
-        let form = || {
-            PyValueError::new_err(format!("out must have the shape ({count}, 6), of float64"))
-        };
+        let form =
+            || PyValueError::new_err(format!("out must have the shape ({count}, 6), of float64"));
         let out = match out {
             Some(out) => out.cast_into::<PyArray2<f64>>().map_err(|_| form())?,
             None => PyArray2::zeros(py, [count, 6], false),

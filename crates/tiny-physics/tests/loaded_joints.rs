@@ -420,7 +420,7 @@ fn nets_of_any_softness_come_to_rest() {
             let mut world = world();
             world.settings.substeps = substeps;
             let ground = world.add_body(RigidBody::fixed()).unwrap();
-            let mut add = |world: &mut World, x: f32, y: f32| {
+            let add = |world: &mut World, x: f32, y: f32| {
                 let ball = ghost(Shape::Circle { radius: 0.05 });
                 world
                     .add_body(RigidBody::dynamic().position(Vec2::new(x, y)).shape(ball).mass(1.0))
