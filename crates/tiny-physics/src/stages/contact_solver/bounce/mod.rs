@@ -49,6 +49,7 @@ const SPRINGY: f32 = 0.25;
 struct Aims {
     /// Speeds at which the points are to leave; 0 for one that does not hit. See [`search`].
     targets: [[f32; BLOCK]; 2],
+    /// See [`solve_friction`].
     slips: [[f32; BLOCK]; 2],
     tangent_speed: [f32; BLOCK],
 }

@@ -192,15 +192,16 @@ fn run_tree<S: Simd>(
 /// difference in each.
 #[inline(always)]
 fn swings_freely(tree: &JointTree) -> bool {
-    let idle = |axis: &TreeAxis| drives(axis) == [false; 3];
+    let idle = |TreeAxis { axis, motor, .. }: &TreeAxis| {
+        let turns = motor.is_some_and(|[_, most, _]| most != 0.0);
+        !turns && axis.motor_max == 0.0 && axis.push == 0.0
+    };
     tree.alone && !is_jointed(tree.pace) && tree.axes.iter().all(idle)
 }
 
-/// What may push or turn: a motor along the coordinate, one that turns, a spring.
-#[inline(always)]
-fn drives(TreeAxis { axis, motor, .. }: &TreeAxis) -> [bool; 3] {
-    let turns = motor.is_some_and(|[_, most, _]| most != 0.0);
-    [axis.motor_max != 0.0, turns, axis.push != 0.0]
+/// Has it a motor along the coordinate, or one that has yet to let go of what it has pushed with?
+fn has_motor(TreeAxis { axis, .. }: &TreeAxis) -> bool {
+    axis.motor_max != 0.0 || axis.motor != 0.0
 }
 
 /// Adds or takes away half of what forces add in a substep: they act half before it and half after it, which
@@ -259,8 +260,7 @@ fn drive<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
                 own.pull::<false>(value, &mut velocity, masses)
             };
         }
-        let idle = axis.axis.motor == 0.0 && axis.axis.motor_max == 0.0;
-        if link.limit != 0.0 && !link.driven && !idle {
+        if link.limit != 0.0 && !link.driven && has_motor(axis) {
             change += axis.axis.drive(&mut velocity, masses);
         }
         if change != 0.0 {
@@ -473,11 +473,13 @@ fn begin_limits<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
         if side * axis.axis.limits[0] < 0.0 {
             release(simd, link, axis, nodes);
         }
-        let needed = needed(link, axis, nodes, rates);
-        let can = axis.tied > 0.0 && axis.axis.motor_max > 0.0;
-        let driven = side == 0.0 && can && needed.abs() <= axis.axis.motor_max;
-        if side == 0.0 && !driven {
-            bound(simd, link, axis, nodes, needed);
+        let mut driven = false;
+        if side == 0.0 && has_motor(axis) {
+            let (needed, most) = (needed(link, axis, nodes, rates), axis.axis.motor_max);
+            driven = axis.tied > 0.0 && most > 0.0 && needed.abs() <= most;
+            if !driven {
+                bound(simd, link, axis, nodes, needed);
+            }
         }
         let holds = if driven { 1.0 } else { side };
         *factored &= holds == link.limit;
