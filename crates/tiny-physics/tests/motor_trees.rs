@@ -3,7 +3,9 @@
 mod common;
 
 use common::{Random, rect};
-use tiny_physics::{BodyId, Filter, JointDef, JointId, RigidBody, ShapeDef, Vec2, World};
+use tiny_physics::{
+    BodyId, Filter, JointDef, JointId, Pose, RigidBody, Rot, ShapeDef, SimdLevel, Vec2, World,
+};
 
 const GRAVITY: f32 = 9.8;
 
@@ -91,6 +93,57 @@ fn arms_with_a_motor_in_every_hinge_settle() {
                 assert!(off.abs() < 0.02, "member {member}, step {step}: {off}");
                 let gap = gap(&world, hinge);
                 assert!(gap < 0.005 * half, "member {member}, step {step}: {gap} of {half} m");
+            }
+        }
+    }
+}
+
+/// A motor of a wheel joint turns a small hub with three heavy blades welded to it, and one on a rail lifts a cab with a heavy bar
+/// that swings from it.
+#[test]
+fn wheels_and_lifts_have_the_speed_of_their_motors() {
+    let mut random = Random::new(5);
+    for member in 0..30 {
+        let (mut world, dt) = game(&mut random);
+        let (half, mass) = (random.range(0.2, 2.0), random.range(5.0, 50.0));
+        let speed = random.range(0.5, 5.0);
+        let wall = world.add_body(RigidBody::fixed()).expect("a wall");
+        let hub = bar(&mut world, 0.2 * half, 1.0, 0.0);
+        world.body_mut(hub).expect("it is there").set_gravity_scale(0.0);
+        let axle = JointDef::wheel(Vec2::new(0.0, 1.0)).motor(speed, 1.0e6);
+        world.add_joint(wall, hub, axle).expect("a motor");
+        for k in 0..3_u8 {
+            let angle = std::f32::consts::TAU / 3.0 * f32::from(k);
+            let blade = bar(&mut world, half, mass, 0.0);
+            let mut blade_mut = world.body_mut(blade).expect("it is there");
+            let (sin, cos) = angle.sin_cos();
+            blade_mut.set_gravity_scale(0.0);
+            blade_mut
+                .set_pose(Pose::new((Vec2::new(cos, sin) * half).into(), Rot::from_angle(angle)));
+            let weld = JointDef::weld().anchor_at(Vec2::new(cos, sin) * (0.1 * half));
+            world.add_joint(hub, blade, weld).expect("a weld");
+        }
+        let cab = bar(&mut world, 0.2 * half, 1.0, 0.0);
+        let load = bar(&mut world, half, mass, half);
+        let rail = JointDef::prismatic(Vec2::new(0.0, 1.0)).motor(speed, 1.0e5 * mass);
+        world.add_joint(wall, cab, rail).expect("a motor");
+        let hinge = JointDef::revolute().anchors(Vec2::ZERO, Vec2::new(-half, 0.0));
+        world.add_joint(cab, load, hinge).expect("a hinge");
+        let mut other = world.clone();
+        other.set_simd(SimdLevel::Scalar).expect("every machine has it");
+        for step in 0..(3.0 / dt) as usize {
+            world.step(dt);
+            if step as f32 * dt > 1.0 {
+                let [hub, cab] = [hub, cab].map(|body| world.body(body).expect("it is there"));
+                let (spin, rise) = (hub.angular_velocity() / speed, cab.velocity().y / speed);
+                assert!((spin - 1.0).abs() < 0.01, "member {member}, step {step}: {spin}");
+                assert!((rise - 1.0).abs() < 0.01, "member {member}, step {step}: {rise}");
+            }
+            if member < 3 {
+                other.step(dt);
+                other = World::from_bytes(&other.to_bytes()).expect("its own frame");
+                other.set_simd(SimdLevel::Scalar).expect("every machine has it");
+                assert_eq!(world.state_hash(), other.state_hash(), "member {member}, step {step}");
             }
         }
     }

@@ -110,6 +110,9 @@ pub(crate) struct TreeLink {
     pub(crate) limit: f64,
     /// That row is the motor's, which pushes either way.
     pub(crate) driven: bool,
+    /// Its motor turns freely, not along the coordinate; the row along which it pushes.
+    pub(crate) turns: bool,
+    pub(crate) drive: TreeRow,
     /// Inverse of the joint's block of the factorisation, right side, change of the impulses.
     pub(crate) inverse: [Three; 3],
     /// How the child answers impulses on each row; what the parent feels of each right side; how the child follows the parent.
@@ -138,16 +141,16 @@ impl TreeLink {
     }
 }
 
-/// What acts along a link's free coordinate, and the motor of one that turns freely.
+/// What acts along a link's free coordinate; its motor may turn instead, see [`TreeLink::turns`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct TreeAxis {
     pub(crate) link: u32,
     /// In trees the first limit's impulse is that of both, the lower's less the upper's: at most one of them pushes.
     pub(crate) axis: Axis<f64>,
-    /// Speed, greatest impulse, impulse.
-    pub(crate) motor: Option<[f64; 3]>,
     /// Velocity per impulse of the two bodies, as the rigid rows tie them.
     pub(crate) tied: f64,
+    /// The same of its motor.
+    pub(crate) driven: f64,
     /// The row that an impulse of one acts along with what the rigid rows then give, and how much they give.
     pub(crate) on: [Three; 2],
     pub(crate) given: Three,

@@ -241,7 +241,8 @@ impl TreeContacts {
         let mut any = false;
         for answers in &mut self.answers[..self.used] {
             let tree = &mut forest[answers.tree as usize];
-            let limits = || tree.links.iter().map(|link| link.limit as i8);
+            let limits =
+                || tree.links.iter().map(|link| link.limit as i8 * (1 + i8::from(link.driven)));
             let same = || tree.axes.is_empty() || answers.limits.iter().copied().eq(limits());
             if !answers.limits.is_empty() && same() {
                 continue;

@@ -172,12 +172,13 @@ fn factor_link<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
     (link.given, link.felt) = (given, felt);
 }
 
-/// The row of the limit that holds; zero where none does.
+/// The row of the limit or motor that holds; zero where none does.
 #[inline(always)]
 fn write_limit(link: &mut TreeLink) {
     let i = link.rigid;
     if i < 3 && (link.limit != 0.0 || link.jacobians[1].rows[i] != [0.0; 4]) {
-        let TreeRow { on, compliance, .. } = link.coordinate;
+        let row = if link.driven { &link.drive } else { &link.coordinate };
+        let TreeRow { on, compliance, .. } = *row;
         let on = on.map(|side| side.map(|x| link.limit * x));
         link.set_row(i, &TreeRow { on, compliance, ..TreeRow::default() });
     }

@@ -17,11 +17,11 @@ mod rows;
 #[cfg(test)]
 mod tests;
 
+use super::Pass;
 use super::parts::{SNAP, SNAP_SHARE, Stride, Substep, slow_turn};
-use super::{Pass, axis};
 use crate::dynamics::{
     Axis, JointClass, JointColour, JointTree, Joints, Motion, TreeAxis, TreeLink, TreeNode,
-    is_jointed,
+    TreeRow, is_jointed,
 };
 use crate::simd::{
     FourKernel, Simd, SimdLevel, Three, add_times, dispatch_fours, take_product, times,
@@ -192,14 +192,11 @@ fn run_tree<S: Simd>(
 /// difference in each.
 #[inline(always)]
 fn swings_freely(tree: &JointTree) -> bool {
-    let idle = |TreeAxis { axis, motor, .. }: &TreeAxis| {
-        let turns = motor.is_some_and(|[_, most, _]| most != 0.0);
-        !turns && axis.motor_max == 0.0 && axis.push == 0.0
-    };
+    let idle = |TreeAxis { axis, .. }: &TreeAxis| axis.motor_max == 0.0 && axis.push == 0.0;
     tree.alone && !is_jointed(tree.pace) && tree.axes.iter().all(idle)
 }
 
-/// Has it a motor along the coordinate, or one that has yet to let go of what it has pushed with?
+/// Has it a motor, or one that has yet to let go of what it has pushed with?
 fn has_motor(TreeAxis { axis, .. }: &TreeAxis) -> bool {
     axis.motor_max != 0.0 || axis.motor != 0.0
 }
@@ -222,35 +219,24 @@ fn warm_start<S: Simd>(simd: S, tree: &mut JointTree) {
             rows::push(simd, nodes, [link.a, link.b], &link.row(i), link.impulses[i]);
         }
     }
-    for TreeAxis { link, axis, motor, .. } in axes {
-        let TreeLink { a, b, ref coordinate, .. } = links[*link as usize];
-        rows::push(simd, nodes, [a, b], &coordinate.on, axis.total());
-        turn(nodes, [a, b], motor.map_or(0.0, |[.., impulse]| impulse));
+    for TreeAxis { link, axis, .. } in axes {
+        let TreeLink { a, b, turns, ref coordinate, ref drive, .. } = links[*link as usize];
+        let turn = if turns { axis.motor } else { 0.0 };
+        rows::push(simd, nodes, [a, b], &coordinate.on, axis.total() - turn);
+        rows::push(simd, nodes, [a, b], &drive.on, turn);
     }
 }
 
-/// Applies an angular impulse on B, the opposite on A.
-fn turn(nodes: &mut [TreeNode], [a, b]: [u32; 2], impulse: f64) {
-    let (ia, ib) = (nodes[a as usize].inv[2], nodes[b as usize].inv[2]);
-    nodes[a as usize].v[2] -= ia * impulse;
-    nodes[b as usize].v[2] += ib * impulse;
-}
-
-/// Springs, motors that only turn, and motors where a limit holds, joint by joint.
+/// Springs, and motors where a limit holds, joint by joint.
 #[inline(always)]
 fn drive<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
     let JointTree { nodes, links, axes, .. } = tree;
     for axis in axes {
         let link = &mut links[axis.link as usize];
-        let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
-        if let Some(motor) = &mut axis.motor {
-            let mass = rates.stride.invert(a.inv[2] + b.inv[2]);
-            let impulse = axis::drive(*motor, b.v[2] - a.v[2], mass);
-            let change = impulse - core::mem::replace(&mut motor[2], impulse);
-            turn(nodes, [link.a, link.b], change);
-        }
-        let (mut velocity, masses) =
-            (velocity(link, nodes), [rates.stride.invert(axis.tied), axis.tied]);
+        let (mut velocity, masses) = (
+            speed_along(&link.coordinate, link, nodes),
+            [rates.stride.invert(axis.tied), axis.tied],
+        );
         let mut change = 0.0;
         if axis.axis.spring != 0.0 || axis.axis.push != 0.0 {
             let (own, value) = (&mut axis.axis, link.value);
@@ -260,11 +246,16 @@ fn drive<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
                 own.pull::<false>(value, &mut velocity, masses)
             };
         }
-        if link.limit != 0.0 && !link.driven && has_motor(axis) {
+        let limited = link.limit != 0.0 && !link.driven && has_motor(axis);
+        if limited && !link.turns {
             change += axis.axis.drive(&mut velocity, masses);
         }
         if change != 0.0 {
             push_along(simd, link, axis, nodes, change);
+        }
+        if limited && link.turns {
+            let needed = needed(link, axis, nodes, rates);
+            bound(simd, link, axis, nodes, needed);
         }
     }
 }
@@ -421,9 +412,9 @@ fn overrun(link: &TreeLink, axis: &TreeAxis, velocity: f64, side: f64, rates: &R
     -(velocity + if rates.bias { push } else { 0.0 })
 }
 
-/// Velocity along the free coordinate of a link.
-fn velocity(link: &TreeLink, nodes: &[TreeNode]) -> f64 {
-    let [on_a, on_b] = &link.coordinate.on;
+/// Velocity along a row of a link.
+fn speed_along(row: &TreeRow, link: &TreeLink, nodes: &[TreeNode]) -> f64 {
+    let [on_a, on_b] = &row.on;
     factor::dot3(on_b, &nodes[link.b as usize].v) + factor::dot3(on_a, &nodes[link.a as usize].v)
 }
 
@@ -436,9 +427,13 @@ fn release<S: Simd>(simd: S, link: &TreeLink, axis: &mut TreeAxis, nodes: &mut [
 
 /// The impulse that a motor would need if nothing but its own bodies answered: what else hangs on them asks for more.
 fn needed(link: &TreeLink, axis: &TreeAxis, nodes: &[TreeNode], rates: &Rates) -> f64 {
-    let mass = rates.stride.invert(axis.tied);
+    let mass = rates.stride.invert(axis.driven);
     let Axis { motor, motor_speed, .. } = axis.axis;
-    if mass > 0.0 { motor + mass * (motor_speed - velocity(link, nodes)) } else { 0.0 }
+    if mass > 0.0 {
+        motor + mass * (motor_speed - speed_along(&link.drive, link, nodes))
+    } else {
+        0.0
+    }
 }
 
 /// Gives a motor this impulse, or as much of it as it has. Is it less?
@@ -453,7 +448,9 @@ fn bound<S: Simd>(
     let most = axis.axis.motor_max;
     let bounded = impulse.clamp(-most, most);
     let change = bounded - core::mem::replace(&mut axis.axis.motor, bounded);
-    if change != 0.0 {
+    if change != 0.0 && link.turns {
+        rows::push(simd, nodes, [link.a, link.b], &link.drive.on, change);
+    } else if change != 0.0 {
         push_along(simd, link, axis, nodes, change);
     }
     bounded != impulse
@@ -465,7 +462,7 @@ fn begin_limits<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
     let JointTree { nodes, links, axes, factored, .. } = tree;
     for axis in axes {
         let link = &mut links[axis.link as usize];
-        let velocity = velocity(link, nodes);
+        let velocity = speed_along(&link.coordinate, link, nodes);
         let wants = |side: f64| {
             side * axis.axis.limits[0] > 0.0 || overrun(link, axis, velocity, side, rates) > 0.0
         };
@@ -476,13 +473,13 @@ fn begin_limits<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
         let mut driven = false;
         if side == 0.0 && has_motor(axis) {
             let (needed, most) = (needed(link, axis, nodes, rates), axis.axis.motor_max);
-            driven = axis.tied > 0.0 && most > 0.0 && needed.abs() <= most;
+            driven = axis.driven > 0.0 && most > 0.0 && needed.abs() <= most;
             if !driven {
                 bound(simd, link, axis, nodes, needed);
             }
         }
         let holds = if driven { 1.0 } else { side };
-        *factored &= holds == link.limit;
+        *factored &= (holds, driven) == (link.limit, link.driven);
         (link.limit, link.driven) = (holds, driven);
     }
 }
@@ -510,7 +507,7 @@ fn change_limits<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates, takes: b
         if !takes {
             continue;
         }
-        let velocity = velocity(link, nodes);
+        let velocity = speed_along(&link.coordinate, link, nodes);
         let unit = if link.class == JointClass::Revolute { 1.0 } else { rates.stride.unit };
         let least = LEAST_OVERRUN * unit;
         for side in [1.0, -1.0] {
@@ -521,7 +518,7 @@ fn change_limits<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates, takes: b
         }
         // It has pushed as hard as it can, and that was too much.
         let Axis { motor, motor_max, motor_speed, .. } = axis.axis;
-        let beyond = (velocity - motor_speed) * motor.signum();
+        let beyond = (speed_along(&link.drive, link, nodes) - motor_speed) * motor.signum();
         if link.limit == 0.0
             && motor.abs() >= motor_max
             && beyond > least
@@ -559,15 +556,20 @@ fn demand<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
     for axis in axes {
         let link = &mut links[axis.link as usize];
         if link.limit != 0.0 {
-            let velocity = velocity(link, nodes);
             let (mut wanted, impulse) = if link.driven {
-                (axis.axis.motor_speed - velocity, axis.axis.motor)
+                (axis.axis.motor_speed - speed_along(&link.drive, link, nodes), axis.axis.motor)
             } else {
-                let wanted = overrun(link, axis, velocity, link.limit, rates);
+                let wanted = overrun(
+                    link,
+                    axis,
+                    speed_along(&link.coordinate, link, nodes),
+                    link.limit,
+                    rates,
+                );
                 (wanted, link.limit * axis.axis.limits[0])
             };
             if rates.bias {
-                wanted -= link.coordinate.compliance * impulse;
+                wanted -= link.compliance[link.rigid] * impulse;
                 wanted -= link.error[link.rigid];
             }
             link.rhs[link.rigid] = wanted;

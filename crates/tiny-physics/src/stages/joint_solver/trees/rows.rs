@@ -13,6 +13,8 @@ use crate::stages::joint_solver::JointKernel;
 use crate::stages::joint_solver::parts::{LEAST_COMPLEMENT, Pair, Row, Sides, Stride, Substep};
 use crate::threads::SharedRows;
 
+/// An angular impulse, on A and on B.
+const ABOUT: [Three; 2] = [[0.0, 0.0, -1.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
 /// Compliance of a rigid row, as a fraction of the inverse mass of its two bodies alone: it bears loops that cannot
 /// close, such as a plank pinned at two points too far apart. Of a chain of 30 links it makes most of the stretch
 /// under 1000 times a link's weight: 0.13 % at 1e-4, 0.039 % at 3e-5; at 1e-6 rounding made it 0.5 %.
@@ -108,10 +110,14 @@ fn begin<B: JointKernel>(
     {
         let mut axis = lanes.load(stride);
         axis.limits = [axis.limits[0] - axis.limits[1], 0.0];
+        link.turns = motor.is_some();
+        if let Some(motor) = motor {
+            [axis.motor_speed, axis.motor_max, axis.motor] = motor;
+        }
         link.driven =
             axis.limits[0] == 0.0 && axis.motor != 0.0 && axis.motor.abs() < axis.motor_max;
         link.limit = f64::from(u8::from(link.driven));
-        axes.push(TreeAxis { link: index as u32, axis, motor, ..TreeAxis::default() });
+        axes.push(TreeAxis { link: index as u32, axis, ..TreeAxis::default() });
     }
 }
 
@@ -133,13 +139,14 @@ fn give_back<B: JointKernel>(link: &TreeLink, axis: Option<&TreeAxis>, block: &m
     for (saved, impulse) in saved.iter_mut().zip(&link.impulses[..link.rigid]) {
         *saved = *impulse as f32;
     }
-    if let Some(TreeAxis { axis, motor, .. }) = axis {
+    if let Some(TreeAxis { axis, .. }) = axis {
         let [limit, _] = axis.limits;
-        let impulses = [axis.spring, axis.motor, limit.max(0.0), (-limit).max(0.0)];
+        let motor = if link.turns { 0.0 } else { axis.motor };
+        let impulses = [axis.spring, motor, limit.max(0.0), (-limit).max(0.0)];
         saved[B::IMPULSES - 4..B::IMPULSES]
             .copy_from_slice(&impulses.map(|impulse| impulse as f32));
-        if let Some([.., impulse]) = motor {
-            saved[link.rigid] = *impulse as f32;
+        if link.turns {
+            saved[link.rigid] = axis.motor as f32;
         }
     }
     block.restore(lane, &saved);
@@ -323,6 +330,11 @@ fn tie<S: Simd>(simd: S, link: &mut TreeLink, axis: &mut TreeAxis, a: &TreeNode,
         for (sum, on) in axis.on.iter_mut().zip(&link.row(i)) {
             add_times(simd, sum, on, axis.given[i]);
         }
+    }
+    (link.drive, axis.driven) = (link.coordinate, axis.tied);
+    if link.turns {
+        axis.driven = a.inv[2] + b.inv[2];
+        link.drive = TreeRow { on: ABOUT, compliance: COMPLIANCE * axis.driven, ..link.drive };
     }
 }
 
