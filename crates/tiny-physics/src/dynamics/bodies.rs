@@ -47,7 +47,7 @@ record! {
         pub(crate) gravity_scale: f32 = 1.0,
         pub(crate) linear_damping: f32 = 0.0,
         pub(crate) angular_damping: f32 = 0.0,
-        /// Seconds below the sleep speed.
+        /// Seconds below the sleep speed; below zero as long as it may be turning back, see [`finalize`](crate::stages::finalize).
         pub(crate) sleep_time: f32 = 0.0,
         /// Seconds for which its island counts as stirred, see [`paces`](crate::stages::paces).
         pub(crate) stirred: f32 = 0.0,

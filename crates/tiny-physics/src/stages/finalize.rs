@@ -5,7 +5,7 @@ use super::rests;
 use super::solve::Lengths;
 use crate::broad_phase::BroadPhase;
 use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, BodyInfo, Motion, Shapes, Slot};
+use crate::dynamics::{Bodies, BodyInfo, Motion, REFINEMENT, Shapes, Slot};
 use crate::geometry::Sweep;
 use crate::math::{Aabb, Pose, Transform, Vec2};
 use crate::simd::Row;
@@ -106,6 +106,12 @@ const HELD: f32 = 0.25;
 
 /// What forces would take longer than this to get to its sleep speed may sleep, seconds: what floats swings on for long.
 const PATIENCE: f32 = 20.0;
+
+/// The same for what joints and contacts leave of them, seconds. They tremble.
+const STEADY: f32 = 4.0;
+
+/// What a body gains counts as along its velocity or against it from this square of the cosine on: a rope trembles across.
+const CLEAR: f32 = 0.25;
 
 /// Bodies that one member of the team finalises at a time.
 const CHUNK: usize = 128;
@@ -230,16 +236,38 @@ fn time_rest(
     info.stirred = larger(info.stirred - dt, 0.0);
     // A platform that creeps must not stop.
     let limit = if info.kind == BodyKind::Dynamic { info.sleep_speed * length_unit } else { 0.0 };
-    let most = limit * h / PATIENCE;
-    if info.can_sleep && fastest <= limit && is_held(row, [base, gain], [most, extent]) {
-        info.sleep_time += dt;
+    info.sleep_time = if info.can_sleep && fastest <= limit {
+        let change = limit * h / REFINEMENT[usize::from(info.pace)] as f32;
+        rested(info.sleep_time, row, [base, gain], [change, extent, dt])
     } else {
-        info.sleep_time = 0.0;
+        0.0
+    };
+}
+
+/// How long a slow body has rested after a step. What swings is slow where it turns: there it gains speed as it goes, after it has
+/// lost some. What rests, or swings slowly all along, gains next to nothing, or has gained some and loses it. Until then
+/// the time counts below zero. `by`: its sleep speed in a substep, the radius at which turning counts, the step's length.
+fn rested(time: f32, row: &Row, [base, gain]: [&[f32; 4]; 2], by: [f32; 3]) -> f32 {
+    let [change, extent, dt] = by;
+    let gained = [0, 1, 2].map(|k| row[k] - base[k] + gain[k]);
+    let dot = |a: &[f32], b: &[f32]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2] * (extent * extent);
+    let [along, size, speed] = [dot(&gained, row), dot(&gained, &gained), dot(row, row)];
+    let clear = along * along > CLEAR * size * speed;
+    match time {
+        _ if !is_held(gained, gain, [change / PATIENCE, extent]) => 0.0,
+        // What the guard of energy stops gains something and has nothing.
+        _ if time > 0.0 || speed == 0.0 || size * STEADY * STEADY <= change * change => {
+            time.abs() + dt
+        }
+        0.0 if clear && along < 0.0 => 0.0,
+        _ if clear && along < 0.0 => dt - time,
+        _ if clear || time < 0.0 => time - dt,
+        _ => 0.0,
     }
 }
 
 /// Is a body held against the forces on it, or is what they add to its speed in a substep no more than `most`?
-fn is_held(row: &Row, [base, gain]: [&[f32; 4]; 2], [most, extent]: [f32; 2]) -> bool {
-    let yields = |k: usize| (row[k] - base[k] + gain[k] - HELD * gain[k]) * gain[k];
+fn is_held(gained: [f32; 3], gain: &[f32; 4], [most, extent]: [f32; 2]) -> bool {
+    let yields = |k: usize| (gained[k] - HELD * gain[k]) * gain[k];
     yields(0) + yields(1) <= most * most && yields(2) * extent * extent <= most * most
 }

@@ -258,3 +258,73 @@ fn what_is_removed_wakes_nobody_that_it_did_not_touch() {
     steps(&mut world, 1);
     assert!(!world.body(near).unwrap().is_awake() && world.body(on_top).unwrap().is_awake());
 }
+
+/// A ball on a joint to a hook at the origin, let go at rest.
+fn hung(joint: JointDef, position: Vec2, damping: f32) -> (World, BodyId) {
+    let mut world = World::new((0.0, -10.0));
+    let hook = world.add_body(RigidBody::fixed()).unwrap();
+    let ball = RigidBody { linear_damping: damping, ..RigidBody::dynamic() };
+    let ball = world.add_body(ball.position(position).shape(circle(0.3)).mass(1.0)).unwrap();
+    world.add_joint(hook, ball, joint).unwrap();
+    (world, ball)
+}
+
+/// A long pendulum is slow for half a second at its turning points, and so is a soft spring.
+#[test]
+fn what_swings_slowly_does_not_freeze_where_it_turns() {
+    for (length, angle) in [(5.0, 0.012), (20.0, 0.02), (50.0, 0.006), (60.0, 0.02)] {
+        let at = Vec2::new(length * angle, -length);
+        let hinge = JointDef::revolute().anchors((0.0, 0.0), -at);
+        for joint in [JointDef::rope(length), JointDef::distance(length), hinge] {
+            let (mut world, ball) = hung(joint, at, 0.0);
+            steps(&mut world, 1800);
+            assert!(world.body(ball).unwrap().is_awake(), "{length} m: {:?}", joint.kind);
+            let (mut world, ball) = hung(joint, at, 0.3);
+            (0..7200).for_each(|_| {
+                if world.body(ball).unwrap().is_awake() {
+                    world.step(DT)
+                }
+            });
+            let ball = world.body(ball).unwrap();
+            assert!(!ball.is_awake(), "{length} m, damped: {:?}", joint.kind);
+            // With a speed of 0.05 m/s at the bottom, or an acceleration of a quarter of that a second.
+            let aside = (0.05 * (length / 10.0).sqrt()).max(0.00125 * length);
+            assert!(ball.position().x.abs() < 1.05 * aside, "{length} m: {}", ball.position().x);
+        }
+    }
+    for (hertz, off) in [(0.2_f32, 0.1), (0.3, 0.05), (0.5, 0.03)] {
+        let sag = 10.0 / (std::f32::consts::TAU * hertz).powi(2);
+        let spring = JointDef::prismatic((0.0, 1.0)).spring(hertz, 0.0);
+        let (mut world, ball) = hung(spring, Vec2::new(0.0, off - sag), 0.0);
+        steps(&mut world, 1800);
+        assert!(world.body(ball).unwrap().is_awake(), "{hertz} Hz");
+    }
+}
+
+/// A seesaw and a pulley that a few percent set going.
+#[test]
+fn what_is_a_little_out_of_balance_tips() {
+    for more in [1.01, 1.03] {
+        let mut world = World::new((0.0, -10.0));
+        let hook = world.add_body(RigidBody::fixed()).unwrap();
+        let mut add = |x: f32, shape: Shape, mass: f32| {
+            world
+                .add_body(RigidBody::dynamic().position(Vec2::new(x, 0.0)).shape(shape).mass(mass))
+                .unwrap()
+        };
+        let board = add(0.0, Shape::rect(2.0, 0.05).unwrap(), 1.0);
+        let (left, right) = (add(-2.0, circle(0.1), 10.0), add(2.0, circle(0.1), 10.0 * more));
+        let (up, down) = (add(7.0, circle(0.1), 10.0), add(9.0, circle(0.1), 10.0 * more));
+        let pins = [(hook, board, 0.0), (board, left, -2.0), (board, right, 2.0)];
+        for (a, b, x) in pins {
+            let pin = if x == 0.0 { JointDef::revolute() } else { JointDef::weld() };
+            world.add_joint(a, b, pin.anchor_at((x, 0.0))).unwrap();
+        }
+        let pulley = JointDef::pulley((7.0, 5.0), (9.0, 5.0), 10.0);
+        world.add_joint(up, down, pulley).unwrap();
+        steps(&mut world, 240);
+        let fallen = [board, down].map(|body| world.body(body).unwrap());
+        assert!(fallen[0].angle() < -0.05, "seesaw, {more}: {}", fallen[0].angle());
+        assert!(fallen[1].position().y < -0.2, "pulley, {more}: {}", fallen[1].position().y);
+    }
+}
