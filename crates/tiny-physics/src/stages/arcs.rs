@@ -16,7 +16,7 @@ use crate::geometry::Shape;
 use crate::geometry::manifold::{self, Manifold};
 use crate::math::{Transform, Vec2};
 use crate::simd::{BLOCK, Row};
-use crate::stages::effective_mass::{changes, inverses_along, lever, straight};
+use crate::stages::effective_mass::{changes, inverses_along, lever, nearness, straight};
 use crate::threads::Team;
 
 /// What finding contacts needs beyond the stores.
@@ -269,7 +269,8 @@ impl Course {
             };
             let arm = frame.apply(place.point);
             let arms = |axis: Vec2| [arm.cross(axis), (arm - self.between).cross(axis)];
-            let (along, across) = (arms(normal), arms(-normal.perp()));
+            let shift = 0.5 * nearness::<f32>((), self.rows.each_ref()) * place.separation;
+            let (along, across) = (arms(normal), arms(-normal.perp()).map(|arm| arm + shift));
             let turned = along[1] * self.turns[1] - along[0] * self.turns[0];
             point.separation[lane] = place.separation - normal.dot(self.motion) - turned;
             [point.normal_arm_a[lane], point.normal_arm_b[lane]] = along;

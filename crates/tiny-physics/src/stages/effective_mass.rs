@@ -14,6 +14,16 @@ pub(super) fn effective_mass<L: Lanes>(token: L::Token, arm: [L; 2], [mass, a, b
     L::select(k.gt(zero), L::splat(token, 1.0) / k, zero)
 }
 
+/// Where between the surfaces a contact acts, from the middle on towards A in halves of the way: the lighter a body, the nearer to
+/// its own, and on it if the other does not move. So a ball has its radius for an arm, however far it has sunk in or
+/// has still to go, and no torque is made of nothing between two that move.
+#[inline(always)]
+pub(super) fn nearness<L: Lanes>(token: L::Token, rows: [&[L; 8]; 2]) -> L {
+    let (a, b) = (rows[0][Slot::INV_MASS].abs(), rows[1][Slot::INV_MASS].abs());
+    let (all, zero) = (a + b, L::splat(token, 0.0));
+    L::select(all.gt(zero), (a - b) / all, zero)
+}
+
 /// A direction along which only what is locked could give way and so does not: x or y itself.
 #[inline(always)]
 pub(super) fn straight<L: Lanes>(token: L::Token, [x, y]: [L; 2], linear: L) -> [L; 2] {

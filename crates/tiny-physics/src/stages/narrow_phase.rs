@@ -6,7 +6,7 @@
 //! after the pass are simply run again.
 
 use super::ahead::{HARMLESS, HEAVIER, Predictions, SLIGHT};
-use super::effective_mass::{Inverses, straight};
+use super::effective_mass::{Inverses, nearness, straight};
 use super::middle::Lead;
 use super::narrow_context::Context;
 use super::passing::leave_out;
@@ -261,14 +261,15 @@ impl<L: Lanes> Geometry<L> {
         let reach = ahead.as_ref().map_or(limit, |ahead| ahead.way.max(limit));
         let shapes = [&block.shape_a[at..], &block.shape_b[at..]];
         let mut m = K::collide::<L>(token, context, shapes, &pair, reach);
-        let mut world = in_world(&m, frame_a, place_a);
+        let share = [L::splat(token, 0.5) * nearness(token, bodies), reach];
+        let mut world = in_world(&m, frame_a, place_a, share);
         lead.take_back(&mut world, between, K::POINTS);
         let gap = world.separation[0].min(world.separation[1]);
         let guarded = L::splat(token, 1.5);
         let guarded = L::bits(L::or(shape_a[7].gt(guarded), shape_b[7].gt(guarded)));
         if guarded != 0 {
             correct_lanes::<L>(token, context, block, at, guarded, &pair, &mut m);
-            world = in_world(&m, frame_a, place_a);
+            world = in_world(&m, frame_a, place_a, share);
             lead.take_back(&mut world, between, K::POINTS);
         }
         // The other point of what touches may come down within the step.
@@ -437,13 +438,24 @@ impl<L: Lanes> Ahead<L> {
     }
 }
 
-/// A manifold in the world's axes, from the centre of mass of A: out of a frame at a place.
+/// A manifold in the world's axes, from the centre of mass of A: out of a frame at a place. Its points, in the middle between the
+/// surfaces, are taken by a share of the way to them towards A.
 #[inline(always)]
-fn in_world<L: Lanes>(m: &LaneManifold<L>, frame: [L; 2], place: [L; 2]) -> LaneManifold<L> {
-    let [first, second] = [rotate(frame, m.points[0]), rotate(frame, m.points[1])];
-    let points =
-        [[first[0] + place[0], first[1] + place[1]], [second[0] + place[0], second[1] + place[1]]];
-    LaneManifold { normal: rotate(frame, m.normal), points, ..*m }
+fn in_world<L: Lanes>(
+    m: &LaneManifold<L>,
+    frame: [L; 2],
+    place: [L; 2],
+    [share, most]: [L; 2],
+) -> LaneManifold<L> {
+    let normal = rotate(frame, m.normal);
+    let mut points = m.points;
+    for (point, &separation) in points.iter_mut().zip(&m.separation) {
+        let (turned, way) = (rotate(frame, *point), share * separation.min(most));
+        for k in 0..2 {
+            point[k] = turned[k] + place[k] - normal[k] * way;
+        }
+    }
+    LaneManifold { normal, points, ..*m }
 }
 
 /// Looks again at the contacts with guarded shapes.
