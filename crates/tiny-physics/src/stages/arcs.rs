@@ -16,7 +16,7 @@ use crate::geometry::Shape;
 use crate::geometry::manifold::{self, Manifold};
 use crate::math::{Transform, Vec2};
 use crate::simd::{BLOCK, Row};
-use crate::stages::effective_mass::{changes, inverses_along, lever, nearness, straight};
+use crate::stages::effective_mass::{changes, draw_near, inverses_along, lever, straight};
 use crate::threads::Team;
 
 /// What finding contacts needs beyond the stores.
@@ -239,7 +239,9 @@ impl Course {
         let frame_b = Transform::new(self.between, turned_b).compose(b.central);
         let reach = if self.way > scope.reach { self.way } else { scope.reach };
         let b_in_a = frame_b.relative_to(frame_a);
-        (frame_a, manifold::collide(&a.shape, &b.shape, b_in_a, reach))
+        let mut found = manifold::collide(&a.shape, &b.shape, b_in_a, reach);
+        draw_near(&mut found, self.rows.each_ref(), scope.reach);
+        (frame_a, found)
     }
 
     /// Puts a manifold in the place of what the lane has; impulses go to the points of the same name.
@@ -269,8 +271,7 @@ impl Course {
             };
             let arm = frame.apply(place.point);
             let arms = |axis: Vec2| [arm.cross(axis), (arm - self.between).cross(axis)];
-            let shift = 0.5 * nearness::<f32>((), self.rows.each_ref()) * place.separation;
-            let (along, across) = (arms(normal), arms(-normal.perp()).map(|arm| arm + shift));
+            let (along, across) = (arms(normal), arms(-normal.perp()));
             let turned = along[1] * self.turns[1] - along[0] * self.turns[0];
             point.separation[lane] = place.separation - normal.dot(self.motion) - turned;
             [point.normal_arm_a[lane], point.normal_arm_b[lane]] = along;

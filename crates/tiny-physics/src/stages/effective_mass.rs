@@ -3,6 +3,7 @@
 use crate::dynamics::{
     Bodies, ConstraintBlock, Contact, Graph, LOCKED, Slot, inverse_mass_along, inverses, locked,
 };
+use crate::geometry::manifold::Manifold;
 use crate::math::Vec2;
 use crate::simd::{Lanes, Row};
 
@@ -14,14 +15,22 @@ pub(super) fn effective_mass<L: Lanes>(token: L::Token, arm: [L; 2], [mass, a, b
     L::select(k.gt(zero), L::splat(token, 1.0) / k, zero)
 }
 
-/// Where between the surfaces a contact acts, from the middle on towards A in halves of the way: the lighter a body, the nearer to
-/// its own, and on it if the other does not move. So a ball has its radius for an arm, however far it has sunk in or
-/// has still to go, and no torque is made of nothing between two that move.
+/// Where a contact acts, from the middle between the surfaces on towards A, as a part of the way between them: the lighter a body,
+/// the nearer to its own, and on it if the other does not move. So a ball has its radius for an arm, however far it has sunk
+/// in or has still to go, and between two that move no torque is made of nothing.
 #[inline(always)]
 pub(super) fn nearness<L: Lanes>(token: L::Token, rows: [&[L; 8]; 2]) -> L {
     let (a, b) = (rows[0][Slot::INV_MASS].abs(), rows[1][Slot::INV_MASS].abs());
     let (all, zero) = (a + b, L::splat(token, 0.0));
-    L::select(all.gt(zero), (a - b) / all, zero)
+    L::select(all.gt(zero), L::splat(token, 0.5) * (a - b) / all, zero)
+}
+
+/// Takes the points of a manifold there, those that are as deep as contacts reach no further.
+pub(super) fn draw_near(manifold: &mut Manifold, rows: [&Row; 2], reach: f32) {
+    let (share, normal) = (nearness::<f32>((), rows), manifold.normal);
+    for point in &mut manifold.points {
+        point.point -= normal * (share * point.separation.max(-reach));
+    }
 }
 
 /// A direction along which only what is locked could give way and so does not: x or y itself.

@@ -261,7 +261,7 @@ impl<L: Lanes> Geometry<L> {
         let reach = ahead.as_ref().map_or(limit, |ahead| ahead.way.max(limit));
         let shapes = [&block.shape_a[at..], &block.shape_b[at..]];
         let mut m = K::collide::<L>(token, context, shapes, &pair, reach);
-        let share = [L::splat(token, 0.5) * nearness(token, bodies), reach];
+        let share = [nearness(token, bodies), -limit, reach];
         let mut world = in_world(&m, frame_a, place_a, share);
         lead.take_back(&mut world, between, K::POINTS);
         let gap = world.separation[0].min(world.separation[1]);
@@ -445,12 +445,12 @@ fn in_world<L: Lanes>(
     m: &LaneManifold<L>,
     frame: [L; 2],
     place: [L; 2],
-    [share, most]: [L; 2],
+    [share, least, most]: [L; 3],
 ) -> LaneManifold<L> {
     let normal = rotate(frame, m.normal);
     let mut points = m.points;
     for (point, &separation) in points.iter_mut().zip(&m.separation) {
-        let (turned, way) = (rotate(frame, *point), share * separation.min(most));
+        let (turned, way) = (rotate(frame, *point), share * separation.clamp(least, most));
         for k in 0..2 {
             point[k] = turned[k] + place[k] - normal[k] * way;
         }

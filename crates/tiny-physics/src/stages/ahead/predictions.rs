@@ -16,6 +16,7 @@ use crate::geometry::{LINEAR_SLOP, ToiState, impact_within, pass_by};
 use crate::math::{Transform, Vec2};
 use crate::stages::ahead::{Found, SLIGHT, Ways};
 use crate::stages::boxes;
+use crate::stages::effective_mass::draw_near;
 use crate::stages::narrow_context::Context;
 use crate::stages::one_way;
 use crate::stages::surfaces::{self, LanePoints};
@@ -701,6 +702,9 @@ impl Look<'_> {
             surfaces::correct(context, surfaces::Pair { shape_a, shape_b, b_in_a }, &mut points);
             manifold = points.manifold(a.box_frame, reach);
         }
+        let rows =
+            [contact.body_a, contact.body_b].map(|body| &self.scene.bodies.rows[body as usize]);
+        draw_near(&mut manifold, rows, self.reach());
         (manifold.count > 0).then_some(manifold)
     }
 }
