@@ -240,7 +240,7 @@ impl Course {
         let reach = if self.way > scope.reach { self.way } else { scope.reach };
         let b_in_a = frame_b.relative_to(frame_a);
         let mut found = manifold::collide(&a.shape, &b.shape, b_in_a, reach);
-        draw_near(&mut found, self.rows.each_ref(), scope.reach);
+        draw_near(&mut found, bodies, self.bodies, scope.reach);
         (frame_a, found)
     }
 

@@ -26,7 +26,8 @@ pub(super) fn nearness<L: Lanes>(token: L::Token, rows: [&[L; 8]; 2]) -> L {
 }
 
 /// Takes the points of a manifold there, those that are as deep as contacts reach no further.
-pub(super) fn draw_near(manifold: &mut Manifold, rows: [&Row; 2], reach: f32) {
+pub(super) fn draw_near(manifold: &mut Manifold, bodies: &Bodies, both: [u32; 2], reach: f32) {
+    let rows = both.map(|body| &bodies.rows[body as usize]);
     let (share, normal) = (nearness::<f32>((), rows), manifold.normal);
     for point in &mut manifold.points {
         point.point -= normal * (share * point.separation.max(-reach));

@@ -702,9 +702,8 @@ impl Look<'_> {
             surfaces::correct(context, surfaces::Pair { shape_a, shape_b, b_in_a }, &mut points);
             manifold = points.manifold(a.box_frame, reach);
         }
-        let rows =
-            [contact.body_a, contact.body_b].map(|body| &self.scene.bodies.rows[body as usize]);
-        draw_near(&mut manifold, rows, self.reach());
+        let both = [contact.body_a, contact.body_b];
+        draw_near(&mut manifold, self.scene.bodies, both, self.reach());
         (manifold.count > 0).then_some(manifold)
     }
 }
