@@ -110,6 +110,8 @@ pub(crate) struct TreeLink {
     pub(crate) limit: f64,
     /// That row is the motor's, which pushes either way.
     pub(crate) driven: bool,
+    /// It stands still along that row: what holds there was not found.
+    pub(crate) stuck: bool,
     /// Its motor turns freely, not along the coordinate; the row along which it pushes.
     pub(crate) turns: bool,
     pub(crate) drive: TreeRow,
