@@ -690,9 +690,8 @@ impl Look<'_> {
     ) -> Option<Manifold> {
         let reach = self.reach() + meeting.longest_way();
         let mut manifold = meeting.manifold(frames, reach);
-        let context = &self.scene.narrow_phase;
         let (shape_a, shape_b) = (contact.shape_a, contact.shape_b);
-        let guards = &self.scene.shapes.guards;
+        let (context, guards) = (&self.scene.narrow_phase, &self.scene.shapes.guards);
         if guards[shape_a as usize] | guards[shape_b as usize] != 0 && manifold.count > 0 {
             let [a, b] = meeting.shapes;
             let [frame_a, frame_b] = frames;

@@ -120,7 +120,10 @@ fn units_that_are_powers_of_two_change_no_bit() {
     let worlds = parts.map(core::slice::from_ref).chain([&ALL[..]]);
     for parts in worlds {
         let metres = course(parts, 1.0, 600);
-        assert_eq!(metres.last().map(|frame| frame.1), Some(0), "{parts:?} stay awake");
+        // It may roll off the floor.
+        let most = usize::from(parts.contains(&Part::Shot));
+        let awake = metres.last().map(|frame| frame.1);
+        assert!(awake <= Some(most), "of {parts:?} {awake:?} stay awake");
         for unit in [1.0 / 128.0, 128.0] {
             let other = course(parts, unit, 600);
             let parted = metres.iter().zip(&other).position(|(a, b)| a != b);
