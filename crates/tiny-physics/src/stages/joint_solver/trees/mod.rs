@@ -407,6 +407,11 @@ fn share_errors(tree: &mut JointTree, rates: &Rates) {
     }
 }
 
+/// How far it is to the lower (1) or upper (-1) limit; below 0 beyond it.
+fn room(link: &TreeLink, axis: &TreeAxis, side: f64) -> f64 {
+    side * (link.value - axis.axis.ends[usize::from(side < 0.0)])
+}
+
 /// What is missing in the velocity at the lower (1) or upper (-1) limit; above 0 where it would be overrun.
 ///
 /// Within the substep a limit may be reached, but not passed. An overrun goes as it does in lanes, softly while it is
@@ -414,8 +419,7 @@ fn share_errors(tree: &mut JointTree, rates: &Rates) {
 #[inline(always)]
 fn overrun(link: &TreeLink, axis: &TreeAxis, velocity: f64, side: f64, rates: &Rates) -> f64 {
     let Stride { inv_h, snap, snap_turn, unit, .. } = rates.stride;
-    let end = axis.axis.ends[usize::from(side < 0.0)];
-    let (velocity, room) = (side * velocity, side * (link.value - end));
+    let (velocity, room) = (side * velocity, room(link, axis, side));
     if room > 0.0 {
         return -(velocity + room * inv_h);
     }
@@ -584,7 +588,7 @@ fn demand<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
         let link = &mut links[axis.link as usize];
         if link.limit != 0.0 {
             let row = if link.driven { &link.drive } else { &link.coordinate };
-            if link.stuck {
+            if link.stuck && (link.driven || room(link, axis, link.limit) > 0.0) {
                 link.rhs[link.rigid] = -link.limit * speed_along(row, link, nodes);
                 continue;
             }
