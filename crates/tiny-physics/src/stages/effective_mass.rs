@@ -15,14 +15,15 @@ pub(super) fn effective_mass<L: Lanes>(token: L::Token, arm: [L; 2], [mass, a, b
     L::select(k.gt(zero), L::splat(token, 1.0) / k, zero)
 }
 
-/// Where a contact acts, from the middle between the surfaces on towards A, as a part of the way between them: the lighter a body,
-/// the nearer to its own, and on it if the other does not move. So a ball has its radius for an arm, however far it has sunk
-/// in or has still to go, and between two that move no torque is made of nothing.
+/// Where a contact acts, from the middle between the surfaces on towards A, as a part of the way between them: on the surface of what
+/// moves where the other does not. So a ball has its radius for an arm, however far it has sunk in or has still to go; between
+/// two that move the middle makes no torque of nothing.
 #[inline(always)]
 pub(super) fn nearness<L: Lanes>(token: L::Token, rows: [&[L; 8]; 2]) -> L {
-    let (a, b) = (rows[0][Slot::INV_MASS].abs(), rows[1][Slot::INV_MASS].abs());
-    let (all, zero) = (a + b, L::splat(token, 0.0));
-    L::select(all.gt(zero), L::splat(token, 0.5) * (a - b) / all, zero)
+    let (half, zero) = (L::splat(token, 0.5), L::splat(token, 0.0));
+    let [a, b] = rows;
+    let to_b = L::select(a[Slot::INV_MASS].eq(zero), -half, zero);
+    L::select(b[Slot::INV_MASS].eq(zero), half, to_b)
 }
 
 /// Takes the points of a manifold there, those that are as deep as contacts reach no further.
