@@ -236,8 +236,8 @@ fn what_has_tumbled_into_place_sleeps_before_it_becomes_finer() {
         world
     };
     let (mut refined, mut awake) = (0, 0);
-    // A fifth in 600 of them; a few of 24 are finer for much of it.
-    for case in 0..24 {
+    // A fifth in 600 of them; a few of 48 are finer for much of it.
+    for case in 0..48 {
         let mut world = heap(case, true);
         for _ in 0..900 {
             world.step(DT);
