@@ -421,7 +421,10 @@ impl BodyMut<'_> {
                 self.apply_force_to_center(acceleration * mass)
             }
             ZoneForce::Attraction { center, acceleration } => {
-                let way = center.relative_to(body.center()).normalized();
+                // The force stays for all substeps: with that of the start alone orbits grow.
+                let late = 0.5 * dt * (1.0 - 1.0 / body.world().settings.substeps as f32);
+                let way = center.relative_to(body.center()) - body.velocity() * late;
+                let way = way.normalized();
                 self.apply_force_to_center(way * (acceleration * mass));
             }
             ZoneForce::Wind(wind) => self.apply_wind(&wind, dt),

@@ -155,6 +155,29 @@ fn zones_act_inside_alone() {
     assert!((world.body(inside).unwrap().velocity().y - 0.203).abs() < 0.01);
 }
 
+/// On a circle, whatever the substeps: with the direction of the step's start, which holds for all of them, it grew by 13 % in five turns.
+#[test]
+fn what_a_zone_attracts_stays_in_its_orbit() {
+    for substeps in [1, 2, 4, 8] {
+        let mut world = World::new(Vec2::ZERO);
+        world.settings.substeps = substeps;
+        let moon = add(&mut world, 5.0, 0.0, circle(0.2));
+        world.body_mut(moon).unwrap().set_velocity(Vec2::new(0.0, 5.0));
+        let zone = ForceZone {
+            shape: Shape::circle(20.0).unwrap(),
+            pose: at(0.0, 0.0).into(),
+            force: ZoneForce::Attraction { center: DVec2::ZERO, acceleration: 5.0 },
+            wakes: true,
+        };
+        for step in 0..1885 {
+            world.apply_zone(&zone, &QueryFilter::new(), DT);
+            world.step(DT);
+            let radius = world.body(moon).unwrap().position().length();
+            assert!((radius - 5.0).abs() < 0.05, "{substeps} substeps, step {step}: {radius}");
+        }
+    }
+}
+
 #[test]
 fn a_belt_brings_a_box_to_its_speed() {
     // The belt is shape A of the contact with a box or capsule, and B of that with a hexagon.
