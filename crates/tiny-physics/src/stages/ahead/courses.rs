@@ -30,6 +30,9 @@ pub(super) struct Course {
     pub(super) since: f32,
     /// Did only what no hit moves hit it, and nothing else drives it? Then it is known where it goes.
     pub(super) sure: bool,
+    /// Velocities before the hits of the last moment in which it was hit, and when that was, as a part of the step.
+    before: (Vec2, f32),
+    moment: f32,
 }
 
 /// The last leg of a body's way, since it was hit: the line on which it goes, as if from the start of the step.
@@ -121,7 +124,28 @@ impl Course {
             stopped: false,
             since: 0.0,
             sure: true,
+            before: (velocity, spin),
+            moment: 0.0,
         }
+    }
+
+    /// As before what hit it in the last moment.
+    pub(super) fn before(self) -> Self {
+        let (velocity, spin) = self.before;
+        Self { velocity, spin, ..self }
+    }
+
+    /// As before what hits it in a moment, `near` parts of the step long.
+    pub(super) fn at(self, moment: f32, near: f32) -> Self {
+        if (moment - self.moment).abs() < near {
+            return self.before();
+        }
+        Self { before: (self.velocity, self.spin), moment, ..self }
+    }
+
+    /// Has it keep the moment in which it was hit.
+    pub(super) fn hit_in(self, moment: &Self) -> Self {
+        Self { before: moment.before, moment: moment.moment, ..self }
     }
 
     /// How its velocities change by the second, as forces and impulses have done in the last substep. `inv_h` is 1 / its length.
