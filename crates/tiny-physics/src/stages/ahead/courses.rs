@@ -30,9 +30,9 @@ pub(super) struct Course {
     pub(super) since: f32,
     /// Did only what no hit moves hit it, and nothing else drives it? Then it is known where it goes.
     pub(super) sure: bool,
-    /// Velocities before the hits of the last moment in which it was hit, and when that was, as a part of the step.
-    before: (Vec2, f32),
+    /// The last moment in which it was hit, as a part of the step, and its velocities before all hits of that.
     moment: f32,
+    before: (Vec2, f32),
 }
 
 /// The last leg of a body's way, since it was hit: the line on which it goes, as if from the start of the step.
@@ -124,28 +124,22 @@ impl Course {
             stopped: false,
             since: 0.0,
             sure: true,
-            before: (velocity, spin),
             moment: 0.0,
+            before: (velocity, spin),
         }
     }
 
-    /// As before what hit it in the last moment.
+    /// As before what hit it in its last moment.
     pub(super) fn before(self) -> Self {
         let (velocity, spin) = self.before;
         Self { velocity, spin, ..self }
     }
 
-    /// As before what hits it in a moment, `near` parts of the step long.
+    /// About to be hit: in its last moment, or, if that is `near` parts of the step off, in a new one.
     pub(super) fn at(self, moment: f32, near: f32) -> Self {
-        if (moment - self.moment).abs() < near {
-            return self.before();
-        }
-        Self { before: (self.velocity, self.spin), moment, ..self }
-    }
-
-    /// Has it keep the moment in which it was hit.
-    pub(super) fn hit_in(self, moment: &Self) -> Self {
-        Self { before: moment.before, moment: moment.moment, ..self }
+        let before = (self.velocity, self.spin);
+        let is_same = (moment - self.moment).abs() < near;
+        if is_same { self } else { Self { before, moment, ..self } }
     }
 
     /// How its velocities change by the second, as forces and impulses have done in the last substep. `inv_h` is 1 / its length.
