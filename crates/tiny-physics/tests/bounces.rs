@@ -322,3 +322,57 @@ fn hits_that_rub_gain_no_energy() {
         assert!(most < 1.002 && end > 0.998, "member {member} without friction: {most}, {end}");
     }
 }
+
+/// Velocities after something flies along x into what is at rest, made in random order: the shape, place and speed of each.
+fn shot(random: &mut Random, all: &[(ShapeDef, Vec2, f32)]) -> Vec<Vec2> {
+    let mut world = World::new(Vec2::ZERO);
+    world.settings.substeps = 1 << random.below(4);
+    let dt = [1.0 / 30.0, DT, 1.0 / 120.0][random.below(3) as usize];
+    let mut order: Vec<usize> = (0..all.len()).collect();
+    order.sort_by_cached_key(|_| random.word());
+    let mut ids = vec![None; all.len()];
+    for k in order {
+        let (shape, place, speed) = all[k].clone();
+        let body = RigidBody::dynamic().position(place).velocity(Vec2::new(speed, 0.0));
+        ids[k] = world.add_body(body.shape(shape)).ok();
+    }
+    let (_, start, speed) = all[0];
+    for _ in 0..(-1.2 * start.x / (speed * dt)) as usize + 2 {
+        world.step(dt);
+    }
+    ids.into_iter().map(|id| world.body(id.expect("a body")).expect("a body").velocity()).collect()
+}
+
+/// What hits several things in one moment bounces off all of them together. Before, they were hit one after another where that was
+/// foreseen: a sixth of the disks shot at two like ones went aside, three quarters of the plates that hit three balls flat left the middle
+/// one behind.
+#[test]
+fn what_is_hit_at_once_bounces_together() {
+    let mut random = Random::new(7);
+    let material = |shape: Shape, e: f32| ShapeDef::new(shape).friction(0.0).restitution(e);
+    for member in 0..200 {
+        let (r, speed) = (random.range(0.3, 1.0), random.range(6.0, 20.0));
+        let ball = material(circle(r), random.range(0.2, 1.3).min(1.0));
+        let start = Vec2::new(-r * random.range(2.5, 6.0), 0.0);
+        let aside = Vec2::new(0.0, r * random.range(1.0, 1.5));
+        let first = (ball.clone().density(random.range(0.3, 3.0)), start, speed);
+        let all = [first, (ball.clone(), aside, 0.0), (ball, -aside, 0.0)];
+        let [first, a, b] = shot(&mut random, &all)[..] else { panic!("three bodies") };
+        let off = first.y.abs() + (a - Vec2::new(b.x, -b.y)).length();
+        assert!(off < 0.01 * speed, "disks {member}: {first:?}, {a:?} and {b:?}");
+    }
+    let mut uneven = Vec::new();
+    for member in 0..100 {
+        let (speed, e) = (random.range(4.0, 20.0), random.range(0.2, 1.3).min(1.0));
+        let plate = (material(rect(0.1, 1.2), e), Vec2::new(-random.range(1.0, 4.0), 0.0), speed);
+        let ball = |y: f32| (material(circle(0.3), e), Vec2::new(0.0, y), 0.0);
+        let got = shot(&mut random, &[plate, ball(-1.0), ball(0.0), ball(1.0)]);
+        let want = (1.0 + e) * speed * 0.48 / (0.48 + 3.0 * core::f32::consts::PI * 0.09);
+        let off = |ball: &Vec2| (*ball - Vec2::new(want, 0.0)).length() > 0.01 * speed;
+        if got[1..].iter().any(off) {
+            uneven.push((member, got, want));
+        }
+    }
+    // One that is hit just as a step ends may have to wait for the next.
+    assert!(uneven.len() <= 1, "{uneven:?}");
+}

@@ -30,6 +30,9 @@ pub(super) struct Course {
     pub(super) since: f32,
     /// Did only what no hit moves hit it, and nothing else drives it? Then it is known where it goes.
     pub(super) sure: bool,
+    /// The last moment in which it was hit, as a part of the step, and its velocities before all hits of that.
+    moment: f32,
+    before: (Vec2, f32),
 }
 
 /// The last leg of a body's way, since it was hit: the line on which it goes, as if from the start of the step.
@@ -121,7 +124,22 @@ impl Course {
             stopped: false,
             since: 0.0,
             sure: true,
+            moment: 0.0,
+            before: (velocity, spin),
         }
+    }
+
+    /// As before what hit it in its last moment.
+    pub(super) fn before(self) -> Self {
+        let (velocity, spin) = self.before;
+        Self { velocity, spin, ..self }
+    }
+
+    /// About to be hit: in its last moment, or, if that is `near` parts of the step off, in a new one.
+    pub(super) fn at(self, moment: f32, near: f32) -> Self {
+        let before = (self.velocity, self.spin);
+        let is_same = (moment - self.moment).abs() < near;
+        if is_same { self } else { Self { before, moment, ..self } }
     }
 
     /// How its velocities change by the second, as forces and impulses have done in the last substep. `inv_h` is 1 / its length.

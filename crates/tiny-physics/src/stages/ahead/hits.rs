@@ -80,6 +80,13 @@ impl Hit {
         (1.0 + at_end / (closing * dt)).max(0.0).min(self.fraction)
     }
 
+    /// These bodies at its moment: what hits them while they come `near` metres nearer does so at once.
+    pub(super) fn at_moment(&self, courses: &[Course; 2], near: f32, dt: f32) -> [Course; 2] {
+        let closing = -self.parting(&courses.map(Course::before)).into_iter().fold(0.0, f32::min);
+        let near = if closing > 0.0 { near / (closing * dt) } else { 0.0 };
+        courses.map(|course| course.at(self.fraction, near))
+    }
+
     /// How fast its points part, as these bodies move.
     pub(super) fn parting(&self, [a, b]: &[Course; 2]) -> [f32; 2] {
         self.arms.map(|arms| {

@@ -10,8 +10,9 @@
 //! What a hit stops or throws may meet others that it would not have met by its old motion: a crowd behind its first
 //! rank, a pile into which something is shot. So each hit hands on its impulse, as one hit alone would, and the
 //! contacts of bodies that this makes go elsewhere are looked at again, in rounds; a hit that others make come sooner
-//! pushes for longer. The contacts of hard hits are solved more often in the substeps. Where a dull hit on something fixed alone turned
-//! a body, its way is looked for leg by leg, and what it would have met without that waits for the next round.
+//! pushes for longer. Hits of one moment do not slow each other: they bounce together. The contacts of hard hits are solved more often in
+//! the substeps. Where a dull hit on something fixed alone turned a body, its way is looked for leg by leg, and what it would have met
+//! without that waits for the next round.
 //!
 //! What forces, motors and springs are about to set going counts as taken off its way, too (`driven`).
 

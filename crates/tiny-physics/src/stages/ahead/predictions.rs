@@ -36,6 +36,9 @@ const SHARE: usize = 32;
 const HARD: f32 = 0.2;
 /// Cosine of the angle by which the normal of what is near turns at most until it is hit: 11 degrees.
 const AS_NOW: f32 = 0.98;
+/// What hits a body within so little of its way does so at once, metres; multiplied by the length unit. Times of impact are known to
+/// half of it.
+const AT_ONCE: f32 = 0.001;
 /// What hits before it leave so much of its speed bounces as if they were not.
 const UNSLOWED: f32 = 0.75;
 
@@ -315,9 +318,13 @@ impl Predictions {
             // What bounces is reflected at the start of the substep.
             fraction = (fraction * scene.substeps).floor() / scene.substeps;
         }
+        let near = AT_ONCE * scene.narrow_phase.ground.length_unit;
+        let courses = hit.at_moment(&courses, near, scene.dt);
         let mut impact = Impact::new(scene.bodies, courses, (fraction, scene.dt));
         if let Some(prediction) = hit.prediction.filter(|_| self.of(hit.contact).is_none()) {
-            let parting = hit.parting(&impact.courses);
+            // Others of the same moment have not slowed it.
+            let [now, before] = [courses, courses.map(Course::before)].map(|of| hit.parting(&of));
+            let parting = [0, 1].map(|k| now[k].min(before[k]));
             self.contacts.push(hit.contact);
             self.list.push(Prediction { parting, ..prediction });
             self.places[hit.contact as usize] = self.list.len() as u32;
