@@ -491,10 +491,6 @@ fn surfaces_of_lanes(
         let i = guarded.trailing_zeros() as usize;
         guarded &= guarded - 1;
         let mut points = LanePoints { values: core::array::from_fn(|k| lanes[k][i]) };
-        let limit = context.speculative_distance;
-        if points.values[6] > limit && points.values[7] > limit {
-            continue;
-        }
         let (shape_a, shape_b) = (block.shape_a[at + i], block.shape_b[at + i]);
         if block.body_a[at + i] == block.body_b[at + i] {
             continue; // An empty lane.

@@ -19,7 +19,7 @@ use super::one_way;
 use super::pairs::may_collide;
 use crate::broad_phase::{BroadPhase, ProxyId, ProxyKind};
 use crate::describe::ChainLink;
-use crate::dynamics::{Bodies, Change, ShapeRecord, Shapes, guard};
+use crate::dynamics::{Bodies, Change, ShapeRecord, Shapes, Slot, guard};
 use crate::geometry::manifold::{
     Manifold, collide_face, face_of, nearest_vertex, point_gap, support_height,
 };
@@ -306,6 +306,19 @@ impl<'a> Seams<'a> {
         lowest < support_height(core, way) - REACH * self.ground.length_unit
     }
 
+    /// How the other shape moves against this one at a point, metres a second.
+    fn motion(&self, point: Vec2) -> Vec2 {
+        let Ground { bodies, shapes, .. } = self.ground;
+        let pose = self.own_pose();
+        let place = pose.apply(point);
+        let velocity = |shape: &ShapeRecord| {
+            let row = &bodies.rows[shape.body as usize];
+            let arm = place.relative_to(bodies.poses[shape.body as usize].p);
+            Vec2::new(row[Slot::VX], row[Slot::VY]) + arm.perp() * row[Slot::W]
+        };
+        pose.q.unrotate(velocity(&shapes.records[self.other as usize]) - velocity(self.record))
+    }
+
     fn kind(&self) -> Option<ProxyKind> {
         self.ground.broad_phase.kind(ProxyId(self.record.proxy))
     }
@@ -411,7 +424,37 @@ impl<'a> View<'a> {
         }
         let limit = context.speculative_distance;
         let manifold = collide_face(&seams.core, 0, [0.0; 2], seams.other_core(), limit);
-        if manifold.count == 0 { Verdict::Drop } else { Verdict::Replace(manifold) }
+        if manifold.count > 0 { Verdict::Replace(manifold) } else { self.ahead(0) }
+    }
+
+    /// The contact with one of the faces from one on, and in its plane beyond its end, where the other shape comes within the step from a
+    /// neighbour that stands higher than the plane. In a bowl it would sink into the next face else, and be lifted out of it for nothing.
+    fn ahead(&self, first: usize) -> Verdict {
+        let Self { seams, context, .. } = self;
+        let (core, other) = (&seams.core, seams.other_core());
+        for face in (first..core.edge_count()).filter(|&face| self.is_solid(face)) {
+            let ((start, end), normal) = (core.edge(face), core.normal(face));
+            let (along, low) = (normal.perp(), other.points[other.support(-normal)]);
+            let at = along.dot(low - start);
+            let beyond = [-at, at - along.dot(end - start)].map(|beyond| beyond.max(0.0));
+            let over = beyond[0] + beyond[1];
+            let (height, foot) = (normal.dot(low - start) - other.radius, start + along * at);
+            let comes = normal.dot(seams.motion(low)) * context.dt;
+            let is_behind = normal.dot(middle(other) - start) <= 0.0;
+            if over == 0.0 || is_behind || height + comes >= 0.0 {
+                continue;
+            }
+            let deep = LINK_TOLERANCE * (over + REACH * seams.ground.length_unit);
+            let mut is_covered = false;
+            seams.each_neighbour(&[foot], |core| is_covered |= point_gap(core, foot) < -deep);
+            let limit = context.speculative_distance;
+            let manifold =
+                collide_face(core, face, beyond.map(|beyond| 1.001 * beyond), other, limit);
+            if is_covered && manifold.count > 0 {
+                return Verdict::Replace(manifold);
+            }
+        }
+        Verdict::Drop
     }
 
     /// Is it a corner within the surface of a body that moves freely, before a face of the other over which that surface goes on?
@@ -478,7 +521,7 @@ impl<'a> View<'a> {
                     best = Some((face, height, manifold));
                 }
             }
-            let Some((face, _, manifold)) = best else { return Verdict::Drop };
+            let Some((face, _, manifold)) = best else { return self.ahead(0) };
             let points = [0, 1].map(|k| manifold.points().get(k).map(|p| p.point));
             if self.seams.guard & guard::face(face) == 0 || !self.seams.is_covered(face, points) {
                 return Verdict::Replace(manifold);
