@@ -4,6 +4,10 @@ use super::courses::Course;
 use crate::dynamics::ConstraintBlock;
 use crate::math::Vec2;
 
+/// What hits a body within so little of its way does so at once, metres; multiplied by the length unit. Times of impact are known to
+/// half of it.
+const AT_ONCE: f32 = 0.001;
+
 /// A contact as it will be at the time of impact, seen from the start of the step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Prediction {
@@ -80,11 +84,17 @@ impl Hit {
         (1.0 + at_end / (closing * dt)).max(0.0).min(self.fraction)
     }
 
-    /// These bodies at its moment: what hits them while they come `near` metres nearer does so at once.
-    pub(super) fn at_moment(&self, courses: &[Course; 2], near: f32, dt: f32) -> [Course; 2] {
+    /// These bodies at its moment.
+    pub(super) fn at_moment(&self, courses: &[Course; 2], unit: f32, dt: f32) -> [Course; 2] {
         let closing = -self.parting(&courses.map(Course::before)).into_iter().fold(0.0, f32::min);
-        let near = if closing > 0.0 { near / (closing * dt) } else { 0.0 };
+        let near = if closing > 0.0 { AT_ONCE * unit / (closing * dt) } else { 0.0 };
         courses.map(|course| course.at(self.fraction, near))
+    }
+
+    /// How fast its points part, if others of its moment have not slowed these bodies.
+    pub(super) fn unslowed(&self, courses: &[Course; 2]) -> [f32; 2] {
+        let [now, before] = [*courses, courses.map(Course::before)].map(|of| self.parting(&of));
+        [0, 1].map(|k| now[k].min(before[k]))
     }
 
     /// How fast its points part, as these bodies move.

@@ -64,6 +64,10 @@ impl<'a> Meeting<'a> {
         }
     }
 
+    pub(super) fn bodies(&self) -> [u32; 2] {
+        self.shapes.map(|shape| shape.body)
+    }
+
     /// Is one of the shapes one-way, and lets the other pass?
     pub(super) fn is_let_pass(&self) -> bool {
         let (turned, way) = (self.turned_way(), self.way());

@@ -36,9 +36,6 @@ const SHARE: usize = 32;
 const HARD: f32 = 0.2;
 /// Cosine of the angle by which the normal of what is near turns at most until it is hit: 11 degrees.
 const AS_NOW: f32 = 0.98;
-/// What hits a body within so little of its way does so at once, metres; multiplied by the length unit. Times of impact are known to
-/// half of it.
-const AT_ONCE: f32 = 0.001;
 /// What hits before it leave so much of its speed bounces as if they were not.
 const UNSLOWED: f32 = 0.75;
 
@@ -318,13 +315,10 @@ impl Predictions {
             // What bounces is reflected at the start of the substep.
             fraction = (fraction * scene.substeps).floor() / scene.substeps;
         }
-        let near = AT_ONCE * scene.narrow_phase.ground.length_unit;
-        let courses = hit.at_moment(&courses, near, scene.dt);
+        let courses = hit.at_moment(&courses, scene.narrow_phase.ground.length_unit, scene.dt);
         let mut impact = Impact::new(scene.bodies, courses, (fraction, scene.dt));
         if let Some(prediction) = hit.prediction.filter(|_| self.of(hit.contact).is_none()) {
-            // Others of the same moment have not slowed it.
-            let [now, before] = [courses, courses.map(Course::before)].map(|of| hit.parting(&of));
-            let parting = [0, 1].map(|k| now[k].min(before[k]));
+            let parting = hit.unslowed(&courses);
             self.contacts.push(hit.contact);
             self.list.push(Prediction { parting, ..prediction });
             self.places[hit.contact as usize] = self.list.len() as u32;
@@ -708,8 +702,7 @@ impl Look<'_> {
             surfaces::correct(context, surfaces::Pair { shape_a, shape_b, b_in_a }, &mut points);
             manifold = points.manifold(a.box_frame, reach);
         }
-        let both = [contact.body_a, contact.body_b];
-        draw_near(&mut manifold, self.scene.bodies, both, self.reach());
+        draw_near(&mut manifold, self.scene.bodies, meeting.bodies(), self.reach());
         (manifold.count > 0).then_some(manifold)
     }
 }
