@@ -9,7 +9,7 @@ use crate::describe::{JointDef, JointKind};
 use crate::dynamics::{Bodies, BodyInfo, JointRecord, Joints, Slot};
 use crate::math::Vec2;
 
-/// No island gives back more than this part of its energy: speeds that were cut are no matter of arms.
+/// No island gets more back than goes with this part of its energy: speeds that were cut are no matter of arms. What it has got it gives.
 const MOST: f64 = 0.01;
 
 /// What is known of an island, at the index of its root; places as seen from where the root was when the step began.
@@ -52,7 +52,10 @@ impl Whole {
         let inertia = self.inertia - square(moment) / mass;
         let energy = self.energy - square(momentum) / mass;
         let rate = (self.before - self.turning) / inertia;
-        let is_known = !self.held && self.bodies > 1 && rate * rate * inertia <= MOST * energy;
+        let spin = self.turning - (moment[0] * momentum[1] - moment[1] * momentum[0]) / mass;
+        let gives = rate * (2.0 * spin + rate * inertia) < 0.0;
+        let is_slight = rate * rate * inertia <= MOST * energy;
+        let is_known = !self.held && self.bodies > 1 && (gives || is_slight);
         is_known.then_some((rate as f32, moment.map(|sum| sum / mass)))
     }
 }
