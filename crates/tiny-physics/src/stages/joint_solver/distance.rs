@@ -51,7 +51,7 @@ impl JointKernel for DistanceBlock {
         Some(&self.axis)
     }
 
-    fn tie(&self, stride: &Stride<f64>, pair: &mut Pair<f64>, link: &mut TreeLink) {
+    fn tie(&self, stride: &Stride<f64>, pair: &Pair<f64>, link: &mut TreeLink) {
         let (length, row) = length_row(stride, pair);
         link.hold(&row, length - stride.load(&self.length.length));
         link.let_go(&row, length);

@@ -42,7 +42,7 @@ impl GearBlock {
 }
 
 impl JointKernel for GearBlock {
-    fn tie(&self, stride: &Stride<f64>, pair: &mut Pair<f64>, link: &mut TreeLink) {
+    fn tie(&self, stride: &Stride<f64>, pair: &Pair<f64>, link: &mut TreeLink) {
         let mesh = self.mesh(stride, pair);
         link.mesh(&mesh, self.error(stride, pair, &mesh));
     }

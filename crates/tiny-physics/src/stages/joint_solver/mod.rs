@@ -75,7 +75,7 @@ trait JointKernel: JointLanes {
         None
     }
     /// Writes the rows of a joint that a tree holds, whose impulses are the first, and the free coordinate.
-    fn tie(&self, _stride: &Stride<f64>, _pair: &mut Pair<f64>, _link: &mut TreeLink) {}
+    fn tie(&self, _stride: &Stride<f64>, _pair: &Pair<f64>, _link: &mut TreeLink) {}
     /// The direction along which their load is told, if that follows from no impulse.
     fn told(&mut self) -> Option<[&mut [f32; BLOCK]; 2]> {
         None

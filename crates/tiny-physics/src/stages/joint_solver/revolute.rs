@@ -27,8 +27,8 @@ impl JointKernel for RevoluteBlock {
         Some(&self.axis)
     }
 
-    fn tie(&self, stride: &Stride<f64>, pair: &mut Pair<f64>, link: &mut TreeLink) {
-        link.hold_point(stride, pair);
+    fn tie(&self, stride: &Stride<f64>, pair: &Pair<f64>, link: &mut TreeLink) {
+        link.hold_point(pair);
         link.let_go(&Row::ANGLE, pair.angle(stride, &self.angle));
     }
 

@@ -119,7 +119,7 @@ impl JointKernel for SliderBlock {
         (wheel.turns[lane] != 0.0).then_some(motor)
     }
 
-    fn tie(&self, stride: &Stride<f64>, pair: &mut Pair<f64>, link: &mut TreeLink) {
+    fn tie(&self, stride: &Stride<f64>, pair: &Pair<f64>, link: &mut TreeLink) {
         let Rows { along, across } = Rows::new(stride, pair, self);
         link.hold(&across, dot(pair.gap, across.direction));
         if self.wheel.turns[stride.at] == 0.0 {

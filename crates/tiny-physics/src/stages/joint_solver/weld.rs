@@ -17,8 +17,8 @@ use crate::math::{Pose, Vec2};
 use crate::simd::Lanes;
 
 impl JointKernel for WeldBlock {
-    fn tie(&self, stride: &Stride<f64>, pair: &mut Pair<f64>, link: &mut TreeLink) {
-        link.hold_point(stride, pair);
+    fn tie(&self, stride: &Stride<f64>, pair: &Pair<f64>, link: &mut TreeLink) {
+        link.hold_point(pair);
         link.hold(&Row::ANGLE, pair.angle(stride, &self.angle));
     }
 

@@ -46,8 +46,7 @@ impl TreeLink {
     }
 
     /// Holds the anchors together.
-    pub(in super::super) fn hold_point(&mut self, stride: &Stride<f64>, pair: &mut Pair<f64>) {
-        pair.meet(stride);
+    pub(in super::super) fn hold_point(&mut self, pair: &Pair<f64>) {
         let Pair { anchor_a: [ax, ay], anchor_b: [bx, by], gap, .. } = *pair;
         let row = |direction, arm_a, arm_b, reach| Row { direction, arm_a, arm_b, reach };
         self.hold(&row([1.0, 0.0], -ay, -by, [ax, bx]), gap[0]);
@@ -201,7 +200,7 @@ pub(super) fn refresh<S: Simd>(
         with_bucket!(lanes, link.class, bucket => {
             let block = &bucket.blocks[link.slot as usize / BLOCK];
             link.rigid = 0;
-            block.tie(&stride, &mut Pair::load(&stride, rows, &block.frame), link);
+            block.tie(&stride, &Pair::load(&stride, rows, &block.frame), link);
             // What slides would run away along its line.
             let slides = link.class == JointClass::Slider;
             yields = if slides { 0.0 } else { f64::from(block.frame.yields[stride.at]) };
