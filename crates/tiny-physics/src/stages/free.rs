@@ -5,10 +5,11 @@
 //! piece about its centre: so no two of its points part or come together by it.
 
 use super::islands::{Islands, Stores, touching};
-use crate::dynamics::{Bodies, BodyInfo, NULL, Slot};
+use crate::describe::{JointDef, JointKind};
+use crate::dynamics::{Bodies, BodyInfo, JointRecord, Joints, Slot};
 use crate::math::Vec2;
 
-/// No island gives back more than this part of its energy: speeds that were cut are no matter of arms.
+/// No island gets more back than goes with this part of its energy: speeds that were cut are no matter of arms. What it has got it gives.
 const MOST: f64 = 0.01;
 
 /// What is known of an island, at the index of its root; places as seen from where the root was when the step began.
@@ -51,7 +52,10 @@ impl Whole {
         let inertia = self.inertia - square(moment) / mass;
         let energy = self.energy - square(momentum) / mass;
         let rate = (self.before - self.turning) / inertia;
-        let is_known = !self.held && self.bodies > 1 && rate * rate * inertia <= MOST * energy;
+        let spin = self.turning - (moment[0] * momentum[1] - moment[1] * momentum[0]) / mass;
+        let gives = rate * (2.0 * spin + rate * inertia) < 0.0;
+        let is_slight = rate * rate * inertia <= MOST * energy;
+        let is_known = !self.held && self.bodies > 1 && (gives || is_slight);
         is_known.then_some((rate as f32, moment.map(|sum| sum / mass)))
     }
 }
@@ -90,7 +94,7 @@ impl FreeIslands {
         for &body in listed {
             let root = islands.root(body);
             let whole = &mut found[root as usize];
-            whole.held |= !is_left_alone(&bodies.infos[body as usize]);
+            whole.held |= !is_left_alone(bodies, joints, body);
             whole.add(bodies, body, place(bodies, body, root));
         }
         for (a, b) in touching(graph) {
@@ -132,12 +136,25 @@ impl FreeIslands {
     }
 }
 
-/// Does nothing act on a body, and may it go and turn as it is pushed?
-fn is_left_alone(info: &BodyInfo) -> bool {
-    let BodyInfo { locks, force, torque, linear_damping, angular_damping, .. } = info;
-    let pulled = *force != Vec2::ZERO || *torque != 0.0;
-    let damped = *linear_damping != 0.0 || *angular_damping != 0.0;
+/// Does nothing act on a body from outside, and may it go and turn as it is pushed?
+fn is_left_alone(bodies: &Bodies, joints: &Joints, body: u32) -> bool {
+    let info = &bodies.infos[body as usize];
+    let BodyInfo { locks, force, torque, linear_damping, angular_damping, .. } = *info;
+    let pulled = force != Vec2::ZERO || torque != 0.0;
+    let damped = linear_damping != 0.0 || angular_damping != 0.0;
     let locked = locks.x || locks.y || locks.rotation || info.never_turns;
-    let joined = info.first_joint != NULL;
-    !pulled && !damped && !locked && !joined
+    let keeps = |(joint, _): (u32, u32)| {
+        let JointRecord { ref def, body_a, body_b, .. } = joints.records[joint as usize];
+        [body_a, body_b].into_iter().all(|body| bodies.is_dynamic(body)) && pushes_in_one_point(def)
+    };
+    !pulled && !damped && !locked && joints.of_body(info.first_joint).all(keeps)
+}
+
+/// Does a joint act on both of its bodies along one line?
+fn pushes_in_one_point(def: &JointDef) -> bool {
+    use JointKind::{Distance, Prismatic, Revolute, Weld, Wheel};
+    matches!(
+        def.kind,
+        Distance { .. } | Prismatic { .. } | Revolute { .. } | Weld { .. } | Wheel { .. }
+    )
 }

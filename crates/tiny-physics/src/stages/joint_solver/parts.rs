@@ -402,6 +402,17 @@ impl<L: Lanes> Pair<L> {
         Self { token: stride.token, turn_a, anchor_a, anchor_b, gap, locked, a, b }
     }
 
+    /// Lets the anchors meet in one point between them, the nearer to each the lighter its body. Impulses on both bodies there keep their
+    /// angular momentum, however far the anchors are apart, and a gap that turns along with its bodies has no velocity.
+    #[inline(always)]
+    pub(super) fn meet(&mut self, stride: &Stride<L>) {
+        let [a, b] = [self.a[Slot::INV_MASS].abs(), self.b[Slot::INV_MASS].abs()];
+        let all = a + b;
+        let way = scale(self.gap, b / L::select(all.gt(stride.zero), all, stride.one));
+        self.anchor_a = add(self.anchor_a, way);
+        self.anchor_b = add(self.anchor_b, sub(way, self.gap));
+    }
+
     /// Writes the velocities back, except to bodies that nothing moves.
     #[inline(always)]
     pub(super) fn store(self, stride: &Stride<L>, rows: SharedRows<'_>, frame: &FrameLanes) {

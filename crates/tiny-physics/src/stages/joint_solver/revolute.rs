@@ -65,12 +65,14 @@ impl JointKernel for RevoluteBlock {
 
     #[inline(always)]
     fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
+        pair.meet(stride);
         let impulse = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         pair.apply_at_anchors(impulse, self.axis.total(stride));
     }
 
     #[inline(always)]
     fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
+        pair.meet(stride);
         let soft = Soft::<L, BIAS>::load(stride, &self.soft);
         let old = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         let held = soft.hold2(stride, pair.gap, stride.load(&self.frame.yields));

@@ -41,12 +41,14 @@ impl JointKernel for WeldBlock {
 
     #[inline(always)]
     fn warm_start<L: Lanes>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
+        pair.meet(stride);
         let impulse = stride.load2(&self.point.impulse_x, &self.point.impulse_y);
         pair.apply_at_anchors(impulse, stride.load(&self.twist.impulse));
     }
 
     #[inline(always)]
     fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
+        pair.meet(stride);
         let linear = Soft::<L, BIAS>::load(stride, &self.linear);
         let angular = Soft::<L, BIAS>::load(stride, &self.angular);
         let is_rigid = |soft: &SoftLanes| stride.load(&soft.rigid).abs();
