@@ -70,7 +70,7 @@ fn grows(random: &mut Random, hertz: f32, gravities: f32) -> (f32, f32) {
     };
     let ball = radius * random.range(0.05, 0.4);
     let mut world = ring.build(unit, [1, 2, 4, 8][random.below(4) as usize]);
-    world.gravity = world.gravity * gravities;
+    world.gravity *= gravities;
     let id = ring.add_ball(&mut world, ball, -random.range(0.3, 1.5), 0.0);
     let energy = |world: &World| {
         let body = world.body(id).expect("the ball");

@@ -510,7 +510,7 @@ fn a_soft_joint_is_a_spring_in_what_it_holds() {
                 let sag = 10.0 / (core::f32::consts::TAU * hertz).powi(2);
                 let root = (1.0 - ratio * ratio).sqrt();
                 let half = (0.5 * rate / (hertz * root)).round() as usize;
-                let down = |world: &World| -world.body(body).unwrap().position().y as f32 - 0.5;
+                let down = |world: &World| -world.body(body).unwrap().position().y - 0.5;
                 (0..half).for_each(|_| {
                     world.step(1.0 / rate);
                 });
