@@ -196,11 +196,11 @@ described! {
         pub angle_b: f32 = default,
         /// Do the joined bodies still collide with each other?
         pub collide_connected: bool = default,
-        /// Makes what the joint holds rigid, and its limits, springs of this frequency and damping ratio. With `None` that is as stiff as the
-        /// substeps bear: joints in trees are solved directly, others take 60 hertz between two dynamic bodies (at most a quarter of the
-        /// substep rate), else one and a half times the substep rate, damping ratio 2. A joint with a softness of its own is in no
-        /// tree, and acts as a stiff one of a quarter of the substep rate where it asks for more hertz than that, of one and a half times
-        /// that rate where one of its bodies does not move: stiffer ones shake.
+        /// Stiffness of what the joint holds rigid, and of its limits. With `None` that is as stiff as the substeps bear: joints in
+        /// trees are solved directly, others take 60 hertz between two dynamic bodies (at most a quarter of the substep rate),
+        /// else one and a half times the substep rate, damping ratio 2. A joint with a softness of its own is in no tree, and acts as one
+        /// of a quarter of the substep rate where it asks for more hertz, of one and a half times that rate where one of its bodies does
+        /// not move: stiffer ones shake.
         pub softness: Option<Spring> = default,
         /// Load at which it breaks.
         pub break_at: Option<Break> = default,

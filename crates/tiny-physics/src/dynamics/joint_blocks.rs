@@ -188,7 +188,7 @@ joint_lanes! {
         impulse_scale: f32 = 0.0,
         /// Part of the velocity that the relax pass takes away: all of it where the constraint is rigid.
         ease: f32 = 0.0,
-        /// 1 where the constraint is held, 0 where it is a spring, -1 where it is held as softly as the user asks, as by a spring.
+        /// Above 0 where the constraint is held: 1, or 2 as softly as the user asks; 0 where it is a spring.
         rigid: f32 = 0.0,
     }
 }

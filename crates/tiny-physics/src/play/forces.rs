@@ -422,7 +422,8 @@ impl BodyMut<'_> {
             }
             ZoneForce::Attraction { center, acceleration } => {
                 // The force stays for all substeps: with that of the start alone orbits grow.
-                let late = 0.5 * dt * (1.0 - 1.0 / body.world().settings.substeps as f32);
+                let substeps = body.world().settings.substeps.clamp(1, 1000) as f32;
+                let late = 0.5 * dt * (1.0 - 1.0 / substeps);
                 let way = center.relative_to(body.center()) - body.velocity() * late;
                 let way = way.normalized();
                 self.apply_force_to_center(way * (acceleration * mass));

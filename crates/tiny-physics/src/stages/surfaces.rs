@@ -424,15 +424,15 @@ impl<'a> View<'a> {
         }
         let limit = context.speculative_distance;
         let manifold = collide_face(&seams.core, 0, [0.0; 2], seams.other_core(), limit);
-        if manifold.count > 0 { Verdict::Replace(manifold) } else { self.ahead(0) }
+        if manifold.count > 0 { Verdict::Replace(manifold) } else { self.ahead() }
     }
 
-    /// The contact with one of the faces from one on, and in its plane beyond its end, where the other shape comes within the step from a
+    /// The contact with a face in its plane, beyond its end, where the other shape comes within the step from a
     /// neighbour that stands higher than the plane. In a bowl it would sink into the next face else, and be lifted out of it for nothing.
-    fn ahead(&self, first: usize) -> Verdict {
+    fn ahead(&self) -> Verdict {
         let Self { seams, context, .. } = self;
         let (core, other) = (&seams.core, seams.other_core());
-        for face in (first..core.edge_count()).filter(|&face| self.is_solid(face)) {
+        for face in (0..core.edge_count()).filter(|&face| self.is_solid(face)) {
             let ((start, end), normal) = (core.edge(face), core.normal(face));
             let (along, low) = (normal.perp(), other.points[other.support(-normal)]);
             let at = along.dot(low - start);
@@ -521,7 +521,7 @@ impl<'a> View<'a> {
                     best = Some((face, height, manifold));
                 }
             }
-            let Some((face, _, manifold)) = best else { return self.ahead(0) };
+            let Some((face, _, manifold)) = best else { return self.ahead() };
             let points = [0, 1].map(|k| manifold.points().get(k).map(|p| p.point));
             if self.seams.guard & guard::face(face) == 0 || !self.seams.is_covered(face, points) {
                 return Verdict::Replace(manifold);

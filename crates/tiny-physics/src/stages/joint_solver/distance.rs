@@ -65,8 +65,9 @@ impl JointKernel for DistanceBlock {
         let JointKind::Distance { length, spring, limits, motor } = def.kind else { return };
         let rod = spring.is_none() && limits.is_none() && motor.is_none();
         rates.write(def, None, &mut self.soft, lane);
+        self.soft.rigid[lane] = if rod { 1.0 } else { 0.0 };
         if !rod {
-            (self.soft.rigid[lane], self.rod.impulse[lane]) = (0.0, 0.0);
+            self.rod.impulse[lane] = 0.0;
         }
         self.length.length[lane] = length;
         AxisDef { spring, target: length, limits, motor }.write(&mut self.axis, lane, rates);
@@ -82,7 +83,7 @@ impl JointKernel for DistanceBlock {
         let rod = length - stride.load(&self.length.length);
         let limits = stride.load2(&self.axis.lower, &self.axis.upper);
         let rope = length - length.clamp(limits[0], limits[1]);
-        let rigid = stride.load(&self.soft.rigid).abs().gt(stride.zero);
+        let rigid = stride.load(&self.soft.rigid).gt(stride.zero);
         scale(direction, L::select(rigid, rod, rope))
     }
 
@@ -96,7 +97,7 @@ impl JointKernel for DistanceBlock {
     fn solve<L: Lanes, const BIAS: bool>(&mut self, stride: &Stride<L>, pair: &mut Pair<L>) {
         let (value, row) = length_row(stride, pair);
         let soft = Soft::<L, BIAS>::load(stride, &self.soft);
-        let rigid = stride.load(&self.soft.rigid).abs();
+        let rigid = stride.load(&self.soft.rigid);
         let inv_mass = pair.inv_mass_along(&row);
         let mut velocity = pair.velocity_along(&row);
         if BIAS {

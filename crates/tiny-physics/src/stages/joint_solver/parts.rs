@@ -310,7 +310,7 @@ impl<L: Lanes, const BIAS: bool> Soft<L, BIAS> {
     /// Overrun from which on limits are firm: never where the user has asked for a softness.
     #[inline(always)]
     pub(super) fn overrun(&self, stride: &Stride<L>, usual: L) -> L {
-        L::select(self.held.lt(stride.zero), stride.splat(f32::MAX), usual)
+        L::select(self.held.gt(stride.one), stride.splat(f32::MAX), usual)
     }
 
     /// The velocity that the constraint takes away. Errors are no matter of the relax pass.

@@ -18,7 +18,7 @@ const MAX_RATE_FRACTION: f32 = 0.25;
 /// What joints hold rigid to a body that does not move, as a fraction of the substep rate.
 const ANCHORED_RATE_FRACTION: f32 = 1.5;
 /// In [`SoftLanes::rigid`], what is held as softly as the user asks.
-const ASKED: f32 = -1.0;
+pub(super) const ASKED: f32 = 2.0;
 /// Damping ratios beyond act as this one: the rest is rounding.
 const MAX_DAMPING_RATIO: f32 = 1.0e4;
 
@@ -51,15 +51,11 @@ impl Rates {
         Self { h, rounds, rigid: softness(spring, h), stiffest, last: Cell::new(None) }
     }
 
-    /// Of what a joint holds rigid: with a softness of its own a spring, as long as the substeps are short enough for one.
+    /// Of what a joint holds rigid.
     pub(super) fn rigid(&self, def: &JointDef) -> Coefficients {
-        match def.softness {
-            None => self.rigid,
-            Some(asked) if asked.hertz * self.h <= MAX_RATE_FRACTION => self.spring(Some(asked)),
-            Some(asked) => {
-                softness(Spring { hertz: asked.hertz.min(self.stiffest), ..asked }, self.h)
-            }
-        }
+        def.softness.map_or(self.rigid, |spring| {
+            softness(Spring { hertz: spring.hertz.min(self.stiffest), ..spring }, self.h)
+        })
     }
 
     /// Of a spring; zeros for none.

@@ -51,7 +51,7 @@ impl JointKernel for WeldBlock {
         pair.meet(stride);
         let linear = Soft::<L, BIAS>::load(stride, &self.linear);
         let angular = Soft::<L, BIAS>::load(stride, &self.angular);
-        let is_rigid = |soft: &SoftLanes| stride.load(&soft.rigid).abs();
+        let is_rigid = |soft: &SoftLanes| stride.load(&soft.rigid).min(stride.one);
         let [rigid_point, rigid] = [is_rigid(&self.linear), is_rigid(&self.angular)];
         // A springy point of bodies that do not turn against each other: what it gives comes after what holds the angle.
         let upright = rigid * (stride.one - rigid_point);
