@@ -184,6 +184,9 @@ store! {
         /// Light bodies that heavy ones pressed at the end of the last step, with the inverse mass of those, see
         /// [`squeezed`](crate::stages::ahead).
         pub(crate) pressed: Vec<(u32, f32)>,
+        /// Light bodies that heavy ones lie on, with the inverse mass of those and the velocity of what bears it all, see
+        /// [`paces`](crate::stages::paces).
+        pub(crate) laden: Vec<((u32, f32), Vec2)>,
         generations: Generations,
     }
     load with Bodies::settle
@@ -207,6 +210,7 @@ impl Default for Bodies {
             count: 0,
             refined: 0,
             pressed: Vec::new(),
+            laden: Vec::new(),
             generations: Generations::default(),
         }
     }
@@ -268,6 +272,7 @@ impl Bodies {
         if let Ok(at) = self.pressed.binary_search_by_key(&index, |&(body, _)| body) {
             self.pressed.remove(at);
         }
+        self.laden.retain(|&((body, _), _)| body != index);
         self.swings[index as usize] = 0;
         self.infos[index as usize].sleep_time = 0.0;
     }

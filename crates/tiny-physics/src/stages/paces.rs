@@ -61,6 +61,10 @@ const OUT_OF_PLACE: f32 = 0.05;
 /// with beyond that holds something in that is squeezed; more stiffly, that would shoot out. Of 100 triples of U-shaped bodies put
 /// into each other 28 went off faster than 8 m/s, with this one.
 const MOST_CARRIED: f32 = 2.0;
+/// What bears something so many times its mass counts as half as heavy, see [`squeezed`](super::ahead).
+const LADEN: f32 = 50.0;
+/// What slides faster than this does not begin to, length units a second.
+const CREEPS: f32 = 0.005;
 /// Bodies that an island of the finest pace may have.
 const MOST_AT_FINEST: usize = 128;
 /// What all refined islands may cost together: bodies times additional refinement, for each body that one of
@@ -104,6 +108,10 @@ pub(crate) struct Memory {
     order: Vec<(f64, u32)>,
     /// What lies on each body, newtons.
     loads: Vec<f32>,
+    /// Mass of what lies on each, and inverse mass of the heaviest thing in that.
+    borne: Vec<[f32; 2]>,
+    /// How what bears each moves, if it is laden and nothing moves that.
+    grounds: Vec<Option<Vec2>>,
     below: Vec<u32>,
     changed: Vec<(u32, u8)>,
     /// With their paces, and what they carry.
@@ -116,6 +124,8 @@ crate::footprint::footprint!(Memory {
     found,
     order,
     loads,
+    borne,
+    grounds,
     below,
     changed,
     moved_contacts,
@@ -127,7 +137,8 @@ crate::footprint::footprint!(Memory {
 pub(crate) fn stir(bodies: &mut Bodies, pair: [u32; 2], length_unit: f32, h: f32) -> bool {
     let [a, b] = pair.map(|body| bodies.velocity(body));
     let speed = (b - a).length();
-    let mut urgent = false;
+    let stirred = pair.iter().any(|&body| bodies.infos[body as usize].stirred > 0.0);
+    let mut urgent = !stirred && is_uneven(bodies, pair);
     for body in pair.into_iter().filter(|_| speed > LIVELY * length_unit) {
         let info = &mut bodies.infos[body as usize];
         let struck = info.first_joint != NULL && speed * h > info.min_extent;
@@ -138,6 +149,17 @@ pub(crate) fn stir(bodies: &mut Bodies, pair: [u32; 2], length_unit: f32, h: f32
         }
     }
     urgent
+}
+
+/// Does a body count as half as heavy as what lies on it, as their inverse masses say?
+fn is_laden(light: f32, heavy: f32) -> bool {
+    light > LADEN * heavy && heavy > 0.0
+}
+
+/// May one of two bodies be laden with the other?
+fn is_uneven(bodies: &Bodies, pair: [u32; 2]) -> bool {
+    let [a, b] = pair.map(|body| bodies.inverse_masses(body).0);
+    is_laden(a.max(b), a.min(b))
 }
 
 /// Lists the awake bodies that are integrated at a pace: what is not dynamic is at the plain one and, where it may touch
@@ -177,6 +199,7 @@ pub(crate) fn assign(mut stores: Stores<'_>, rules: Rules, memory: &mut Memory) 
             changed.push((body, found[root].pace));
         }
     }
+    list_laden(&mut stores, rules, memory);
     change(&mut stores, rules, memory);
     stores.graph.mixed = false;
     stores.graph.news = 0;
@@ -191,7 +214,10 @@ fn is_due(stores: &Stores<'_>, rules: Rules) -> bool {
         || joint_graph.mixed
         || many
         || rules.step.is_multiple_of(INTERVAL)
-            && (news > 0 || bodies.any_refined() || is_any_strained(bodies, graph, rules))
+            && (news > 0
+                || bodies.any_refined()
+                || !bodies.laden.is_empty()
+                || is_any_strained(bodies, graph, rules))
 }
 
 /// Would a point between two moving bodies of the plain pace sink visibly?
@@ -245,6 +271,8 @@ struct Island {
     touches: bool,
     /// Do two of its bodies hold each other in?
     tangled: bool,
+    /// Does a body of it touch one that is so much lighter that this may be laden?
+    uneven: bool,
 }
 
 impl Island {
@@ -324,6 +352,7 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         }
         let island = &mut found[islands.root(body) as usize];
         island.hangs |= solved.contains(&false);
+        island.uneven |= is_uneven(bodies, [record.body_a, record.body_b]);
         island.joints += usize::from(solved == [true; 2] && !may_drive(&record.def));
         let [drives, holds] = forces(joint_graph, record, rules);
         island.weight += drives;
@@ -346,6 +375,7 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
             let speed = (bodies.velocity(b) - bodies.velocity(a)).length();
             island.lively |= speed > LIVELY * rules.length_unit;
             island.tangled |= is_tangled(bodies, bucket, slot);
+            island.uneven |= is_uneven(bodies, [a, b]);
             if speed < SETTLED * rules.length_unit {
                 let severity = rules.severity(bodies, [a, b]);
                 let most = rules.sink(bodies, [a, b], MOST_CARRIED * island.weight);
@@ -394,7 +424,7 @@ fn is_tangled(bodies: &Bodies, bucket: &Bucket, slot: usize) -> bool {
 /// nothing yet, is judged by what they are going to carry.
 fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
     let Stores { bodies, contacts, joints, .. } = stores;
-    let Memory { islands, found, order, loads, below, .. } = memory;
+    let Memory { islands, found, order, loads, borne, below, .. } = memory;
     let up = -rules.gravity.normalized();
     let height = |body: u32| {
         let p = bodies.poses[body as usize].p;
@@ -404,7 +434,7 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
     for &body in bodies.awake.iter().filter(|&&body| bodies.is_dynamic(body)) {
         let island = &found[islands.root(body) as usize];
         // A lively one stays at the plain pace whatever lies on what.
-        let matters = !island.lively || usize::from(island.pace) != PLAIN;
+        let matters = !island.lively || island.uneven || usize::from(island.pace) != PLAIN;
         if matters && (2..=rules.most_bodies).contains(&island.bodies) {
             order.push((height(body), body));
         }
@@ -412,6 +442,8 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
     order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     loads.resize(bodies.infos.len(), 0.0);
     bodies.awake.iter().for_each(|&body| loads[body as usize] = 0.0);
+    borne.resize(bodies.infos.len(), [0.0; 2]);
+    bodies.awake.iter().for_each(|&body| borne[body as usize] = [0.0, f32::INFINITY]);
     for &(top, body) in order.iter() {
         let info = &bodies.infos[body as usize];
         below.clear();
@@ -443,7 +475,59 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
             let island = &mut found[islands.root(body) as usize];
             island.strain = island.strain.max(rules.sink(bodies, [body, other], share));
         }
+        if found[islands.root(body) as usize].uneven {
+            // What hangs together with something lower lies on that.
+            let joined = |(index, _): (u32, u32)| joints.records[index as usize].other(body);
+            let lower = |&other: &u32| bodies.is_solved(other) && height(other) < top;
+            below.retain(|&other| bodies.is_solved(other));
+            if below.is_empty() {
+                below.extend(joints.of_body(info.first_joint).map(joined).filter(lower));
+            }
+            let [mass, heaviest] = borne[body as usize];
+            let share = (mass + info.mass) / below.len() as f32;
+            let heaviest = heaviest.min(bodies.inverse_masses(body).0);
+            for &other in below.iter() {
+                let [mass, least] = &mut borne[other as usize];
+                (*mass, *least) = (*mass + share, least.min(heaviest));
+            }
+        }
     }
+}
+
+/// Lists the light bodies that heavy ones lie on, on what nothing moves.
+fn list_laden(stores: &mut Stores<'_>, rules: Rules, memory: &mut Memory) {
+    let Stores { bodies, contacts, .. } = stores;
+    let Memory { order, borne, grounds, .. } = memory;
+    let level = rules.gravity.normalized().perp();
+    let before = core::mem::take(&mut bodies.laden);
+    grounds.clear();
+    grounds.resize(bodies.infos.len(), None);
+    for &(_, body) in order.iter().rev() {
+        let (info, [mass, heaviest]) = (&bodies.infos[body as usize], borne[body as usize]);
+        let by = heaviest.max(1.0 / mass);
+        if !is_laden(bodies.inverse_masses(body).0, by) {
+            continue;
+        }
+        let touching = contacts.of_body(info.first_contact).filter_map(|(index, _)| {
+            let contact = &contacts.records[index as usize];
+            contact.touching.then(|| contact.other(body))
+        });
+        let ground = |other: u32| {
+            let known = grounds[other as usize];
+            if bodies.is_dynamic(other) { known } else { Some(bodies.velocity(other)) }
+        };
+        let ground = touching.filter_map(ground).next();
+        grounds[body as usize] = ground;
+        // What slides would give as much of its speed as the heavy one has.
+        let begins = |ground: &Vec2| {
+            let slip = (bodies.velocity(body) - *ground).dot(level);
+            slip.abs() < CREEPS * rules.length_unit
+                || before.binary_search_by_key(&body, |&((laden, _), _)| laden).is_ok()
+        };
+        let ground = ground.filter(begins);
+        bodies.laden.extend(ground.map(|ground| ((body, by), ground)));
+    }
+    bodies.laden.sort_unstable_by_key(|&((body, _), _)| body);
 }
 
 /// Moves bodies to other paces, and what hangs on them.

@@ -12,7 +12,7 @@ use crate::math::Vec2;
 /// The first bytes of a frame.
 const MAGIC: [u8; 4] = *b"tpw1";
 /// Goes up whenever the bytes of the same world change.
-const VERSION: u32 = 21;
+const VERSION: u32 = 22;
 /// Magic, version, length, hash.
 const HEADER: usize = 4 + 4 + 8 + 8;
 

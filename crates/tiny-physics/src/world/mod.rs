@@ -456,12 +456,14 @@ impl World {
         let State { contacts, graph, .. } = &mut self.state;
         self.scratch.predictions.hold_back(contacts, graph);
         let predictions = &self.scratch.predictions;
-        if !(predictions.squeezed.pressed.is_empty() && self.state.bodies.pressed.is_empty()) {
+        let bodies = &self.state.bodies;
+        let kept = !(bodies.pressed.is_empty() && bodies.laden.is_empty());
+        if kept || !predictions.squeezed.pressed.is_empty() {
             let State { bodies, contacts, graph, .. } = &mut self.state;
             let predictions = &mut self.scratch.predictions;
-            let length_unit = self.settings.length_unit;
+            let lengths = (self.gravity, self.settings.length_unit);
             self.stats.squeezed_bodies =
-                predictions.weigh_squeezed(bodies, contacts, graph, length_unit);
+                predictions.weigh_squeezed(bodies, contacts, graph, lengths);
         }
     }
 

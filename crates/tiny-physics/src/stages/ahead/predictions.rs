@@ -455,11 +455,11 @@ impl Predictions {
         bodies: &mut Bodies,
         contacts: &Contacts,
         graph: &mut Graph,
-        length_unit: f32,
+        lengths: (Vec2, f32),
     ) -> usize {
         let mut squeezed = core::mem::take(&mut self.squeezed);
         let predicted = |contact| self.of(contact).map(|known| known.normal);
-        squeezed.weigh(bodies, contacts, graph, length_unit, &predicted);
+        squeezed.weigh(bodies, contacts, graph, lengths, &predicted);
         self.squeezed = squeezed;
         self.squeezed.weighed.len()
     }

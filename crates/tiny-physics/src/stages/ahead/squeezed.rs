@@ -22,6 +22,9 @@ pub(super) const COMING: f32 = 0.1;
 /// What an impulse of its contacts would move faster than this is pressed on, length units a second. At 0.1 heaps of mixed masses cost
 /// more and sleep later.
 const PRESSED: f32 = 0.4;
+/// What is laden counts as heavier while it is no faster than this across gravity and turning, length units a second: wheels and
+/// rollers that go keep their own inertia.
+const STANDS: f32 = 0.2;
 /// Bodies in a row at most.
 const LONGEST: usize = 16;
 /// Bodies that are looked at in search of rows at most, while none is found for what weighs the same. In 40 heaps of what weighs up to
@@ -120,7 +123,7 @@ impl Squeezed {
         bodies: &mut Bodies,
         contacts: &Contacts,
         graph: &mut Graph,
-        length_unit: f32,
+        (gravity, length_unit): (Vec2, f32),
         predicted: &dyn Fn(u32) -> Option<Vec2>,
     ) {
         let scene = Scene { bodies, contacts, graph, length_unit, predicted };
@@ -151,12 +154,22 @@ impl Squeezed {
             }
         }
         let mut pressed = core::mem::take(&mut bodies.pressed);
+        let level = gravity.normalized().perp();
+        let stands = |&&((body, _), ground): &&((u32, f32), Vec2)| {
+            let turn = bodies.angular_velocity(body) * bodies.infos[body as usize].max_extent;
+            let across = (bodies.velocity(body) - ground).dot(level);
+            across.abs() + turn.abs() < STANDS * length_unit
+        };
+        pressed.extend(bodies.laden.iter().filter(stands).map(|&(laden, _)| laden));
         for (body, by) in pressed.drain(..) {
             if bodies.is_solved(body)
                 && let Some(weighed) = weigh(body, by, bodies, contacts, graph)
             {
-                let lighter = bodies.infos[body as usize].mass
-                    * bodies.rows[body as usize][Slot::INV_MASS].abs();
+                let BodyInfo { mass, first_contact, .. } = bodies.infos[body as usize];
+                let impulse = |(index, _)| graph.impulse(&contacts.records[index as usize]) > 0.0;
+                let pushed = contacts.of_body(first_contact).any(impulse);
+                let own = mass * bodies.rows[body as usize][Slot::INV_MASS].abs();
+                let lighter = if pushed { own } else { 1.0 };
                 self.weighed.push(Weighed { lighter, ..weighed });
             }
         }
@@ -191,7 +204,8 @@ impl Squeezed {
             bodies.motions[body as usize].gain = [0.0; 4];
             let of_body = contacts.of_body(info.first_contact);
             let most = of_body.map(|(index, _)| graph.impulse(&contacts.records[index as usize]));
-            if most.fold(0.0, f32::max) > PRESSED * length_unit * info.mass {
+            let laden = bodies.laden.binary_search_by_key(&body, |&((laden, _), _)| laden).is_ok();
+            if !laden && most.fold(0.0, f32::max) > PRESSED * length_unit * info.mass {
                 bodies.pressed.push((body, by));
             }
         }
