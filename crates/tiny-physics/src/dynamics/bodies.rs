@@ -184,9 +184,9 @@ store! {
         /// Light bodies that heavy ones pressed at the end of the last step, with the inverse mass of those, see
         /// [`squeezed`](crate::stages::ahead).
         pub(crate) pressed: Vec<(u32, f32)>,
-        /// Light bodies that heavy ones lie on, with the inverse mass of those and the velocity of what bears it all, see
+        /// Light bodies that heavy ones lie on, with the inverse mass of those and what bears it all, see
         /// [`paces`](crate::stages::paces).
-        pub(crate) laden: Vec<((u32, f32), Vec2)>,
+        pub(crate) laden: Vec<((u32, f32), u32)>,
         generations: Generations,
     }
     load with Bodies::settle

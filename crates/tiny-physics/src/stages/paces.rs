@@ -108,10 +108,10 @@ pub(crate) struct Memory {
     order: Vec<(f64, u32)>,
     /// What lies on each body, newtons.
     loads: Vec<f32>,
-    /// Mass of what lies on each, and inverse mass of the heaviest thing in that.
-    borne: Vec<[f32; 2]>,
-    /// How what bears each moves, if it is laden and nothing moves that.
-    grounds: Vec<Option<Vec2>>,
+    /// Inverse mass of the heaviest of that.
+    heaviests: Vec<f32>,
+    /// What each stands on by laden bodies alone that nothing moves.
+    grounds: Vec<Option<u32>>,
     below: Vec<u32>,
     changed: Vec<(u32, u8)>,
     /// With their paces, and what they carry.
@@ -124,7 +124,7 @@ crate::footprint::footprint!(Memory {
     found,
     order,
     loads,
-    borne,
+    heaviests,
     grounds,
     below,
     changed,
@@ -424,7 +424,7 @@ fn is_tangled(bodies: &Bodies, bucket: &Bucket, slot: usize) -> bool {
 /// nothing yet, is judged by what they are going to carry.
 fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
     let Stores { bodies, contacts, joints, .. } = stores;
-    let Memory { islands, found, order, loads, borne, below, .. } = memory;
+    let Memory { islands, found, order, loads, heaviests, below, .. } = memory;
     let up = -rules.gravity.normalized();
     let height = |body: u32| {
         let p = bodies.poses[body as usize].p;
@@ -442,8 +442,8 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
     order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     loads.resize(bodies.infos.len(), 0.0);
     bodies.awake.iter().for_each(|&body| loads[body as usize] = 0.0);
-    borne.resize(bodies.infos.len(), [0.0; 2]);
-    bodies.awake.iter().for_each(|&body| borne[body as usize] = [0.0, f32::INFINITY]);
+    heaviests.resize(bodies.infos.len(), 0.0);
+    bodies.awake.iter().for_each(|&body| heaviests[body as usize] = f32::INFINITY);
     for &(top, body) in order.iter() {
         let info = &bodies.infos[body as usize];
         below.clear();
@@ -466,30 +466,23 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         if below.is_empty() && !joints.of_body(info.first_joint).any(is_pin) {
             found[islands.root(body) as usize].hung += load;
         }
+        // Where something may be laden, what hangs together with something lower lies on that.
+        let hangs = below.is_empty() && found[islands.root(body) as usize].uneven;
+        if hangs {
+            let joined = joints.of_body(info.first_joint);
+            below.extend(joined.map(|(index, _)| joints.records[index as usize].other(body)));
+            below.retain(|&other| bodies.is_solved(other) && height(other) < top);
+        }
         let share = load / below.len().max(1) as f32;
+        let heaviest = heaviests[body as usize].min(bodies.inverse_masses(body).0);
         for &other in below.iter().filter(|&&other| bodies.is_solved(other)) {
             loads[other as usize] += share;
-            if is_calm(bodies, body) && is_calm(bodies, other) {
+            heaviests[other as usize] = heaviests[other as usize].min(heaviest);
+            if hangs || is_calm(bodies, body) && is_calm(bodies, other) {
                 continue;
             }
             let island = &mut found[islands.root(body) as usize];
             island.strain = island.strain.max(rules.sink(bodies, [body, other], share));
-        }
-        if found[islands.root(body) as usize].uneven {
-            // What hangs together with something lower lies on that.
-            let joined = |(index, _): (u32, u32)| joints.records[index as usize].other(body);
-            let lower = |&other: &u32| bodies.is_solved(other) && height(other) < top;
-            below.retain(|&other| bodies.is_solved(other));
-            if below.is_empty() {
-                below.extend(joints.of_body(info.first_joint).map(joined).filter(lower));
-            }
-            let [mass, heaviest] = borne[body as usize];
-            let share = (mass + info.mass) / below.len() as f32;
-            let heaviest = heaviest.min(bodies.inverse_masses(body).0);
-            for &other in below.iter() {
-                let [mass, least] = &mut borne[other as usize];
-                (*mass, *least) = (*mass + share, least.min(heaviest));
-            }
         }
     }
 }
@@ -497,35 +490,32 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
 /// Lists the light bodies that heavy ones lie on, on what nothing moves.
 fn list_laden(stores: &mut Stores<'_>, rules: Rules, memory: &mut Memory) {
     let Stores { bodies, contacts, .. } = stores;
-    let Memory { order, borne, grounds, .. } = memory;
+    let Memory { order, loads, heaviests, grounds, .. } = memory;
     let level = rules.gravity.normalized().perp();
     let before = core::mem::take(&mut bodies.laden);
     grounds.clear();
     grounds.resize(bodies.infos.len(), None);
     for &(_, body) in order.iter().rev() {
-        let (info, [mass, heaviest]) = (&bodies.infos[body as usize], borne[body as usize]);
-        let by = heaviest.max(1.0 / mass);
+        let by = heaviests[body as usize].max(rules.gravity.length() / loads[body as usize]);
         if !is_laden(bodies.inverse_masses(body).0, by) {
             continue;
         }
-        let touching = contacts.of_body(info.first_contact).filter_map(|(index, _)| {
+        let first = bodies.infos[body as usize].first_contact;
+        let ground = contacts.of_body(first).find_map(|(index, _)| {
             let contact = &contacts.records[index as usize];
-            contact.touching.then(|| contact.other(body))
+            let other = contact.other(body);
+            let known =
+                if bodies.is_dynamic(other) { grounds[other as usize] } else { Some(other) };
+            known.filter(|_| contact.touching)
         });
-        let ground = |other: u32| {
-            let known = grounds[other as usize];
-            if bodies.is_dynamic(other) { known } else { Some(bodies.velocity(other)) }
-        };
-        let ground = touching.filter_map(ground).next();
         grounds[body as usize] = ground;
         // What slides would give as much of its speed as the heavy one has.
-        let begins = |ground: &Vec2| {
-            let slip = (bodies.velocity(body) - *ground).dot(level);
+        let begins = |&ground: &u32| {
+            let slip = (bodies.velocity(body) - bodies.velocity(ground)).dot(level);
             slip.abs() < CREEPS * rules.length_unit
                 || before.binary_search_by_key(&body, |&((laden, _), _)| laden).is_ok()
         };
-        let ground = ground.filter(begins);
-        bodies.laden.extend(ground.map(|ground| ((body, by), ground)));
+        bodies.laden.extend(ground.filter(begins).map(|ground| ((body, by), ground)));
     }
     bodies.laden.sort_unstable_by_key(|&((body, _), _)| body);
 }

@@ -92,6 +92,11 @@ impl World {
         ensure(bodies.pressed.iter().all(is_light), "what is pressed is nothing")?;
         let in_order = bodies.pressed.is_sorted_by(|a, b| a.0 < b.0);
         ensure(in_order, "what is pressed is not in order")?;
+        let is_laden =
+            |(light, ground): &((u32, f32), u32)| is_light(light) && (*ground as usize) < count;
+        ensure(bodies.laden.iter().all(is_laden), "what is laden is nothing")?;
+        let in_order = bodies.laden.is_sorted_by(|(a, _), (b, _)| a.0 < b.0);
+        ensure(in_order, "what is laden is not in order")?;
         let mut follows = vec![false; count];
         for (index, (info, pose)) in bodies.infos.iter().zip(&bodies.poses).enumerate() {
             let moves = info.alive && info.enabled && info.kind != BodyKind::Static;

@@ -154,23 +154,23 @@ impl Squeezed {
             }
         }
         let mut pressed = core::mem::take(&mut bodies.pressed);
-        let level = gravity.normalized().perp();
-        let stands = |&&((body, _), ground): &&((u32, f32), Vec2)| {
+        let (kept, level) = (pressed.len(), gravity.normalized().perp());
+        let stands = |&&((body, _), ground): &&((u32, f32), u32)| {
             let turn = bodies.angular_velocity(body) * bodies.infos[body as usize].max_extent;
-            let across = (bodies.velocity(body) - ground).dot(level);
+            let across = (bodies.velocity(body) - bodies.velocity(ground)).dot(level);
             across.abs() + turn.abs() < STANDS * length_unit
         };
         pressed.extend(bodies.laden.iter().filter(stands).map(|&(laden, _)| laden));
-        for (body, by) in pressed.drain(..) {
+        for (at, (body, by)) in pressed.drain(..).enumerate() {
             if bodies.is_solved(body)
                 && let Some(weighed) = weigh(body, by, bodies, contacts, graph)
             {
                 let BodyInfo { mass, first_contact, .. } = bodies.infos[body as usize];
-                let impulse = |(index, _)| graph.impulse(&contacts.records[index as usize]) > 0.0;
-                let pushed = contacts.of_body(first_contact).any(impulse);
+                let pushes = |(index, _)| graph.impulse(&contacts.records[index as usize]) > 0.0;
+                // What is laden and falls does so as the heavy one.
+                let falls = at >= kept && !contacts.of_body(first_contact).any(pushes);
                 let own = mass * bodies.rows[body as usize][Slot::INV_MASS].abs();
-                let lighter = if pushed { own } else { 1.0 };
-                self.weighed.push(Weighed { lighter, ..weighed });
+                self.weighed.push(Weighed { lighter: if falls { 1.0 } else { own }, ..weighed });
             }
         }
         bodies.pressed = pressed;
