@@ -1,4 +1,4 @@
-//! Light things under heavy ones: they rest, and what rolls goes as its own mass says.
+//! Light things under heavy ones: they rest, and what moves them meets their own mass.
 
 mod common;
 
@@ -67,5 +67,49 @@ fn a_slab_on_rollers_gets_going_as_light_rollers_let_it() {
         }
         let speed = world.body(slab).unwrap().velocity().x / size;
         assert!((0.8..1.02).contains(&speed), "unit {size}: {speed} m/s in a second");
+    }
+}
+
+/// A hammer of 20 kg meets a block of 1 kg under half a ton, not a quarter of that ton.
+#[test]
+fn a_block_under_a_heavy_load_is_as_light_to_who_strikes_it() {
+    let mut world = world(1.0);
+    let block = ShapeDef::new(Shape::rect(0.5, 0.25).unwrap()).friction(0.1);
+    for y in [0.25, 0.75] {
+        let at = Vec2::new(0.0, y);
+        world.add_body(RigidBody::dynamic().shape(block.clone()).mass(1.0).position(at)).unwrap();
+    }
+    let load = Shape::rect(0.5, 0.5).unwrap();
+    let at = Vec2::new(0.0, 1.5);
+    world.add_body(RigidBody::dynamic().shape(load).mass(500.0).position(at)).unwrap();
+    steps(&mut world, 60);
+    let hammer = Shape::rect(0.2, 0.1).unwrap();
+    let hammer = RigidBody::dynamic().shape(hammer).mass(20.0).position(Vec2::new(-0.75, 0.25));
+    let hammer = world.add_body(hammer).unwrap();
+    world.body_mut(hammer).unwrap().set_velocity(Vec2::new(10.0, 0.0));
+    steps(&mut world, 3);
+    let speed = world.body(hammer).unwrap().velocity().x;
+    assert!(speed > 5.0, "{speed} m/s");
+}
+
+/// What a heavy ball that rocks on it leaves goes off no faster than that moves.
+#[test]
+fn nothing_is_shot_out_from_under_what_rocks_on_it() {
+    let mut random = Random::new(5);
+    for case in 0..40 {
+        let mut world = world(1.0);
+        let crate_below = Shape::rect(0.4, 0.4).unwrap();
+        let at = Vec2::new(0.0, 0.4);
+        let light = RigidBody::dynamic().shape(crate_below).mass(1.0).position(at);
+        let light = world.add_body(light).unwrap();
+        let ball = Shape::circle(0.8).unwrap();
+        let at = Vec2::new(random.range(-0.8, 0.8), 1.7 + random.range(0.0, 2.0));
+        let mass = random.range(60.0, 500.0);
+        world.add_body(RigidBody::dynamic().shape(ball).mass(mass).position(at)).unwrap();
+        for _ in 0..180 {
+            world.step(DT);
+            let speed = world.body(light).unwrap().velocity().length();
+            assert!(speed < 5.0, "case {case}: {speed} m/s");
+        }
     }
 }

@@ -184,9 +184,9 @@ store! {
         /// Light bodies that heavy ones pressed at the end of the last step, with the inverse mass of those, see
         /// [`squeezed`](crate::stages::ahead).
         pub(crate) pressed: Vec<(u32, f32)>,
-        /// Light bodies that heavy ones lie on, with the inverse mass of those and what bears it all, see
+        /// Light bodies that heavy ones lie on, on static ground, with the inverse mass of those: see
         /// [`paces`](crate::stages::paces).
-        pub(crate) laden: Vec<((u32, f32), u32)>,
+        pub(crate) laden: Vec<(u32, f32)>,
         generations: Generations,
     }
     load with Bodies::settle
@@ -269,10 +269,11 @@ impl Bodies {
 
     /// The user moves a body: what was known of how it rests, rocks and is pressed on holds no longer.
     pub(crate) fn disturb(&mut self, index: u32) {
-        if let Ok(at) = self.pressed.binary_search_by_key(&index, |&(body, _)| body) {
-            self.pressed.remove(at);
+        for list in [&mut self.pressed, &mut self.laden] {
+            if let Ok(at) = list.binary_search_by_key(&index, |&(body, _)| body) {
+                list.remove(at);
+            }
         }
-        self.laden.retain(|&((body, _), _)| body != index);
         self.swings[index as usize] = 0;
         self.infos[index as usize].sleep_time = 0.0;
     }

@@ -14,8 +14,8 @@ use super::passivity::may_drive;
 use super::rests::{Compliance, Sink, is_calm};
 use crate::describe::{BodyKind, JointKind};
 use crate::dynamics::{
-    Bodies, Bucket, Graph, JOINTED, JointClass, JointGraph, JointRecord, NULL, PLAIN, Place,
-    PointLanes, REFINEMENT, ROUNDS, STRUCK, WATCHED, next_edge, pace_at,
+    Bodies, BodyInfo, Bucket, Contacts, Graph, JOINTED, JointClass, JointGraph, JointRecord, NULL,
+    PLAIN, Place, PointLanes, REFINEMENT, ROUNDS, STRUCK, WATCHED, next_edge, pace_at,
 };
 use crate::math::Vec2;
 use crate::simd::BLOCK;
@@ -63,8 +63,8 @@ const OUT_OF_PLACE: f32 = 0.05;
 const MOST_CARRIED: f32 = 2.0;
 /// What bears something so many times its mass counts as half as heavy, see [`squeezed`](super::ahead).
 const LADEN: f32 = 50.0;
-/// What slides faster than this does not begin to, length units a second.
-const CREEPS: f32 = 0.005;
+/// What has its least extent beyond this part of its greatest one is round: it rolls, as its own inertia says.
+const ROUND: f32 = 0.9;
 /// Bodies that an island of the finest pace may have.
 const MOST_AT_FINEST: usize = 128;
 /// What all refined islands may cost together: bodies times additional refinement, for each body that one of
@@ -110,8 +110,8 @@ pub(crate) struct Memory {
     loads: Vec<f32>,
     /// Inverse mass of the heaviest of that.
     heaviests: Vec<f32>,
-    /// What each stands on by laden bodies alone that nothing moves.
-    grounds: Vec<Option<u32>>,
+    /// Which of the laden ones stand on static ground, through others of them.
+    stands: Vec<bool>,
     below: Vec<u32>,
     changed: Vec<(u32, u8)>,
     /// With their paces, and what they carry.
@@ -125,7 +125,7 @@ crate::footprint::footprint!(Memory {
     order,
     loads,
     heaviests,
-    grounds,
+    stands,
     below,
     changed,
     moved_contacts,
@@ -487,37 +487,51 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
     }
 }
 
-/// Lists the light bodies that heavy ones lie on, on what nothing moves.
+/// Lists the light bodies that heavy ones lie on, on static ground.
 fn list_laden(stores: &mut Stores<'_>, rules: Rules, memory: &mut Memory) {
-    let Stores { bodies, contacts, .. } = stores;
-    let Memory { order, loads, heaviests, grounds, .. } = memory;
-    let level = rules.gravity.normalized().perp();
+    let Stores { bodies, contacts, joints, .. } = stores;
+    let Memory { order, loads, heaviests, stands, .. } = memory;
     let before = core::mem::take(&mut bodies.laden);
-    grounds.clear();
-    grounds.resize(bodies.infos.len(), None);
+    stands.clear();
+    stands.resize(bodies.infos.len(), false);
     for &(_, body) in order.iter().rev() {
         let by = heaviests[body as usize].max(rules.gravity.length() / loads[body as usize]);
         if !is_laden(bodies.inverse_masses(body).0, by) {
             continue;
         }
-        let first = bodies.infos[body as usize].first_contact;
-        let ground = contacts.of_body(first).find_map(|(index, _)| {
+        let BodyInfo { first_contact, first_joint, min_extent, max_extent, .. } =
+            bodies.infos[body as usize];
+        let bears = |(index, _): (u32, u32)| {
             let contact = &contacts.records[index as usize];
-            let other = contact.other(body);
-            let known =
-                if bodies.is_dynamic(other) { grounds[other as usize] } else { Some(other) };
-            known.filter(|_| contact.touching)
-        });
-        grounds[body as usize] = ground;
-        // What slides would give as much of its speed as the heavy one has.
-        let begins = |&ground: &u32| {
-            let slip = (bodies.velocity(body) - bodies.velocity(ground)).dot(level);
-            slip.abs() < CREEPS * rules.length_unit
-                || before.binary_search_by_key(&body, |&((laden, _), _)| laden).is_ok()
+            let other = contact.other(body) as usize;
+            let is_firm = stands[other] || bodies.infos[other].kind == BodyKind::Static;
+            contact.touching && is_firm
         };
-        bodies.laden.extend(ground.filter(begins).map(|ground| ((body, by), ground)));
+        let is_rigid = |(index, _): (u32, u32)| {
+            let def = &joints.records[index as usize].def;
+            let rigid = matches!(def.kind, JointKind::Weld { .. } | JointKind::Prismatic { .. });
+            rigid && !may_drive(def)
+        };
+        stands[body as usize] = min_extent < ROUND * max_extent
+            && contacts.of_body(first_contact).any(bears)
+            && joints.of_body(first_joint).all(is_rigid);
+        let is_known = || before.binary_search_by_key(&body, |&(laden, _)| laden).is_ok();
+        let begins = || is_still(bodies, contacts, body, SETTLED * rules.length_unit);
+        if stands[body as usize] && (is_known() || begins()) {
+            bodies.laden.push((body, by));
+        }
     }
-    bodies.laden.sort_unstable_by_key(|&((body, _), _)| body);
+    bodies.laden.sort_unstable_by_key(|&(body, _)| body);
+}
+
+/// Are a body and all near it slower than this, turning included?
+pub(crate) fn is_still(bodies: &Bodies, contacts: &Contacts, body: u32, most: f32) -> bool {
+    let is_slow = |body: u32| {
+        let turn = bodies.angular_velocity(body) * bodies.infos[body as usize].max_extent;
+        bodies.velocity(body).length() + turn.abs() < most
+    };
+    let mut near = contacts.of_body(bodies.infos[body as usize].first_contact);
+    is_slow(body) && near.all(|(index, _)| is_slow(contacts.records[index as usize].other(body)))
 }
 
 /// Moves bodies to other paces, and what hangs on them.

@@ -89,14 +89,10 @@ impl World {
             "bodies of finer paces are miscounted",
         )?;
         let is_light = |&(body, by): &(u32, f32)| (body as usize) < count && by > 0.0;
-        ensure(bodies.pressed.iter().all(is_light), "what is pressed is nothing")?;
-        let in_order = bodies.pressed.is_sorted_by(|a, b| a.0 < b.0);
-        ensure(in_order, "what is pressed is not in order")?;
-        let is_laden =
-            |(light, ground): &((u32, f32), u32)| is_light(light) && (*ground as usize) < count;
-        ensure(bodies.laden.iter().all(is_laden), "what is laden is nothing")?;
-        let in_order = bodies.laden.is_sorted_by(|(a, _), (b, _)| a.0 < b.0);
-        ensure(in_order, "what is laden is not in order")?;
+        for list in [&bodies.pressed, &bodies.laden] {
+            let in_order = list.is_sorted_by(|a, b| a.0 < b.0);
+            ensure(in_order && list.iter().all(is_light), "what is pressed or laden is nothing")?;
+        }
         let mut follows = vec![false; count];
         for (index, (info, pose)) in bodies.infos.iter().zip(&bodies.poses).enumerate() {
             let moves = info.alive && info.enabled && info.kind != BodyKind::Static;

@@ -461,9 +461,9 @@ impl World {
         if kept || !predictions.squeezed.pressed.is_empty() {
             let State { bodies, contacts, graph, .. } = &mut self.state;
             let predictions = &mut self.scratch.predictions;
-            let lengths = (self.gravity, self.settings.length_unit);
+            let length_unit = self.settings.length_unit;
             self.stats.squeezed_bodies =
-                predictions.weigh_squeezed(bodies, contacts, graph, lengths);
+                predictions.weigh_squeezed(bodies, contacts, graph, length_unit);
         }
     }
 

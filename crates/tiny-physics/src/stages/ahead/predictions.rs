@@ -455,11 +455,11 @@ impl Predictions {
         bodies: &mut Bodies,
         contacts: &Contacts,
         graph: &mut Graph,
-        lengths: (Vec2, f32),
+        length_unit: f32,
     ) -> usize {
         let mut squeezed = core::mem::take(&mut self.squeezed);
         let predicted = |contact| self.of(contact).map(|known| known.normal);
-        squeezed.weigh(bodies, contacts, graph, lengths, &predicted);
+        squeezed.weigh(bodies, contacts, graph, length_unit, &predicted);
         self.squeezed = squeezed;
         self.squeezed.weighed.len()
     }
