@@ -64,8 +64,8 @@ pub struct Stats {
     pub contacts_begun: usize,
     /// Contacts that were made before the shapes met, because they close in fast.
     pub predicted_contacts: usize,
-    /// Light bodies that heavy ones pressed against what nothing moves: in the last step they counted as half as heavy as
-    /// those, and so do the impulses of their contacts.
+    /// Light bodies that heavy ones pressed against what nothing moves, or lay on: in the last step they counted as half as heavy
+    /// as those, and so do the impulses of their contacts.
     pub squeezed_bodies: usize,
     /// Contacts that ended.
     pub contacts_ended: usize,
