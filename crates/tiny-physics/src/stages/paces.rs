@@ -14,8 +14,8 @@ use super::passivity::may_drive;
 use super::rests::{Compliance, Sink, is_calm};
 use crate::describe::{BodyKind, JointKind};
 use crate::dynamics::{
-    Bodies, BodyInfo, Bucket, Contacts, Graph, JOINTED, JointClass, JointGraph, JointRecord, NULL,
-    PLAIN, Place, PointLanes, REFINEMENT, ROUNDS, STRUCK, WATCHED, next_edge, pace_at,
+    Bodies, Bucket, Contacts, Graph, JOINTED, JointClass, JointGraph, JointRecord, NULL, PLAIN,
+    Place, PointLanes, REFINEMENT, ROUNDS, STRUCK, WATCHED, next_edge, pace_at,
 };
 use crate::math::Vec2;
 use crate::simd::BLOCK;
@@ -210,14 +210,12 @@ fn is_due(stores: &Stores<'_>, rules: Rules) -> bool {
     let Stores { bodies, graph, joint_graph, .. } = stores;
     let news = graph.news as usize;
     let many = news >= MANY_NEWS && news > graph.touching_count() / 4;
+    let kept = || bodies.any_refined() || !bodies.laden.is_empty();
     graph.mixed
         || joint_graph.mixed
         || many
         || rules.step.is_multiple_of(INTERVAL)
-            && (news > 0
-                || bodies.any_refined()
-                || !bodies.laden.is_empty()
-                || is_any_strained(bodies, graph, rules))
+            && (news > 0 || kept() || is_any_strained(bodies, graph, rules))
 }
 
 /// Would a point between two moving bodies of the plain pace sink visibly?
@@ -499,8 +497,7 @@ fn list_laden(stores: &mut Stores<'_>, rules: Rules, memory: &mut Memory) {
         if !is_laden(bodies.inverse_masses(body).0, by) {
             continue;
         }
-        let BodyInfo { first_contact, first_joint, min_extent, max_extent, .. } =
-            bodies.infos[body as usize];
+        let info = &bodies.infos[body as usize];
         let bears = |(index, _): (u32, u32)| {
             let contact = &contacts.records[index as usize];
             let other = contact.other(body) as usize;
@@ -512,9 +509,9 @@ fn list_laden(stores: &mut Stores<'_>, rules: Rules, memory: &mut Memory) {
             let rigid = matches!(def.kind, JointKind::Weld { .. } | JointKind::Prismatic { .. });
             rigid && !may_drive(def)
         };
-        stands[body as usize] = min_extent < ROUND * max_extent
-            && contacts.of_body(first_contact).any(bears)
-            && joints.of_body(first_joint).all(is_rigid);
+        stands[body as usize] = info.min_extent < ROUND * info.max_extent
+            && contacts.of_body(info.first_contact).any(bears)
+            && joints.of_body(info.first_joint).all(is_rigid);
         let is_known = || before.binary_search_by_key(&body, |&(laden, _)| laden).is_ok();
         let begins = || is_still(bodies, contacts, body, SETTLED * rules.length_unit);
         if stands[body as usize] && (is_known() || begins()) {

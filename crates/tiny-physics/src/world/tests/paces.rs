@@ -36,7 +36,8 @@ fn steps(world: &mut World, count: usize) {
     }
 }
 
-/// A light crate with one of 49 times its weight on it, with which it keeps its own mass, where all weighs twice as much: its pace after some steps, and how deep they overlap.
+/// A light crate with one of 49 times its weight on it, with which it keeps its own mass, where all weighs twice as much: its pace
+/// after some steps, and how deep they overlap.
 fn heavy_on_light(refine_up_to: u32, count: usize) -> (usize, f32) {
     let mut world = floored();
     world.settings.refine_up_to = refine_up_to;
