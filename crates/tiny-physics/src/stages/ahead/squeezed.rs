@@ -202,8 +202,6 @@ impl Squeezed {
             bodies.update_inverse_masses(body);
             let info = &mut bodies.infos[body as usize];
             info.gravity_scale = gravity_scale;
-            // It is held, however little its weight adds to its speed.
-            bodies.motions[body as usize].gain = [0.0; 4];
             let of_body = contacts.of_body(info.first_contact);
             let most = of_body.map(|(index, _)| graph.impulse(&contacts.records[index as usize]));
             let laden = bodies.laden.binary_search_by_key(&body, |&(laden, _)| laden).is_ok();
