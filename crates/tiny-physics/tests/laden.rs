@@ -37,7 +37,9 @@ fn crates_under_heavy_loads_come_to_rest() {
             crates.push((world.add_body(body).unwrap(), at * (1.0 / size)));
             top += 2.0 * half;
         }
-        steps(&mut world, 180);
+        // Every second one under steps that vary: held against what its own mass would sink, it swayed for ever.
+        let vary = if case % 2 == 0 { 1.0 } else { 1.25 };
+        (0..180).for_each(|_| world.step(DT * random.range(1.0 / vary, vary)));
         assert_eq!(world.awake_body_count(), 0, "case {case}");
         for (body, at) in crates {
             let [x, y] = place(&world, body, size);

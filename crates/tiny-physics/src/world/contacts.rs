@@ -455,7 +455,8 @@ impl World {
         Lengths { leaps, ..lengths.after(*coarse_h).0 }
     }
 
-    /// Lets what rests stay where it is as contacts become softer or firmer. After the narrow phase, which finds what that goes by anew.
+    /// Lets what rests stay where it is as contacts become softer or firmer. Once all have the masses that they are solved with:
+    /// by its own, what is laden sinks too far, is held against that, and sways for ever.
     pub(super) fn stay_at_rest(&mut self, lengths: Lengths) {
         let (lengths, coarse) = lengths.after(self.state.coarse_h);
         if core::mem::replace(&mut self.state.coarse_h, coarse) != coarse {

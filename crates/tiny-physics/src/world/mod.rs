@@ -206,10 +206,10 @@ impl World {
         self.update_pairs(team);
         watch.lap(&mut self.stats, Stage::Pairs);
         self.update_manifolds(team, lengths);
-        self.stay_at_rest(lengths);
         self.predict(team, lengths);
         watch.lap(&mut self.stats, Stage::NarrowPhase);
         self.update_touching(team, lengths);
+        self.stay_at_rest(lengths);
         self.call_pre_solve(team);
         watch.lap(&mut self.stats, Stage::Touching);
         self.solve(team, lengths);
