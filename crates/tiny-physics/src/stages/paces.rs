@@ -62,7 +62,7 @@ const OUT_OF_PLACE: f32 = 0.05;
 /// into each other 28 went off faster than 8 m/s, with this one.
 const MOST_CARRIED: f32 = 2.0;
 /// What bears something so many times its mass counts as half as heavy, see [`squeezed`](super::ahead).
-const LADEN: f32 = 50.0;
+const LADEN: f32 = 100.0;
 /// What has its least extent beyond this part of its greatest one is round: it rolls, as its own inertia says.
 const ROUND: f32 = 0.9;
 /// Bodies that an island of the finest pace may have.
@@ -350,7 +350,6 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         }
         let island = &mut found[islands.root(body) as usize];
         island.hangs |= solved.contains(&false);
-        island.uneven |= is_uneven(bodies, [record.body_a, record.body_b]);
         island.joints += usize::from(solved == [true; 2] && !may_drive(&record.def));
         let [drives, holds] = forces(joint_graph, record, rules);
         island.weight += drives;
@@ -464,19 +463,12 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         if below.is_empty() && !joints.of_body(info.first_joint).any(is_pin) {
             found[islands.root(body) as usize].hung += load;
         }
-        // Where something may be laden, what hangs together with something lower lies on that.
-        let hangs = below.is_empty() && found[islands.root(body) as usize].uneven;
-        if hangs {
-            let joined = joints.of_body(info.first_joint);
-            below.extend(joined.map(|(index, _)| joints.records[index as usize].other(body)));
-            below.retain(|&other| bodies.is_solved(other) && height(other) < top);
-        }
         let share = load / below.len().max(1) as f32;
         let heaviest = heaviests[body as usize].min(bodies.inverse_masses(body).0);
         for &other in below.iter().filter(|&&other| bodies.is_solved(other)) {
             loads[other as usize] += share;
             heaviests[other as usize] = heaviests[other as usize].min(heaviest);
-            if hangs || is_calm(bodies, body) && is_calm(bodies, other) {
+            if is_calm(bodies, body) && is_calm(bodies, other) {
                 continue;
             }
             let island = &mut found[islands.root(body) as usize];
@@ -487,7 +479,7 @@ fn foresee(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
 
 /// Lists the light bodies that heavy ones lie on, on static ground.
 fn list_laden(stores: &mut Stores<'_>, rules: Rules, memory: &mut Memory) {
-    let Stores { bodies, contacts, joints, .. } = stores;
+    let Stores { bodies, contacts, .. } = stores;
     let Memory { order, loads, heaviests, stands, .. } = memory;
     let before = core::mem::take(&mut bodies.laden);
     stands.clear();
@@ -504,14 +496,9 @@ fn list_laden(stores: &mut Stores<'_>, rules: Rules, memory: &mut Memory) {
             let is_firm = stands[other] || bodies.infos[other].kind == BodyKind::Static;
             contact.touching && is_firm
         };
-        let is_rigid = |(index, _): (u32, u32)| {
-            let def = &joints.records[index as usize].def;
-            let rigid = matches!(def.kind, JointKind::Weld { .. } | JointKind::Prismatic { .. });
-            rigid && !may_drive(def)
-        };
         stands[body as usize] = info.min_extent < ROUND * info.max_extent
-            && contacts.of_body(info.first_contact).any(bears)
-            && joints.of_body(info.first_joint).all(is_rigid);
+            && info.first_joint == NULL
+            && contacts.of_body(info.first_contact).any(bears);
         let is_known = || before.binary_search_by_key(&body, |&(laden, _)| laden).is_ok();
         let begins = || is_still(bodies, contacts, body, SETTLED * rules.length_unit);
         if stands[body as usize] && (is_known() || begins()) {

@@ -461,9 +461,8 @@ impl World {
         if kept || !predictions.squeezed.pressed.is_empty() {
             let State { bodies, contacts, graph, .. } = &mut self.state;
             let predictions = &mut self.scratch.predictions;
-            let length_unit = self.settings.length_unit;
-            self.stats.squeezed_bodies =
-                predictions.weigh_squeezed(bodies, contacts, graph, length_unit);
+            let scale = (self.settings.length_unit, -self.gravity.normalized());
+            self.stats.squeezed_bodies = predictions.weigh_squeezed(bodies, contacts, graph, scale);
         }
     }
 

@@ -455,11 +455,11 @@ impl Predictions {
         bodies: &mut Bodies,
         contacts: &Contacts,
         graph: &mut Graph,
-        length_unit: f32,
+        scale: (f32, Vec2),
     ) -> usize {
         let mut squeezed = core::mem::take(&mut self.squeezed);
         let predicted = |contact| self.of(contact).map(|known| known.normal);
-        squeezed.weigh(bodies, contacts, graph, length_unit, &predicted);
+        squeezed.weigh(bodies, contacts, graph, scale, &predicted);
         self.squeezed = squeezed;
         self.squeezed.weighed.len()
     }

@@ -29,6 +29,8 @@ pub(super) const COMING: f32 = 0.1;
 const PRESSED: f32 = 0.4;
 /// What is laden counts as heavier until it or anything near it is faster than this, length units a second.
 const STILL: f32 = 0.2;
+/// So it does while its contacts are aligned so well with gravity, as a cosine.
+const UPRIGHT: f32 = 0.99;
 /// Bodies in a row at most.
 const LONGEST: usize = 16;
 /// Bodies that are looked at in search of rows at most, while none is found for what weighs the same. In 40 heaps of what weighs up to
@@ -127,7 +129,7 @@ impl Squeezed {
         bodies: &mut Bodies,
         contacts: &Contacts,
         graph: &mut Graph,
-        length_unit: f32,
+        (length_unit, up): (f32, Vec2),
         predicted: &dyn Fn(u32) -> Option<Vec2>,
     ) {
         let scene = Scene { bodies, contacts, graph, length_unit, predicted };
@@ -161,6 +163,7 @@ impl Squeezed {
         laden.retain(|&(body, _)| {
             // What is hit may be pressed on after that.
             is_still(bodies, contacts, body, STILL * length_unit)
+                && is_upright(bodies, contacts, graph, body, up)
                 && self.weighed.iter().all(|weighed| weighed.body != body)
         });
         let mut pressed = core::mem::take(&mut bodies.pressed);
@@ -309,6 +312,15 @@ fn leans_on(
     contacts.of_body(bodies.infos[body as usize].first_contact).filter_map(move |(index, _)| {
         let contact = &contacts.records[index as usize];
         (graph.impulse(contact) > 0.0).then(|| contact.other(body))
+    })
+}
+
+/// Does all that touches a body do so from above or below? What is pushed aside has its own mass.
+fn is_upright(bodies: &Bodies, contacts: &Contacts, graph: &Graph, body: u32, up: Vec2) -> bool {
+    contacts.of_body(bodies.infos[body as usize].first_contact).all(|(index, _)| {
+        let contact = &contacts.records[index as usize];
+        !contact.touching
+            || graph.normal(contact).is_none_or(|normal| normal.dot(up).abs() > UPRIGHT)
     })
 }
 
