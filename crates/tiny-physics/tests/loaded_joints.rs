@@ -1,5 +1,8 @@
 //! Joints that bear something: what only touches them, motors against limits, gears, errors of those who made them.
 
+mod common;
+
+use common::Random;
 use tiny_physics::{
     BodyId, DVec2, Filter, JointDef, Polygon, RigidBody, Shape, ShapeDef, Vec2, World,
 };
@@ -451,6 +454,34 @@ fn nets_of_any_softness_come_to_rest() {
             (0..300).for_each(|_| world.step(1.0 / rate));
             let fastest = world.bodies().map(|body| body.velocity().length()).fold(0.0, f32::max);
             assert!(fastest < 0.05, "{hertz} Hz, ratio {ratio}, {rate}/{substeps}: {fastest} m/s");
+        }
+    }
+}
+
+/// Held by each as firmly as by one alone, 88 of 300 boxes on two rods that fit went off, at up to 100 m/s, and so did balls at rest.
+#[test]
+fn what_hangs_on_two_rods_or_three_keeps_its_energy() {
+    let mut random = Random::new(26);
+    for case in 0..60 {
+        let mut world = world();
+        let [x, y] = [0; 2].map(|_| random.range(0.05, 1.0));
+        let ceiling = world.add_body(RigidBody::fixed()).unwrap();
+        let body = RigidBody::dynamic().shape(rect(x, y)).velocity(Vec2::new(0.5, 0.0));
+        let body = world.add_body(body).unwrap();
+        for _ in 0..2 + case % 2 {
+            let at = Vec2::new(random.range(-x, x), y);
+            let up = at + Vec2::new(random.range(-0.5, 0.5), random.range(0.5, 4.0));
+            let rod = JointDef::distance((up - at).length()).anchors(up, at);
+            world.add_joint(ceiling, body, rod).unwrap();
+        }
+        let energy = |world: &World| {
+            let body = world.body(body).unwrap();
+            world.kinetic_energy() / f64::from(body.mass()) + 10.0 * f64::from(body.position().y)
+        };
+        let start = energy(&world);
+        for _ in 0..240 {
+            world.step(DT);
+            assert!(energy(&world) < start + 0.2, "case {case}: {} J/kg", energy(&world) - start);
         }
     }
 }

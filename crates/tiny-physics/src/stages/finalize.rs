@@ -113,6 +113,10 @@ const STEADY: f32 = 4.0;
 /// What a body gains counts as along its velocity or against it from this square of the cosine on: a rope trembles across.
 const CLEAR: f32 = 0.25;
 
+/// What has gained for so long, seconds, and is still slower than this part of its sleep speed, squared, trembles: where substeps are
+/// short, by more than [`STEADY`] allows for, and in the last of a step always the same way.
+const TREMBLES: (f32, f32) = (0.25, 1.0e-4);
+
 /// Bodies that one member of the team finalises at a time.
 const CHUNK: usize = 128;
 
@@ -238,7 +242,7 @@ fn time_rest(
     let limit = if info.kind == BodyKind::Dynamic { info.sleep_speed * length_unit } else { 0.0 };
     info.sleep_time = if info.can_sleep && fastest <= limit {
         let change = limit * h / REFINEMENT[usize::from(info.pace)] as f32;
-        rested(info.sleep_time, row, [base, gain], [change, extent, dt])
+        rested(info.sleep_time, row, [base, gain], [limit, change, extent, dt])
     } else {
         0.0
     };
@@ -246,13 +250,15 @@ fn time_rest(
 
 /// How long a slow body has rested after a step. What swings is slow where it turns: there it gains speed as it goes, after it has
 /// lost some. What rests, or swings slowly all along, gains next to nothing, or has gained some and loses it. Until then
-/// the time counts below zero. `by`: its sleep speed in a substep, the radius at which turning counts, the step's length.
-fn rested(time: f32, row: &Row, [base, gain]: [&[f32; 4]; 2], by: [f32; 3]) -> f32 {
-    let [change, extent, dt] = by;
+/// the time counts below zero. `by`: its sleep speed, that by the substep's length, the radius at which turning counts, the
+/// step's length.
+fn rested(time: f32, row: &Row, [base, gain]: [&[f32; 4]; 2], by: [f32; 4]) -> f32 {
+    let [limit, change, extent, dt] = by;
     let gained = [0, 1, 2].map(|k| row[k] - base[k] + gain[k]);
     let dot = |a: &[f32], b: &[f32]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2] * (extent * extent);
     let [along, size, speed] = [dot(&gained, row), dot(&gained, &gained), dot(row, row)];
     let clear = along * along > CLEAR * size * speed;
+    let slow = speed < limit * limit * TREMBLES.1;
     match time {
         _ if !is_held(gained, gain, [change / PATIENCE, extent]) => 0.0,
         // What the guard of energy stops gains something and has nothing.
@@ -260,8 +266,8 @@ fn rested(time: f32, row: &Row, [base, gain]: [&[f32; 4]; 2], by: [f32; 3]) -> f
             time.abs() + dt
         }
         0.0 if clear && along < 0.0 => 0.0,
-        _ if clear && along < 0.0 => dt - time,
-        _ if clear || time < 0.0 => time - dt,
+        _ if clear && along < 0.0 || slow && time < -TREMBLES.0 => dt - time,
+        _ if clear || time < 0.0 || slow => time - dt,
         _ => 0.0,
     }
 }

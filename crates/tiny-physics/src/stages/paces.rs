@@ -62,7 +62,7 @@ const OUT_OF_PLACE: f32 = 0.05;
 /// into each other 28 went off faster than 8 m/s, with this one.
 const MOST_CARRIED: f32 = 2.0;
 /// What bears something so many times its mass counts as half as heavy, see [`squeezed`](super::ahead).
-const LADEN: f32 = 100.0;
+const LADEN: f32 = 250.0;
 /// What has its least extent beyond this part of its greatest one is round: it rolls, as its own inertia says.
 const ROUND: f32 = 0.9;
 /// Bodies that an island of the finest pace may have.

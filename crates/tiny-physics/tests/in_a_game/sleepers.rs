@@ -301,6 +301,34 @@ fn what_swings_slowly_does_not_freeze_where_it_turns() {
     }
 }
 
+/// With short substeps, what lies on a seesaw at its stop trembled by micrometres a second, in the last of a step always the same way,
+/// and counted as gaining speed for ever.
+#[test]
+fn what_trembles_on_a_seesaw_at_its_stop_sleeps() {
+    let mut awake = 0;
+    for case in 0..24_u8 {
+        let mut world = World::new((0.0, -9.8));
+        world.settings.substeps = 8;
+        let at = |x: f32, y: f32| Vec2::new(3.0 * x, 3.0 * y);
+        let floor = Polygon::rect(120.0, 3.0).unwrap();
+        let floor = RigidBody::fixed().shape(floor).position((0.0, -3.0));
+        let floor = world.add_body(floor).unwrap();
+        let plank = Polygon::rect(9.0, 0.3).unwrap();
+        let plank = RigidBody::dynamic().shape(plank).position(at(0.0, 0.8));
+        let plank = world.add_body(plank).unwrap();
+        let hinge = JointDef::revolute().anchors((0.0, 5.4), (0.0, 0.0)).limits(-0.25, 0.25);
+        world.add_joint(floor, plank, hinge).unwrap();
+        let along = f32::from(case) / 24.0;
+        for (x, half) in [(-2.8 + 1.3 * along, 0.25), (1.4 - 1.1 * along, 0.4)] {
+            let body = RigidBody::dynamic().shape(square(3.0 * half));
+            world.add_body(body.position(at(x, 1.2 + half))).unwrap();
+        }
+        (0..1200).for_each(|_| world.step(1.0 / 120.0));
+        awake += usize::from(world.awake_body_count() > 0);
+    }
+    assert_eq!(awake, 0);
+}
+
 /// A seesaw and a pulley that a few percent set going.
 #[test]
 fn what_is_a_little_out_of_balance_tips() {

