@@ -319,8 +319,11 @@ fn what_trembles_on_a_seesaw_at_its_stop_sleeps() {
         let hinge = JointDef::revolute().anchors((0.0, 5.4), (0.0, 0.0)).limits(-0.25, 0.25);
         world.add_joint(floor, plank, hinge).unwrap();
         let along = f32::from(case) / 24.0;
-        for (x, half) in [(-2.8 + 1.3 * along, 0.25), (1.4 - 1.1 * along, 0.4)] {
-            let body = RigidBody::dynamic().shape(square(3.0 * half));
+        let other = if case % 2 == 0 { 0.4 } else { 0.25 };
+        for (x, half, density) in [(-2.3 + 0.2 * along, 0.4, 1.0), (0.3 + 0.6 * along, other, 2.0)]
+        {
+            let shape = ShapeDef::new(square(3.0 * half)).density(density);
+            let body = RigidBody::dynamic().shape(shape);
             world.add_body(body.position(at(x, 1.2 + half))).unwrap();
         }
         (0..1200).for_each(|_| world.step(1.0 / 120.0));
