@@ -12,6 +12,7 @@
 use super::islands::{Islands, Stores};
 use super::passivity::may_drive;
 use super::rests::{Compliance, Sink, is_calm};
+use super::rocking;
 use crate::describe::{BodyKind, JointKind};
 use crate::dynamics::{
     Bodies, Bucket, Contacts, Graph, JOINTED, JointClass, JointGraph, JointRecord, NULL, PLAIN,
@@ -210,12 +211,13 @@ fn is_due(stores: &Stores<'_>, rules: Rules) -> bool {
     let Stores { bodies, graph, joint_graph, .. } = stores;
     let news = graph.news as usize;
     let many = news >= MANY_NEWS && news > graph.touching_count() / 4;
+    let is_any_restless = || bodies.awake.iter().any(|&body| rocking::is_restless(bodies, body));
     let kept = || bodies.any_refined() || !bodies.laden.is_empty();
     graph.mixed
         || joint_graph.mixed
         || many
         || rules.step.is_multiple_of(INTERVAL)
-            && (news > 0 || kept() || is_any_strained(bodies, graph, rules))
+            && (news > 0 || kept() || is_any_restless() || is_any_strained(bodies, graph, rules))
 }
 
 /// Would a point between two moving bodies of the plain pace sink visibly?
@@ -269,6 +271,8 @@ struct Island {
     touches: bool,
     /// Do two of its bodies hold each other in?
     tangled: bool,
+    /// Does a body of it turn to and fro without a rest?
+    restless: bool,
     /// Does a body of it touch one that is so much lighter that this may be laden?
     uneven: bool,
 }
@@ -312,6 +316,11 @@ impl Island {
                 }
             }
         }
+        if self.restless && !self.stirred && self.bodies <= rules.most_bodies.min(*budget) {
+            *budget -= self.bodies;
+            self.pace = JOINTED as u8;
+            return;
+        }
         let most = |pace| if pace == JOINTED - 1 { MOST_AT_FINEST } else { usize::MAX };
         let cost = |pace: usize| self.bodies * (REFINEMENT[pace] as usize - 1);
         let allowed = (1..=wanted.max(self.slowest(rules)).unwrap_or(PLAIN)).rev().find(|&pace| {
@@ -341,6 +350,7 @@ fn survey(stores: &Stores<'_>, rules: Rules, memory: &mut Memory) {
         island.stirred |= info.stirred > 0.0;
         island.struck |= info.stirred > STIRRED_TIME;
         island.joined += usize::from(joints.act_on(info.first_joint));
+        island.restless |= rocking::is_restless(bodies, body);
     }
     for record in joints.tying() {
         let solved = [record.body_a, record.body_b].map(|body| bodies.is_solved(body));

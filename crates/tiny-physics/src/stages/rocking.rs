@@ -20,6 +20,11 @@ const FASTEST: f32 = 0.5;
 /// Nor what turns faster than this at its rim: a seesaw that is pushed goes on.
 const RIM: f32 = 2.0;
 
+/// Is it time to look? As often as for [`sway`], but not in even measure: what trembles to and fro every four steps would seem not to turn.
+pub(crate) fn is_due(step: u64) -> bool {
+    matches!(step % 8, 2 | 4)
+}
+
 /// Slows what turns against something that rocks.
 pub(crate) fn resist(
     bodies: &mut Bodies,
@@ -41,7 +46,7 @@ pub(crate) fn resist(
     for (_, bucket) in graph.touching_buckets() {
         for slot in (0..bucket.contacts.len()).filter(|&slot| bears(bucket, slot)) {
             let (a, b) = bucket.bodies(slot);
-            let rocks = |body: u32| bodies.swings[body as usize] > ENOUGH;
+            let rocks = |body: u32| is_restless(bodies, body);
             let free =
                 |body: u32| is_led(bodies, body) || rolls_freely(bodies, contacts, joints, body);
             if (rocks(a) || rocks(b)) && !free(a) && !free(b) {
@@ -49,6 +54,11 @@ pub(crate) fn resist(
             }
         }
     }
+}
+
+/// Has a body turned back so often without a rest?
+pub(crate) fn is_restless(bodies: &Bodies, body: u32) -> bool {
+    bodies.swings[body as usize] > ENOUGH
 }
 
 /// How often a body has turned back by now. The last bit is the direction.

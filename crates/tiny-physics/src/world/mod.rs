@@ -496,10 +496,12 @@ impl World {
 
     /// Now and then takes away what swings on something firm.
     fn calm_sway(&mut self, lengths: Lengths) {
-        if sway::is_due(self.state.step_count) {
-            let State { bodies, contacts, graph, joints, .. } = &mut self.state;
-            let scale = (lengths.dt, self.settings.length_unit);
+        let State { bodies, contacts, graph, joints, step_count, .. } = &mut self.state;
+        let scale = (lengths.dt, self.settings.length_unit);
+        if sway::is_due(*step_count) {
             sway::calm(bodies, graph, scale, &mut self.scratch.sway);
+        }
+        if rocking::is_due(*step_count) {
             rocking::resist(bodies, (contacts, joints), graph, scale);
         }
     }
