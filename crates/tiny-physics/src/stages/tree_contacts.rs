@@ -13,16 +13,15 @@
 //! contact with Jacobian c has the effective mass `1 / (c P c^T)`, the part of what is no tree's added, and its impulse
 //! dl changes velocities by `P c^T dl`: Gauss-Seidel on the true masses, which leaves the joints as they are.
 //!
-//! Trees with springs, or motors that run, keep their contacts in lanes: the elimination knows nothing of these, and a leg that
-//! they hold stiff would feel as if it hung loose. Brakes, motors without speed, may be overcome.
+//! Trees with motors that run keep their contacts in lanes: a leg that they hold stiff would feel as if it hung loose. Of springs the
+//! elimination knows nothing, but they are soft beside contacts, and what rests on the stops of its springs hangs on to these.
 //!
 //! These contacts are taken out of their lanes for the length of the substeps, and put back with their impulses.
 
 use super::contact_solver::{Constants, Parameters, Pass, normal_impulse};
 use super::islands::Stores;
 use super::joint_solver::trees;
-use super::passivity::may_drive;
-use crate::describe::JointDef;
+use crate::describe::{JointDef, Motor};
 use crate::dynamics::{Bucket, JointTree, Joints, NULL, Slot, flags, give_along, inverses};
 use crate::simd::{BLOCK, FourKernel, Lanes, Row, Simd, SimdLevel, dispatch_fours};
 
@@ -33,10 +32,9 @@ const CHUNK: usize = 8;
 /// A contact counts as no heavier than so many times its two bodies alone. Along a taut rope a tree hardly gives way; with the
 /// true mass there, old impulses on arms that have turned hurl it about. In 231 random worlds with joints the deepest overlaps
 /// add up to 6.0 m with 5, 6.2 with 2.5, joints' gaps to 3.8, 3.9, and 5.2 with 50 (trees with motors among them, which are
-/// left to the lanes since). In trees with brakes it is the two bodies alone, since the elimination knows nothing of them:
-/// 24 links over an edge with rubbing hinges and 1 kg swing on at 13 mm/s with 2.5, at 0.5 with 1. In lanes 5 to 30 kg went on jumping at
-/// 10 to 160 mm/s, and of 205 random worlds with brakes in their hinges bodies that pass were 72 in place of 23, gaps 2.7 m in place of 1.7.
-const HEAVIEST: f32 = 2.5;
+/// left to the lanes since). Of 120 cars of 10 to 300 times their wheels' mass that rest on the stops of their suspension 18 shake
+/// with 2.5, none with 5.
+const HEAVIEST: f32 = 5.0;
 
 /// Along x, along y, and about the middle.
 type Planar = [f32; 3];
@@ -71,8 +69,6 @@ struct OfTree {
     touched: u32,
     /// Velocities of the tree.
     span: Span,
-    /// It has brakes; see [`HEAVIEST`].
-    braked: bool,
 }
 
 /// A contact of a tree, by bucket in the graph's list and slot in it, and which of its bodies is the tree's.
@@ -171,7 +167,8 @@ impl TreeContacts {
             if !here || !stores.bodies.infos[tree.nodes[0].body as usize].awake {
                 continue;
             }
-            let drives = kinds(tree, stores.joints).any(may_drive);
+            let runs = |motor: Motor| motor.max > 0.0 && motor.speed != 0.0;
+            let drives = kinds(tree, stores.joints).any(|def| def.kind.motor().is_some_and(runs));
             let all_through_it = !drives && self.find(index as u32, tree, stores);
             stores.joint_graph.forest.trees[index].note_undisturbed(all_through_it);
         }
@@ -201,12 +198,10 @@ impl TreeContacts {
         }
         let answers = &mut self.answers[self.used];
         answers.begin(index, tree, self.velocities.len());
-        let runs = |def: &JointDef| def.kind.motor().is_some_and(|motor| motor.max > 0.0);
-        let braked = kinds(tree, stores.joints).any(runs);
         for (node, &body) in answers.bodies.iter().enumerate() {
             let touched = answers.touched.len() as u32;
             let (at, span) = (3 * node as u32, answers.span);
-            let of_tree = OfTree { answers: tree_answers, at, touched, span, braked };
+            let of_tree = OfTree { answers: tree_answers, at, touched, span };
             let before = self.found.len();
             let first_contact = stores.bodies.infos[body as usize].first_contact;
             for (contact, side) in stores.contacts.of_body(first_contact) {
@@ -382,12 +377,10 @@ impl Touch {
     /// Works out the answers to impulses, and the effective masses.
     fn weigh(&mut self, answers: &[Answers], responses: &mut Vec<f32>, rows: &[Row]) {
         let sides = self.sides;
-        let braked = sides.iter().any(|side| side.of_tree.is_some_and(|at| at.braked));
-        let heaviest = if braked { 1.0 } else { HEAVIEST };
         let points = self.points.iter_mut().filter(|point| point.there);
         for line in points.flat_map(|point| [&mut point.normal, &mut point.tangent]) {
             let give = line.respond(&sides, answers, responses, rows);
-            let most = heaviest * line.alone;
+            let most = HEAVIEST * line.alone;
             line.mass = if give * most > 1.0 { 1.0 / give } else { most };
         }
         if self.rolling > 0.0 {

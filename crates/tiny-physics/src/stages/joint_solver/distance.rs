@@ -53,7 +53,9 @@ impl JointKernel for DistanceBlock {
 
     fn tie(&self, stride: &Stride<f64>, pair: &Pair<f64>, link: &mut TreeLink) {
         let (length, row) = length_row(stride, pair);
-        link.hold(&row, length - stride.load(&self.length.length));
+        if self.soft.rigid[stride.at] > 0.0 {
+            link.hold(&row, length - stride.load(&self.length.length));
+        }
         link.let_go(&row, length);
     }
 

@@ -208,6 +208,7 @@ pub(super) fn refresh<S: Simd>(
                 begin(block, &stride, (index, link), axes);
             }
         });
+        link.coordinate.compliance = if link.class == JointClass::Distance { yields } else { 0.0 };
         let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
         let rounding = ROUNDING * f64::from(substep.unit * substep.unit) * (a.inv[2] + b.inv[2]);
         for i in 0..link.rigid {
@@ -218,6 +219,12 @@ pub(super) fn refresh<S: Simd>(
             link.compliance[i] = COMPLIANCE.max(yields) * give;
         }
         stiffen(link, nodes, |i| link.impulses[i]);
+    }
+    for TreeAxis { link, axis, .. } in &*axes {
+        let link = &links[*link as usize];
+        if link.class == JointClass::Distance {
+            pull_at(nodes, [link.a, link.b], link.coordinate.reach, axis.total());
+        }
     }
     heed(nodes, substep.h.into());
     for axis in axes {
@@ -281,9 +288,14 @@ pub(super) fn brake(tree: &mut JointTree) {
 /// things worse: masses that change with the tension pump energy into what moves.
 fn stiffen(link: &TreeLink, nodes: &mut [TreeNode], impulse: impl Fn(usize) -> f64) {
     for i in 0..link.rigid {
-        nodes[link.a as usize].g[2] -= link.reach[0][i] * impulse(i);
-        nodes[link.b as usize].g[2] += link.reach[1][i] * impulse(i);
+        pull_at(nodes, [link.a, link.b], [link.reach[0][i], link.reach[1][i]], impulse(i));
     }
+}
+
+/// The same of one impulse at its arms.
+fn pull_at(nodes: &mut [TreeNode], [a, b]: [u32; 2], [reach_a, reach_b]: [f64; 2], impulse: f64) {
+    nodes[a as usize].g[2] -= reach_a * impulse;
+    nodes[b as usize].g[2] += reach_b * impulse;
 }
 
 /// Gives nodes moments of inertia that are as stiff as `g` says.
@@ -312,7 +324,7 @@ pub(super) fn stiffen_errors(JointTree { nodes, links, factored, .. }: &mut Join
 fn tie<S: Simd>(simd: S, link: &mut TreeLink, axis: &mut TreeAxis, a: &TreeNode, b: &TreeNode) {
     let own = link.coordinate.on;
     let free = give(&own, a, b);
-    link.coordinate.compliance = COMPLIANCE * free;
+    link.coordinate.compliance = COMPLIANCE.max(link.coordinate.compliance) * free;
     let (mut coupling, mut mass) = ([0.0; 4], [[0.0; 4]; 3]);
     for i in 0..link.rigid {
         coupling[i] = response(&link.row(i), &own, a, b);
