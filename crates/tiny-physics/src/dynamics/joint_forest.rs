@@ -277,10 +277,9 @@ pub(crate) fn is_rigid(def: &JointDef) -> bool {
         }
 }
 
-/// Is it a rope or a winch, of which a tree may hold the limits and the motor?
+/// Is it a rope or a winch, of which a tree may hold the limits and the motor? Nothing else that is not rigid takes one way to move.
 pub(super) fn is_rope(def: &JointDef) -> bool {
-    let firm = matches!(def.kind, JointKind::Distance { spring: None, .. });
-    firm && def.softness.is_none() && !is_rigid(def)
+    rows_of(def) == 1 && !is_rigid(def)
 }
 
 /// Does nothing act along what a rigid joint leaves free?
@@ -357,20 +356,21 @@ impl JointForest {
         walk.places.resize(bodies.infos.len(), NULL);
         let mut moves = Vec::new();
         let mut found = core::mem::take(&mut walk.found);
+        found.ropes = true;
         let mut part = Component::default();
         for &body in &dirty {
-            walk.collect(bodies, joints, body, true, &mut found);
+            walk.collect(bodies, joints, body, &mut found);
             found.joints.iter().for_each(|&joint| self.dissolve(joint));
             let any = |&joint: &u32| is_rope(&joints.records[joint as usize].def);
             match plant(bodies, joints, &found, &walk.places) {
                 None if found.joints.iter().any(any) => {
                     found.bodies.iter().for_each(|&body| walk.places[body as usize] = NULL);
                     for &body in &found.bodies {
-                        walk.collect(bodies, joints, body, false, &mut part);
-                        self.insert(plant(bodies, joints, &part, &walk.places).unwrap_or_default());
+                        walk.collect(bodies, joints, body, &mut part);
+                        self.insert(plant(bodies, joints, &part, &walk.places));
                     }
                 }
-                tree => self.insert(tree.unwrap_or_default()),
+                tree => self.insert(tree),
             }
             for &joint in &found.joints {
                 let Place::Graph { colour, .. } = joints.records[joint as usize].place else {
@@ -394,10 +394,8 @@ impl JointForest {
     }
 
     /// Gives an index to a tree that has any links.
-    fn insert(&mut self, tree: JointTree) {
-        if tree.links.is_empty() {
-            return;
-        }
+    fn insert(&mut self, tree: Option<JointTree>) {
+        let Some(tree) = tree.filter(|tree| !tree.links.is_empty()) else { return };
         let index = claim(&mut self.free, self.trees.len());
         for link in &tree.links {
             self.tree_of[link.joint as usize] = index;
@@ -418,7 +416,7 @@ struct Walk {
 }
 
 footprint!(Walk { places, met, found, waiting });
-footprint!(Component { bodies, joints });
+footprint!(Component { bodies, joints } none { ropes });
 
 impl Clone for Walk {
     fn clone(&self) -> Self {
@@ -433,18 +431,13 @@ impl Clone for Walk {
 struct Component {
     bodies: Vec<u32>,
     joints: Vec<u32>,
+    /// May they be ropes?
+    ropes: bool,
 }
 
 impl Walk {
-    /// The component of a body, with ropes or without; empty where that has been done before.
-    fn collect(
-        &mut self,
-        bodies: &Bodies,
-        joints: &Joints,
-        body: u32,
-        ropes: bool,
-        found: &mut Component,
-    ) {
+    /// The component of a body; empty where that has been done before.
+    fn collect(&mut self, bodies: &Bodies, joints: &Joints, body: u32, found: &mut Component) {
         found.bodies.clear();
         found.joints.clear();
         self.waiting.push(body);
@@ -457,7 +450,7 @@ impl Walk {
             found.bodies.push(body);
             for (joint, _) in joints.of_body(bodies.infos[body as usize].first_joint) {
                 let record = &joints.records[joint as usize];
-                let ties = is_rigid(&record.def) || ropes && is_rope(&record.def);
+                let ties = is_rigid(&record.def) || found.ropes && is_rope(&record.def);
                 if record.place != Place::Asleep && ties {
                     found.joints.push(joint);
                     self.waiting.push(record.other(body));
@@ -515,10 +508,9 @@ fn plant(
     sets.reset(count, 0..count as u32);
     let (mut spanning, mut anchors, mut cut) = (Vec::new(), Vec::new(), Vec::new());
     // It is ropes that are left out, if any are.
-    let is_rope = |&joint: &u32| is_rope(&joints.records[joint as usize].def);
-    let (ropes, rigid): (Vec<_>, Vec<_>) =
-        component.joints.iter().partition(|joint| is_rope(joint));
-    for joint in rigid.iter().chain(&ropes) {
+    let mut all = component.joints.clone();
+    all.sort_by_key(|&joint| is_rope(&joints.records[joint as usize].def));
+    for joint in &all {
         if inner(joint) {
             let record = &joints.records[*joint as usize];
             if sets.join(places[record.body_a as usize], places[record.body_b as usize]) {

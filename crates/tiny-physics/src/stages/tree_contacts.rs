@@ -21,8 +21,8 @@
 use super::contact_solver::{Constants, Parameters, Pass, normal_impulse};
 use super::islands::Stores;
 use super::joint_solver::trees;
-use crate::describe::{JointDef, Motor};
-use crate::dynamics::{Bucket, JointTree, Joints, NULL, Slot, flags, give_along, inverses};
+use crate::describe::Motor;
+use crate::dynamics::{Bucket, JointTree, NULL, Slot, flags, give_along, inverses};
 use crate::simd::{BLOCK, FourKernel, Lanes, Row, Simd, SimdLevel, dispatch_fours};
 
 /// Numbers that the answers of a tree may have: touched bodies times bodies. Others stay with the lanes.
@@ -168,7 +168,8 @@ impl TreeContacts {
                 continue;
             }
             let runs = |motor: Motor| motor.max > 0.0 && motor.speed != 0.0;
-            let drives = kinds(tree, stores.joints).any(|def| def.kind.motor().is_some_and(runs));
+            let motor = |joint: u32| stores.joints.records[joint as usize].def.kind.motor();
+            let drives = tree.links.iter().any(|link| motor(link.joint).is_some_and(runs));
             let all_through_it = !drives && self.find(index as u32, tree, stores);
             stores.joint_graph.forest.trees[index].note_undisturbed(all_through_it);
         }
@@ -521,11 +522,6 @@ impl Velocities<'_> {
             }
         }
     }
-}
-
-/// The joints of a tree.
-fn kinds<'a>(tree: &'a JointTree, joints: &'a Joints) -> impl Iterator<Item = &'a JointDef> {
-    tree.links.iter().map(|link| &joints.records[link.joint as usize].def)
 }
 
 /// The first three numbers.

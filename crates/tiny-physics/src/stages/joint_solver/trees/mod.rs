@@ -283,6 +283,9 @@ fn push_along<S: Simd>(
 /// solved again. Where that goes round in circles, what would change stands still in the end, which takes energy and makes none.
 #[inline(always)]
 fn solve<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
+    begin_limits(simd, tree, rates);
+    let share = if rates.bias { snap_share(simd, tree, rates) } else { 0.0 };
+    let rates = &Rates { push: share * rates.push, ..*rates };
     if rates.bias {
         // What is taken back between two solves leaves velocities that nothing has.
         let JointTree { nodes, links, .. } = tree;
@@ -291,9 +294,6 @@ fn solve<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
             link.curve = curve(simd, link, a, b, &rates.stride);
         }
     }
-    begin_limits(simd, tree, rates);
-    let share = if rates.bias { snap_share(simd, tree, rates) } else { 0.0 };
-    let rates = &Rates { push: share * rates.push, ..*rates };
     let mut solves = 0;
     loop {
         factor::factor(simd, tree);
@@ -489,7 +489,7 @@ fn begin_limits<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
     let JointTree { nodes, links, axes, factored, .. } = tree;
     for axis in axes {
         let link = &mut links[axis.link as usize];
-        let velocity = free_speed(link, nodes, rates);
+        let velocity = speed_along(&link.coordinate, link, nodes);
         let wants = |side: f64| {
             side * axis.axis.limits[0] > 0.0 || overrun(link, axis, velocity, side, rates) > 0.0
         };
@@ -602,8 +602,7 @@ fn demand<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
                 (axis.axis.motor_speed - speed_along(&link.drive, link, nodes), axis.axis.motor)
             } else {
                 let velocity = free_speed(link, nodes, rates);
-                let wanted = overrun(link, axis, velocity, link.limit, rates);
-                (wanted, link.limit * axis.axis.limits[0])
+                (overrun(link, axis, velocity, link.limit, rates), link.limit * axis.axis.limits[0])
             };
             if rates.bias {
                 wanted -= link.compliance[link.rigid] * impulse;
@@ -646,18 +645,14 @@ fn curve<S: Simd>(
         return sums;
     }
     let inward = |w: f64| 0.5 * w * slow_turn(stride, w);
-    if link.class == JointClass::Distance {
-        let TreeRow { on: [_, [x, y, ..]], reach: [reach_a, reach_b], .. } = link.coordinate;
-        sums[0] = reach_b * inward(b.v[2]) - reach_a * inward(a.v[2]);
-        if link.value > 0.0 {
-            let across = x * (b.v[1] - a.v[1]) - y * (b.v[0] - a.v[0])
-                + (reach_b * b.v[2] - reach_a * a.v[2]);
-            sums[0] -= 0.5 * across * slow_turn(stride, across / link.value);
-        }
-        return sums;
-    }
     add_times(simd, &mut sums, &link.reach[1], inward(b.v[2]));
     add_times(simd, &mut sums, &link.reach[0], -inward(a.v[2]));
+    if link.class == JointClass::Distance && link.value > 0.0 {
+        let [x, y, ..] = link.coordinate.on[1];
+        let across = x * (b.v[1] - a.v[1]) - y * (b.v[0] - a.v[0])
+            + (link.reach[1][0] * b.v[2] - link.reach[0][0] * a.v[2]);
+        sums[0] -= 0.5 * across * slow_turn(stride, across / link.value);
+    }
     sums
 }
 

@@ -218,14 +218,10 @@ pub(super) fn refresh<S: Simd>(
             let give = if give > rounding { give } else { UNANSWERED };
             link.compliance[i] = COMPLIANCE.max(yields) * give;
         }
-        stiffen(link, nodes, |i| link.impulses[i]);
+        stiffen(link, nodes, link.rigid, |i| link.impulses[i]);
     }
-    for TreeAxis { link, axis, .. } in &*axes {
-        let link = &links[*link as usize];
-        if link.class == JointClass::Distance {
-            pull_at(nodes, [link.a, link.b], link.coordinate.reach, axis.total());
-        }
-    }
+    let ropes = axes.iter().filter(|it| links[it.link as usize].class == JointClass::Distance);
+    ropes.for_each(|it| stiffen(&links[it.link as usize], nodes, 1, |_| it.axis.total()));
     heed(nodes, substep.h.into());
     for axis in axes {
         let link = &mut links[axis.link as usize];
@@ -286,16 +282,11 @@ pub(super) fn brake(tree: &mut JointTree) {
 ///
 /// Rods turn their force too, which makes beads on them stiff against moving. Counting it into their masses made
 /// things worse: masses that change with the tension pump energy into what moves.
-fn stiffen(link: &TreeLink, nodes: &mut [TreeNode], impulse: impl Fn(usize) -> f64) {
-    for i in 0..link.rigid {
-        pull_at(nodes, [link.a, link.b], [link.reach[0][i], link.reach[1][i]], impulse(i));
+fn stiffen(link: &TreeLink, nodes: &mut [TreeNode], rows: usize, impulse: impl Fn(usize) -> f64) {
+    for i in 0..rows {
+        nodes[link.a as usize].g[2] -= link.reach[0][i] * impulse(i);
+        nodes[link.b as usize].g[2] += link.reach[1][i] * impulse(i);
     }
-}
-
-/// The same of one impulse at its arms.
-fn pull_at(nodes: &mut [TreeNode], [a, b]: [u32; 2], [reach_a, reach_b]: [f64; 2], impulse: f64) {
-    nodes[a as usize].g[2] -= reach_a * impulse;
-    nodes[b as usize].g[2] += reach_b * impulse;
 }
 
 /// Gives nodes moments of inertia that are as stiff as `g` says.
@@ -314,7 +305,9 @@ pub(super) fn stiffen_errors(JointTree { nodes, links, factored, .. }: &mut Join
     for node in nodes.iter_mut() {
         (node.g, node.inv[3]) = ([0.0; 4], node.inv[2]);
     }
-    links.iter().for_each(|link| stiffen(link, nodes, |i| link.rhs[i] / link.compliance[i]));
+    links
+        .iter()
+        .for_each(|link| stiffen(link, nodes, link.rigid, |i| link.rhs[i] / link.compliance[i]));
     heed(nodes, h);
     *factored = false;
 }
