@@ -9,7 +9,7 @@
 //!   impulses p at arms r (S. Andrews, M. Teichmann, P. Kry, "Geometric Stiffness for Real-time Constrained
 //!   Multibody Dynamics", 2017): no link swings faster than the substeps come.
 //!
-//! Springs act joint by joint before the tree is solved. Limits join it one by one as they are found to hold, and leave it where
+//! Springs act joint by joint before the tree is solved. Limits, also those of ropes, join it one by one as they are found to hold, and leave it where
 //! they would pull; so do motors, and leave it where they would push with more than they have.
 
 mod factor;
