@@ -1,10 +1,11 @@
 //! Which joints are solved directly: trees of joints, each with the order of its elimination.
 //!
-//! A *component* is what joints of rigid kinds tie together through dynamic bodies. Joints in the order of
+//! A *component* is what joints of rigid kinds and ropes tie together through dynamic bodies. Joints in the order of
 //! their indices span it with a tree; one that closes a loop is a *cut*: it is solved after the tree and through it. One that
 //! has more than rigid rows stays with the lanes. Joints to bodies that nothing moves are *anchors* and close no loop. A component is solved as a tree if it has few cuts
 //! and needs it: where it is long, joins light bodies to heavy ones, or hangs by more joints than it can obey. Any other is left to the lanes whole, which
-//! take a tenth of the time: a thousand ragdolls would make a step of theirs last twice as long.
+//! take a tenth of the time: a thousand ragdolls would make a step of theirs last twice as long. So are the ropes of one that they give
+//! too many cuts, such as a net; what they tie together is a component by itself then.
 //!
 //! The forest follows from the records alone, so a frame need not hold it. It is brought up to date at the
 //! start of a step ([`JointGraph::grow_forest`](super::JointGraph::grow_forest)), around bodies whose joints
@@ -276,6 +277,11 @@ pub(crate) fn is_rigid(def: &JointDef) -> bool {
         }
 }
 
+/// Is it a rope or a winch, of which a tree may hold the limits and the motor? Nothing else that is not rigid takes one way to move.
+pub(super) fn is_rope(def: &JointDef) -> bool {
+    rows_of(def) == 1 && !is_rigid(def)
+}
+
 /// Does nothing act along what a rigid joint leaves free?
 pub(super) fn is_plain(def: &JointDef) -> bool {
     use JointKind::{Distance, Gear, Prismatic, Revolute, Weld};
@@ -284,7 +290,7 @@ pub(super) fn is_plain(def: &JointDef) -> bool {
         Revolute { spring: None, limits: None, motor: None, .. }
             | Prismatic { spring: None, limits: None, motor: None, .. }
             | Weld { .. }
-            | Distance { .. }
+            | Distance { limits: None, motor: None, .. }
             | Gear { .. }
     )
 }
@@ -350,23 +356,31 @@ impl JointForest {
         walk.places.resize(bodies.infos.len(), NULL);
         let mut moves = Vec::new();
         let mut found = core::mem::take(&mut walk.found);
+        found.ropes = true;
+        let mut part = Component::default();
         for &body in &dirty {
             walk.collect(bodies, joints, body, &mut found);
             found.joints.iter().for_each(|&joint| self.dissolve(joint));
-            let tree = plant(bodies, joints, &found, &walk.places).unwrap_or_default();
-            let in_trees = place_of(tree.pace, TREES);
-            self.insert(tree);
+            let any = |&joint: &u32| is_rope(&joints.records[joint as usize].def);
+            match plant(bodies, joints, &found, &walk.places) {
+                None if found.joints.iter().any(any) => {
+                    found.bodies.iter().for_each(|&body| walk.places[body as usize] = NULL);
+                    for &body in &found.bodies {
+                        walk.collect(bodies, joints, body, &mut part);
+                        self.insert(plant(bodies, joints, &part, &walk.places));
+                    }
+                }
+                tree => self.insert(tree),
+            }
             for &joint in &found.joints {
                 let Place::Graph { colour, .. } = joints.records[joint as usize].place else {
                     continue;
                 };
                 let place = usize::from(colour);
-                if self.tree_of[joint as usize] == NULL {
-                    if colour_at(place) == TREES {
-                        moves.push((joint, None));
-                    }
-                } else if place != in_trees {
-                    moves.push((joint, Some(in_trees)));
+                let tree = self.trees.get(self.tree_of[joint as usize] as usize);
+                let wanted = tree.map(|tree| place_of(tree.pace, TREES));
+                if wanted != Some(place) && (wanted.is_some() || colour_at(place) == TREES) {
+                    moves.push((joint, wanted));
                 }
             }
         }
@@ -380,10 +394,8 @@ impl JointForest {
     }
 
     /// Gives an index to a tree that has any links.
-    fn insert(&mut self, tree: JointTree) {
-        if tree.links.is_empty() {
-            return;
-        }
+    fn insert(&mut self, tree: Option<JointTree>) {
+        let Some(tree) = tree.filter(|tree| !tree.links.is_empty()) else { return };
         let index = claim(&mut self.free, self.trees.len());
         for link in &tree.links {
             self.tree_of[link.joint as usize] = index;
@@ -404,7 +416,7 @@ struct Walk {
 }
 
 footprint!(Walk { places, met, found, waiting });
-footprint!(Component { bodies, joints });
+footprint!(Component { bodies, joints } none { ropes });
 
 impl Clone for Walk {
     fn clone(&self) -> Self {
@@ -414,11 +426,13 @@ impl Clone for Walk {
     fn clone_from(&mut self, _: &Self) {}
 }
 
-/// What hangs together through joints of rigid kinds: they are ascending.
+/// What hangs together through joints: they are ascending.
 #[derive(Debug, Default)]
 struct Component {
     bodies: Vec<u32>,
     joints: Vec<u32>,
+    /// May they be ropes?
+    ropes: bool,
 }
 
 impl Walk {
@@ -436,7 +450,8 @@ impl Walk {
             found.bodies.push(body);
             for (joint, _) in joints.of_body(bodies.infos[body as usize].first_joint) {
                 let record = &joints.records[joint as usize];
-                if record.place != Place::Asleep && is_rigid(&record.def) {
+                let ties = is_rigid(&record.def) || found.ropes && is_rope(&record.def);
+                if record.place != Place::Asleep && ties {
                     found.joints.push(joint);
                     self.waiting.push(record.other(body));
                 }
@@ -492,7 +507,10 @@ fn plant(
     let count = component.bodies.len();
     sets.reset(count, 0..count as u32);
     let (mut spanning, mut anchors, mut cut) = (Vec::new(), Vec::new(), Vec::new());
-    for joint in &component.joints {
+    // It is ropes that are left out, if any are.
+    let mut all = component.joints.clone();
+    all.sort_by_key(|&joint| is_rope(&joints.records[joint as usize].def));
+    for joint in &all {
         if inner(joint) {
             let record = &joints.records[*joint as usize];
             if sets.join(places[record.body_a as usize], places[record.body_b as usize]) {

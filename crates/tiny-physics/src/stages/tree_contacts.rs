@@ -13,8 +13,9 @@
 //! contact with Jacobian c has the effective mass `1 / (c P c^T)`, the part of what is no tree's added, and its impulse
 //! dl changes velocities by `P c^T dl`: Gauss-Seidel on the true masses, which leaves the joints as they are.
 //!
-//! Trees with springs, or motors that run, keep their contacts in lanes: the elimination knows nothing of these, and a leg that
-//! they hold stiff would feel as if it hung loose. Brakes, motors without speed, may be overcome.
+//! Trees with motors that run keep their contacts in lanes: the elimination knows nothing of these, and a leg that they hold stiff would
+//! feel as if it hung loose. Brakes, motors without speed, may be overcome, and springs are soft beside contacts: what rests on the
+//! stops of its springs hangs on to these.
 //!
 //! These contacts are taken out of their lanes for the length of the substeps, and put back with their impulses.
 
@@ -22,7 +23,7 @@ use super::contact_solver::{Constants, Parameters, Pass, normal_impulse};
 use super::islands::Stores;
 use super::joint_solver::trees;
 use super::passivity::may_drive;
-use crate::describe::JointDef;
+use crate::describe::{JointDef, Motor};
 use crate::dynamics::{Bucket, JointTree, Joints, NULL, Slot, flags, give_along, inverses};
 use crate::simd::{BLOCK, FourKernel, Lanes, Row, Simd, SimdLevel, dispatch_fours};
 
@@ -37,6 +38,9 @@ const CHUNK: usize = 8;
 /// 24 links over an edge with rubbing hinges and 1 kg swing on at 13 mm/s with 2.5, at 0.5 with 1. In lanes 5 to 30 kg went on jumping at
 /// 10 to 160 mm/s, and of 205 random worlds with brakes in their hinges bodies that pass were 72 in place of 23, gaps 2.7 m in place of 1.7.
 const HEAVIEST: f32 = 2.5;
+/// The same in trees with springs, whose islands may gain energy (see [`super::passivity`]): of 120 cars of 10 to 300 times their wheels' mass,
+/// many with their brakes on, at rest on the stops of their springs 18 shake with 2.5, none with 5.
+const SPRUNG: f32 = 5.0;
 
 /// Along x, along y, and about the middle.
 type Planar = [f32; 3];
@@ -71,8 +75,9 @@ struct OfTree {
     touched: u32,
     /// Velocities of the tree.
     span: Span,
-    /// It has brakes; see [`HEAVIEST`].
+    /// It has brakes, springs; see [`HEAVIEST`].
     braked: bool,
+    sprung: bool,
 }
 
 /// A contact of a tree, by bucket in the graph's list and slot in it, and which of its bodies is the tree's.
@@ -171,7 +176,9 @@ impl TreeContacts {
             if !here || !stores.bodies.infos[tree.nodes[0].body as usize].awake {
                 continue;
             }
-            let drives = kinds(tree, stores.joints).any(may_drive);
+            let runs = |motor: Motor| motor.max > 0.0 && motor.speed != 0.0;
+            let runs = |def: &JointDef| def.kind.motor().is_some_and(runs);
+            let drives = kinds(tree, stores.joints).any(runs);
             let all_through_it = !drives && self.find(index as u32, tree, stores);
             stores.joint_graph.forest.trees[index].note_undisturbed(all_through_it);
         }
@@ -203,10 +210,11 @@ impl TreeContacts {
         answers.begin(index, tree, self.velocities.len());
         let runs = |def: &JointDef| def.kind.motor().is_some_and(|motor| motor.max > 0.0);
         let braked = kinds(tree, stores.joints).any(runs);
+        let sprung = kinds(tree, stores.joints).any(may_drive);
         for (node, &body) in answers.bodies.iter().enumerate() {
             let touched = answers.touched.len() as u32;
             let (at, span) = (3 * node as u32, answers.span);
-            let of_tree = OfTree { answers: tree_answers, at, touched, span, braked };
+            let of_tree = OfTree { answers: tree_answers, at, touched, span, braked, sprung };
             let before = self.found.len();
             let first_contact = stores.bodies.infos[body as usize].first_contact;
             for (contact, side) in stores.contacts.of_body(first_contact) {
@@ -382,8 +390,9 @@ impl Touch {
     /// Works out the answers to impulses, and the effective masses.
     fn weigh(&mut self, answers: &[Answers], responses: &mut Vec<f32>, rows: &[Row]) {
         let sides = self.sides;
-        let braked = sides.iter().any(|side| side.of_tree.is_some_and(|at| at.braked));
-        let heaviest = if braked { 1.0 } else { HEAVIEST };
+        let any = |is: fn(OfTree) -> bool| sides.iter().any(|side| side.of_tree.is_some_and(is));
+        let heaviest = if any(|at| at.braked) { 1.0 } else { HEAVIEST };
+        let heaviest = if any(|at| at.sprung) { SPRUNG } else { heaviest };
         let points = self.points.iter_mut().filter(|point| point.there);
         for line in points.flat_map(|point| [&mut point.normal, &mut point.tangent]) {
             let give = line.respond(&sides, answers, responses, rows);

@@ -53,7 +53,10 @@ impl JointKernel for DistanceBlock {
 
     fn tie(&self, stride: &Stride<f64>, pair: &Pair<f64>, link: &mut TreeLink) {
         let (length, row) = length_row(stride, pair);
-        link.hold(&row, length - stride.load(&self.length.length));
+        let [rod, length_of_rod] = stride.load2(&self.soft.rigid, &self.length.length);
+        link.hold(&row, rod * (length - length_of_rod));
+        // Of ropes nothing is held but limits and motor, in the same row.
+        link.rigid = rod as usize;
         link.let_go(&row, length);
     }
 

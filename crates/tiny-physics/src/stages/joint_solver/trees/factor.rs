@@ -178,9 +178,8 @@ fn write_limit(link: &mut TreeLink) {
     let i = link.rigid;
     if i < 3 && (link.limit != 0.0 || link.jacobians[1].rows[i] != [0.0; 4]) {
         let row = if link.driven { &link.drive } else { &link.coordinate };
-        let TreeRow { on, compliance, .. } = *row;
-        let on = on.map(|side| side.map(|x| link.limit * x));
-        link.set_row(i, &TreeRow { on, compliance, ..TreeRow::default() });
+        let on = row.on.map(|side| side.map(|x| link.limit * x));
+        link.set_row(i, &TreeRow { on, error: 0.0, ..*row });
     }
 }
 

@@ -9,7 +9,7 @@
 //!   impulses p at arms r (S. Andrews, M. Teichmann, P. Kry, "Geometric Stiffness for Real-time Constrained
 //!   Multibody Dynamics", 2017): no link swings faster than the substeps come.
 //!
-//! Springs act joint by joint before the tree is solved. Limits join it one by one as they are found to hold, and leave it where
+//! Springs act joint by joint before the tree is solved. Limits, also those of ropes, join it one by one as they are found to hold, and leave it where
 //! they would pull; so do motors, and leave it where they would push with more than they have.
 
 mod factor;
@@ -439,6 +439,12 @@ fn speed_along(row: &TreeRow, link: &TreeLink, nodes: &[TreeNode]) -> f64 {
     factor::dot3(on_b, &nodes[link.b as usize].v) + factor::dot3(on_a, &nodes[link.a as usize].v)
 }
 
+/// Mean velocity of the free coordinate over the coming substep: a rope's ends run on circles.
+fn free_speed(link: &TreeLink, nodes: &[TreeNode], rates: &Rates) -> f64 {
+    let bent = rates.bias && link.class == JointClass::Distance;
+    speed_along(&link.coordinate, link, nodes) - if bent { link.curve[0] } else { 0.0 }
+}
+
 /// Takes back what limits have given.
 #[inline(always)]
 fn release<S: Simd>(simd: S, link: &TreeLink, axis: &mut TreeAxis, nodes: &mut [TreeNode]) {
@@ -547,7 +553,7 @@ fn better(
     if link.limit != 0.0 && !link.driven {
         return (link.limit * limits[0] < 0.0).then_some((0.0, false));
     }
-    let velocity = speed_along(&link.coordinate, link, nodes);
+    let velocity = free_speed(link, nodes, rates);
     let unit = if link.class == JointClass::Revolute { 1.0 } else { rates.stride.unit };
     let least = LEAST_OVERRUN * unit;
     let overrun = |&side: &f64| overrun(link, axis, velocity, side, rates) > least;
@@ -595,14 +601,8 @@ fn demand<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
             let (mut wanted, impulse) = if link.driven {
                 (axis.axis.motor_speed - speed_along(&link.drive, link, nodes), axis.axis.motor)
             } else {
-                let wanted = overrun(
-                    link,
-                    axis,
-                    speed_along(&link.coordinate, link, nodes),
-                    link.limit,
-                    rates,
-                );
-                (wanted, link.limit * axis.axis.limits[0])
+                let velocity = free_speed(link, nodes, rates);
+                (overrun(link, axis, velocity, link.limit, rates), link.limit * axis.axis.limits[0])
             };
             if rates.bias {
                 wanted -= link.compliance[link.rigid] * impulse;
@@ -648,7 +648,7 @@ fn curve<S: Simd>(
     add_times(simd, &mut sums, &link.reach[1], inward(b.v[2]));
     add_times(simd, &mut sums, &link.reach[0], -inward(a.v[2]));
     if link.class == JointClass::Distance && link.value > 0.0 {
-        let [x, y, ..] = link.jacobians[1].rows[0];
+        let [x, y, ..] = link.coordinate.on[1];
         let across = x * (b.v[1] - a.v[1]) - y * (b.v[0] - a.v[0])
             + (link.reach[1][0] * b.v[2] - link.reach[0][0] * a.v[2]);
         sums[0] -= 0.5 * across * slow_turn(stride, across / link.value);

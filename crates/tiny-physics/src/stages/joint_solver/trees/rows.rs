@@ -208,6 +208,7 @@ pub(super) fn refresh<S: Simd>(
                 begin(block, &stride, (index, link), axes);
             }
         });
+        link.coordinate.compliance = if link.class == JointClass::Distance { yields } else { 0.0 };
         let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
         let rounding = ROUNDING * f64::from(substep.unit * substep.unit) * (a.inv[2] + b.inv[2]);
         for i in 0..link.rigid {
@@ -217,8 +218,10 @@ pub(super) fn refresh<S: Simd>(
             let give = if give > rounding { give } else { UNANSWERED };
             link.compliance[i] = COMPLIANCE.max(yields) * give;
         }
-        stiffen(link, nodes, |i| link.impulses[i]);
+        stiffen(link, nodes, link.rigid, |i| link.impulses[i]);
     }
+    let ropes = axes.iter().filter(|it| links[it.link as usize].class == JointClass::Distance);
+    ropes.for_each(|it| stiffen(&links[it.link as usize], nodes, 1, |_| it.axis.total()));
     heed(nodes, substep.h.into());
     for axis in axes {
         let link = &mut links[axis.link as usize];
@@ -279,8 +282,8 @@ pub(super) fn brake(tree: &mut JointTree) {
 ///
 /// Rods turn their force too, which makes beads on them stiff against moving. Counting it into their masses made
 /// things worse: masses that change with the tension pump energy into what moves.
-fn stiffen(link: &TreeLink, nodes: &mut [TreeNode], impulse: impl Fn(usize) -> f64) {
-    for i in 0..link.rigid {
+fn stiffen(link: &TreeLink, nodes: &mut [TreeNode], rows: usize, impulse: impl Fn(usize) -> f64) {
+    for i in 0..rows {
         nodes[link.a as usize].g[2] -= link.reach[0][i] * impulse(i);
         nodes[link.b as usize].g[2] += link.reach[1][i] * impulse(i);
     }
@@ -302,7 +305,9 @@ pub(super) fn stiffen_errors(JointTree { nodes, links, factored, .. }: &mut Join
     for node in nodes.iter_mut() {
         (node.g, node.inv[3]) = ([0.0; 4], node.inv[2]);
     }
-    links.iter().for_each(|link| stiffen(link, nodes, |i| link.rhs[i] / link.compliance[i]));
+    links
+        .iter()
+        .for_each(|link| stiffen(link, nodes, link.rigid, |i| link.rhs[i] / link.compliance[i]));
     heed(nodes, h);
     *factored = false;
 }
@@ -312,7 +317,7 @@ pub(super) fn stiffen_errors(JointTree { nodes, links, factored, .. }: &mut Join
 fn tie<S: Simd>(simd: S, link: &mut TreeLink, axis: &mut TreeAxis, a: &TreeNode, b: &TreeNode) {
     let own = link.coordinate.on;
     let free = give(&own, a, b);
-    link.coordinate.compliance = COMPLIANCE * free;
+    link.coordinate.compliance = COMPLIANCE.max(link.coordinate.compliance) * free;
     let (mut coupling, mut mass) = ([0.0; 4], [[0.0; 4]; 3]);
     for i in 0..link.rigid {
         coupling[i] = response(&link.row(i), &own, a, b);
