@@ -41,9 +41,7 @@ pub(crate) use disjoint_sets::DisjointSets;
 pub(crate) use edges::next_edge;
 pub(crate) use graph::{Blocks, Bucket, Graph, HELD};
 pub(crate) use joint_blocks::*;
-pub(crate) use joint_forest::{
-    JointTree, TreeAxis, TreeLink, TreeNode, TreeRow, is_rigid, rows_of,
-};
+pub(crate) use joint_forest::{JointTree, TreeAxis, TreeLink, TreeNode, TreeRow, is_rigid};
 pub(crate) use joint_graph::{
     JointBlocks, JointBucket, JointColour, JointGraph, JointPlaces, joint_classes, with_bucket,
 };

@@ -44,7 +44,7 @@ use crate::describe::{BodyKind, Break, JointDef};
 use crate::dynamics::{
     AxisLanes, BodyInfo, FrameLanes, JointBlocks, JointBucket, JointClass, JointColour, JointGraph,
     JointLanes, JointLoad, JointRecord, Joints, PACES, Place, REFINEMENT, ROUNDS, TreeLink,
-    joint_classes, pace_at, rows_of, with_bucket,
+    joint_classes, pace_at, with_bucket,
 };
 use crate::math::{Pose, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_baseline, dispatch_narrow};
@@ -165,14 +165,13 @@ fn describe_bucket<B: JointKernel>(
 fn is_anchored(joints: &Joints, infos: &[BodyInfo], index: u32) -> bool {
     let moves = |body: u32| infos[body as usize].kind == BodyKind::Dynamic;
     let JointRecord { body_a: a, body_b: b, .. } = joints.records[index as usize];
-    let body = if moves(a) { a } else { b };
-    if moves(a) && moves(b) {
+    if moves(a) == moves(b) {
         return false;
     }
+    let body = if moves(a) { a } else { b };
     let all = joints.of_body(infos[body as usize].first_joint);
     let all = all.map(|(joint, _)| &joints.records[joint as usize]);
-    let held = all.filter(|it| it.place != Place::Asleep && !moves(it.other(body)));
-    held.filter(|it| rows_of(&it.def) > 0).count() == 1
+    all.filter(|it| it.place != Place::Asleep && !moves(it.other(body))).count() == 1
 }
 
 /// Writes what follows from the poses (of the centres of mass) at the start of the step. The blocks have so many joints.
