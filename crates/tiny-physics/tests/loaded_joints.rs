@@ -596,7 +596,7 @@ fn rods_between_what_does_not_move_are_the_same_once_loaded() {
         world.add_joint(a, b, rod()).unwrap();
         let gone = world.add_joint(b, c, rod()).unwrap();
         world.step(DT);
-        world.remove_joint(gone);
+        world.remove_joint(gone).unwrap();
         world.step(DT);
         let mut loaded = World::from_bytes(&world.to_bytes()).unwrap();
         world.step(DT);
