@@ -449,6 +449,11 @@ impl JointKind {
         }
     }
 
+    /// Has it limits?
+    pub(crate) fn stops(mut self) -> bool {
+        self.axis().is_some_and(|(_, limits, _)| limits.is_some())
+    }
+
     pub(crate) fn set_motor(&mut self, value: Option<Motor>) -> bool {
         if let Self::Motor { angular_velocity, max_torque, .. } = self {
             (*angular_velocity, *max_torque) = value.map_or((0.0, 0.0), |m| (m.speed, m.max));

@@ -1,9 +1,9 @@
 //! Which joints are solved directly: trees of joints, each with the order of its elimination.
 //!
 //! A *component* is what joints of rigid kinds and ropes tie together through dynamic bodies. Joints in the order of
-//! their indices span it with a tree; one that closes a loop is a *cut*: it is solved after the tree and through it. One that
-//! has more than rigid rows stays with the lanes. Joints to bodies that nothing moves are *anchors* and close no loop. A component is solved as a tree if it has few cuts
-//! and needs it: where it is long, joins light bodies to heavy ones, or hangs by more joints than it can obey. Any other is left to the lanes whole, which
+//! their indices span it with a tree, ropes last; one that closes a loop is a *cut*: cuts are solved together, through the tree. Joints to
+//! bodies that nothing moves are *anchors* and close no loop. A component is solved as a tree if it has not too many cuts
+//! and needs it: where it is long, hangs from something fixed, or joins light bodies to heavy ones. Any other is left to the lanes whole, which
 //! take a tenth of the time: a thousand ragdolls would make a step of theirs last twice as long. So are the ropes of one that they give
 //! too many cuts, such as a net; what they tie together is a component by itself then.
 //!
@@ -22,18 +22,20 @@ use crate::describe::{JointDef, JointKind};
 use crate::footprint::footprint;
 use crate::simd::Three;
 
-/// Joints in a row from which on a component needs a direct solution, and one that hangs from something fixed:
-/// lanes let a double pendulum gain a fifth of its energy in a minute.
+/// Joints in a row from which on a component needs a direct solution, and joints of one that hangs from something fixed:
+/// lanes let a double pendulum gain a fifth of its energy in a minute, and boards on two rods sag.
 const LEAST_DEPTH: usize = 8;
-const LEAST_ANCHORED_DEPTH: usize = 2;
+const LEAST_ANCHORED: usize = 2;
 /// So it does where masses differ by this factor, were it one joint: of 100 pairs with masses of 1 to 5..10 that tumble on a
 /// floor at 15 m/s the joints' widest gaps add up to 0.12 m in trees, to 1.8 m in lanes; awake on the ground a pair costs 15
 /// times as much.
 const LEAST_MASS_RATIO: f32 = 5.0;
-/// A component is a tree if at most one joint in this many is cut.
-const LINKS_PER_CUT: usize = 8;
-/// So is one that hangs from something fixed by more joints than it can obey, with no more cuts than this.
-const MOST_TIGHT_CUTS: usize = 2;
+/// A component with more loops is left to the lanes: each costs twice as much as the tree.
+const MOST_CUTS: usize = 24;
+/// So is one that is mostly of rods and ropes and has more loops than this, and than one in so many joints: what rods hold they turn, which
+/// nothing makes stiff, and a net of them throws a load of a thousand times its knots about at .1 m/s.
+const MOST_NET_CUTS: usize = 2;
+const LINKS_PER_NET_CUT: usize = 8;
 
 /// A row of a joint's Jacobian.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -167,6 +169,11 @@ pub(crate) struct JointTree {
     pub(crate) dynamic: usize,
     /// The root's anchor if it has one, joints from the root outwards, further anchors, cuts.
     pub(crate) links: Vec<TreeLink>,
+    /// Rows of the cuts: their links, and which of theirs.
+    pub(crate) closing: Vec<(u32, u32)>,
+    /// How the tree answers them, factored, and what acts along them; kept for their memory.
+    pub(crate) answered: Vec<f64>,
+    pub(crate) wanted: Vec<f64>,
     /// In the order of the links, of those that have any.
     pub(crate) axes: Vec<TreeAxis>,
     /// That of all its bodies.
@@ -175,6 +182,8 @@ pub(crate) struct JointTree {
     pub(crate) alone: bool,
     /// It has more rows, or anchors of one body have, than the bodies have ways to move: they may contradict each other.
     pub(crate) tight: bool,
+    /// Joints are open so far that bodies are stiff against turning.
+    pub(crate) torn: bool,
     /// See [`JointTree::is_undisturbed`]; but for its axes.
     undisturbed: bool,
     /// The rows have been worked out in this step.
@@ -193,10 +202,14 @@ clone_by_field!(JointTree {
     nodes,
     dynamic,
     links,
+    closing,
+    answered,
+    wanted,
     axes,
     pace,
     alone,
     tight,
+    torn,
     undisturbed,
     begun,
     fresh,
@@ -204,11 +217,12 @@ clone_by_field!(JointTree {
     solved,
     factored
 });
-footprint!(JointTree { nodes, links, axes } none {
+footprint!(JointTree { nodes, links, closing, answered, wanted, axes } none {
     dynamic,
     pace,
     alone,
     tight,
+    torn,
     undisturbed,
     begun,
     fresh,
@@ -225,8 +239,7 @@ impl JointTree {
 
     /// Notes whether all its contacts go through it, and so leave its joints as they are.
     pub(crate) fn note_undisturbed(&mut self, all_through_it: bool) {
-        let whole = self.uncut() == self.links.len();
-        self.undisturbed = self.alone && whole && all_through_it;
+        self.undisturbed = self.alone && all_through_it;
     }
 
     /// Does nothing act on its bodies between two equal passes but what leaves its joints as they are? The second then has nothing
@@ -282,17 +295,14 @@ pub(super) fn is_rope(def: &JointDef) -> bool {
     rows_of(def) == 1 && !is_rigid(def)
 }
 
-/// Does nothing act along what a rigid joint leaves free?
-pub(super) fn is_plain(def: &JointDef) -> bool {
-    use JointKind::{Distance, Gear, Prismatic, Revolute, Weld};
-    matches!(
-        def.kind,
-        Revolute { spring: None, limits: None, motor: None, .. }
-            | Prismatic { spring: None, limits: None, motor: None, .. }
-            | Weld { .. }
-            | Distance { limits: None, motor: None, .. }
-            | Gear { .. }
-    )
+/// Passivity does not watch what springs may drive, and in lanes a spring and a stop that are hit by something heavy throw it back.
+fn has_stops_and_spring(def: &JointDef) -> bool {
+    match def.kind {
+        JointKind::Revolute { spring, limits, .. }
+        | JointKind::Prismatic { spring, limits, .. }
+        | JointKind::Wheel { spring, limits, .. } => spring.is_some() && limits.is_some(),
+        _ => false,
+    }
 }
 
 /// How many ways to move a joint takes, or may take by its limits: none where it gives way as a spring.
@@ -494,13 +504,21 @@ fn plant(
     };
     let inner_count = component.joints.iter().filter(|joint| inner(joint)).count();
     let anchored = inner_count < count;
-    let least_depth = if anchored { LEAST_ANCHORED_DEPTH } else { LEAST_DEPTH };
-    if !uneven && count < least_depth {
+    let how_many = |is: fn(&JointDef) -> bool| {
+        component.joints.iter().filter(|&&joint| is(&joints.records[joint as usize].def)).count()
+    };
+    let least = match anchored {
+        true if how_many(has_stops_and_spring) > 0 => 1,
+        true => LEAST_ANCHORED,
+        false => LEAST_DEPTH,
+    };
+    if !uneven && count < least {
         return None;
     }
     let cuts = inner_count + 1 - component.bodies.len();
-    let few = cuts * LINKS_PER_CUT <= count;
-    if !few && (!anchored || cuts > MOST_TIGHT_CUTS) {
+    let lines = how_many(|def| matches!(def.kind, JointKind::Distance { .. }));
+    let net = 2 * lines > count && cuts > MOST_NET_CUTS.max(count / LINKS_PER_NET_CUT);
+    if cuts > MOST_CUTS || net {
         return None;
     }
     let mut sets = DisjointSets::default();
@@ -515,7 +533,7 @@ fn plant(
             let record = &joints.records[*joint as usize];
             if sets.join(places[record.body_a as usize], places[record.body_b as usize]) {
                 spanning.push(*joint);
-            } else if is_plain(&record.def) {
+            } else {
                 cut.push(*joint);
             }
         } else {
@@ -523,13 +541,11 @@ fn plant(
         }
     }
     let nodes = vec![NULL; component.bodies.len()];
-    let in_tree = spanning.len() + anchors.len() + cut.len();
     let all = component.bodies.iter().flat_map(|&body| {
         joints.of_body(bodies.infos[body as usize].first_joint).map(|(joint, _)| joint)
     });
     let mut all = all.filter(|&joint| joints.records[joint as usize].place != Place::Asleep);
-    let alone = in_tree == component.joints.len()
-        && all.all(|joint| component.joints.binary_search(&joint).is_ok());
+    let alone = all.all(|joint| component.joints.binary_search(&joint).is_ok());
     let tree = JointTree { alone, ..JointTree::default() };
     let mut planter = Planter { bodies, joints, places, nodes, tree, depth: Vec::new() };
     planter.plant(&spanning, &anchors);
@@ -539,9 +555,9 @@ fn plant(
         planter.add_link(joint, ends, NULL, NULL);
     }
     planter.tree.tight = planter.is_tight();
-    let deep =
-        planter.depth.last().is_some_and(|&depth| depth + usize::from(anchored) >= least_depth);
-    (few && (uneven || deep) || anchored && planter.tree.tight).then_some(planter.tree)
+    let depth = planter.depth.last().copied().unwrap_or(0);
+    let needed = uneven || anchored || depth >= LEAST_DEPTH;
+    needed.then_some(planter.tree)
 }
 
 /// A tree in the making.

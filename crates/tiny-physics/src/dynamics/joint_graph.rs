@@ -13,7 +13,7 @@ use super::joint_blocks::{
     DistanceBlock, DriveBlock, GearBlock, Impulses, JointClass, JointLanes, PulleyBlock,
     RevoluteBlock, SliderBlock, WeldBlock,
 };
-use super::joint_forest::{JointForest, JointTree, is_plain, is_rigid, is_rope, rows_of};
+use super::joint_forest::{JointForest, JointTree, is_rigid, is_rope, rows_of};
 use super::joints::{JointRecord, Joints};
 use super::pace::PLAIN;
 use crate::codec::{Data, Reader, Sink, clone_by_field, store};
@@ -455,8 +455,8 @@ impl JointGraph {
             && record.def.enabled == def.enabled;
         let kept = is_rigid(&record.def) == is_rigid(def) && is_rope(&record.def) == is_rope(def);
         if same && kept {
-            if is_plain(&record.def) != is_plain(def) || rows_of(&record.def) != rows_of(def) {
-                // Where joints close a loop, those are left out of a tree that are plain.
+            if rows_of(&record.def) != rows_of(def) {
+                // They may contradict each other now, or no longer.
                 self.forest.note(record.body_a, record.body_b);
             }
             joints.records[index as usize].def = *def;

@@ -121,7 +121,7 @@ store! {
         pub(crate) records: Vec<JointRecord>,
         /// Joints that can break, ascending.
         pub(crate) breakable: Vec<u32>,
-        /// Joints that may set something going, ascending.
+        /// Joints that may set something going, or stop it, ascending.
         pub(crate) driven: Vec<u32> as derived,
         pub(crate) free: Vec<u32>,
         pub(crate) count: usize,
@@ -209,7 +209,7 @@ impl Joints {
     pub(crate) fn note_kind(&mut self, index: u32) {
         let JointRecord { alive, def, .. } = self.records[index as usize];
         note(&mut self.breakable, index, alive && def.break_at.is_some());
-        note(&mut self.driven, index, alive && def.kind.drives());
+        note(&mut self.driven, index, alive && (def.kind.stops() || def.kind.drives()));
     }
 }
 

@@ -224,11 +224,16 @@ impl<'a> Seams<'a> {
         let (start, end) = self.core.edge(face);
         let along = self.core.normal(face).perp();
         let length = along.dot(end - start);
+        let probe = |at: f32| start + along * at.max(0.0).min(length);
+        let places = points.into_iter().flatten().map(|point| along.dot(point - start));
+        // As a rule nothing is there.
+        if !places.clone().next().is_some_and(|at| self.covers(&[probe(at)])) {
+            return false;
+        }
+        let over = along.dot(middle(self.other_core()) - start);
         let mut probes = [Vec2::ZERO; 6];
         let mut count = 0;
-        for point in points.into_iter().flatten() {
-            let at = along.dot(point - start);
-            let over = along.dot(middle(self.other_core()) - start);
+        for at in places {
             let (mut low, mut high) = (at - REACH * unit, at + REACH * unit);
             // Over an end of the face near by the other shape meets what covers that from its side, however thin it is.
             if high >= length && over > length {
@@ -237,22 +242,24 @@ impl<'a> Seams<'a> {
                 high = at;
             }
             // In a slot both sides may be within walls.
-            for shifted in [low, at, high] {
-                probes[count] = start + along * shifted.max(0.0).min(length);
-                count += 1;
-            }
+            probes[count..count + 3].copy_from_slice(&[low, at, high].map(probe));
+            count += 3;
         }
+        self.covers(&probes[..count])
+    }
+
+    /// Do others cover all of up to six places of a face?
+    fn covers(&self, probes: &[Vec2]) -> bool {
         let mut covered = [false; 6];
-        self.each_neighbour(&probes[..count], |neighbour| {
+        self.each_neighbour(probes, |neighbour| {
             // What the other shape is in itself makes no surface for it.
-            if point_gap(neighbour, middle(self.other_core())) <= 0.0 {
-                return;
-            }
-            for (probe, covered) in probes[..count].iter().zip(&mut covered) {
-                *covered |= point_gap(neighbour, *probe) <= TOLERANCE * unit;
+            let within = point_gap(neighbour, middle(self.other_core())) <= 0.0;
+            let tolerance = TOLERANCE * self.ground.length_unit;
+            for (probe, covered) in probes.iter().zip(&mut covered) {
+                *covered |= !within && point_gap(neighbour, *probe) <= tolerance;
             }
         });
-        count > 0 && covered[..count].iter().all(|covered| *covered)
+        covered[..probes.len()].iter().all(|covered| *covered)
     }
 
     /// Do others go on from the end of a face, as high as that or higher? Looked at is no further beyond it than need be.

@@ -257,7 +257,7 @@ impl TreeContacts {
             }
             answers.limits.clear();
             answers.limits.extend(limits());
-            answers.columns.clear();
+            // Not zeroed: what nobody writes fills chunks up, and nobody reads it.
             answers.columns.resize(3 * answers.touched.len() * answers.span.1 as usize, 0.0);
             trees::answer(level, tree, &answers.touched, &mut answers.columns);
             any = true;

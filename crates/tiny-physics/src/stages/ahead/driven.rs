@@ -219,9 +219,6 @@ impl Effort {
                 speed += (wanted - speed).max(-most).min(most);
             }
         }
-        if speed == of.speed {
-            return 0.0;
-        }
         if let Some(Limits { lower, upper }) = self.limits {
             speed = speed.min((upper - of.at).max(0.0) / dt).max((lower - of.at).min(0.0) / dt);
         }
@@ -277,7 +274,8 @@ fn efforts(
             let slide = Coordinate::slide(ends, def.angle_a, 0.0);
             let turning = Effort::new(None, motor, None);
             [
-                Some((slide, Effort::new(spring, None, limits))),
+                // Its middle runs about the axle, so that by itself the line tells nothing of it.
+                Some((slide, Effort::new(spring, None, limits.filter(|_| spring.is_some())))),
                 Some((angle(0.0, None), turning)),
                 None,
             ]

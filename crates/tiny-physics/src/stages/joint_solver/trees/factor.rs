@@ -29,7 +29,7 @@ use crate::simd::{Simd, Three, add_product, add_times, take_product, times};
 
 /// Rows of a link: the rigid ones, then the limit that holds.
 #[inline(always)]
-fn row_count(link: &TreeLink) -> usize {
+pub(super) fn row_count(link: &TreeLink) -> usize {
     link.rigid + usize::from(link.limit != 0.0)
 }
 
@@ -84,14 +84,11 @@ fn heavy(nodes: &[TreeNode]) -> f64 {
     if least < f64::MAX { MORE / least } else { 1.0 }
 }
 
-/// Factors the matrix of a tree, unless that is done.
+/// Factors the matrix of a tree without its cuts.
 #[inline(always)]
 pub(super) fn factor<S: Simd>(simd: S, tree: &mut JointTree) {
     let uncut = tree.uncut();
-    let JointTree { nodes, dynamic, links, factored, .. } = tree;
-    if core::mem::replace(factored, true) {
-        return;
-    }
+    let JointTree { nodes, dynamic, links, .. } = tree;
     let free = |node: &TreeNode| node.inv[0] > 0.0 && node.inv[1] > 0.0 && node.inv[2] > 0.0;
     let heavy = if nodes[..*dynamic].iter().all(free) { 0.0 } else { heavy(&nodes[..*dynamic]) };
     for node in &mut nodes[..*dynamic] {
@@ -104,34 +101,6 @@ pub(super) fn factor<S: Simd>(simd: S, tree: &mut JointTree) {
     if !rooted {
         nodes[0].hat = invert(&nodes[0].hat, 3);
     }
-    (uncut..tree.links.len()).for_each(|cut| factor_cut(simd, tree, cut));
-}
-
-/// How the ends of a cut answer its impulses through the tree.
-#[inline(always)]
-fn factor_cut<S: Simd>(simd: S, tree: &mut JointTree, cut: usize) {
-    let (mut d, count) = ([[0.0; 4]; 3], tree.links[cut].rigid);
-    for k in 0..count {
-        pull(simd, tree, cut, &core::array::from_fn(|i| f64::from(u8::from(i == k))));
-        let TreeLink { a, b, jacobians: [on_a, on_b], compliance, .. } = &tree.links[cut];
-        let [dv_a, dv_b] = [a, b].map(|&end| tree.nodes[end as usize].dv);
-        add_product(simd, &mut d[k], &on_a.columns, &dv_a);
-        add_product(simd, &mut d[k], &on_b.columns, &dv_b);
-        d[k][k] += compliance[k];
-    }
-    tree.links[cut].inverse = invert(&d, count);
-}
-
-/// Solves for impulses of a cut on its two nodes, which the tree holds against.
-#[inline(always)]
-pub(super) fn pull<S: Simd>(simd: S, tree: &mut JointTree, cut: usize, impulses: &Three) {
-    tree.links.iter_mut().for_each(|link| link.rhs = [0.0; 4]);
-    tree.nodes[..tree.dynamic].iter_mut().for_each(|node| node.g = [0.0; 4]);
-    let link = &tree.links[cut];
-    for (end, jacobian) in [link.a, link.b].into_iter().zip(&link.jacobians) {
-        add_product(simd, &mut tree.nodes[end as usize].g, &jacobian.rows, impulses);
-    }
-    gather_and_scatter(simd, tree);
 }
 
 #[inline(always)]
@@ -174,7 +143,7 @@ fn factor_link<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
 
 /// The row of the limit or motor that holds; zero where none does.
 #[inline(always)]
-fn write_limit(link: &mut TreeLink) {
+pub(super) fn write_limit(link: &mut TreeLink) {
     let i = link.rigid;
     if i < 3 && (link.limit != 0.0 || link.jacobians[1].rows[i] != [0.0; 4]) {
         let row = if link.driven { &link.drive } else { &link.coordinate };
@@ -183,16 +152,10 @@ fn write_limit(link: &mut TreeLink) {
     }
 }
 
-/// Solves for the right sides of the links: changes of impulses in the links, of velocities in the nodes.
+/// Solves for the right sides of the links, without its cuts, and what acts on the nodes (in `g`): changes of impulses in the links, of
+/// velocities in the nodes.
 #[inline(always)]
 pub(super) fn solve<S: Simd>(simd: S, tree: &mut JointTree) {
-    let moving = &mut tree.nodes[..tree.dynamic];
-    moving.iter_mut().for_each(|node| node.g = [0.0; 4]);
-    gather_and_scatter(simd, tree);
-}
-
-#[inline(always)]
-fn gather_and_scatter<S: Simd>(simd: S, tree: &mut JointTree) {
     let uncut = tree.uncut();
     for link in tree.links[..uncut].iter_mut().rev() {
         gather(simd, &mut tree.nodes, link);
@@ -248,13 +211,14 @@ fn move_root<S: Simd>(simd: S, JointTree { nodes, links, .. }: &mut JointTree) {
 #[inline(always)]
 fn gather<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
     let mut push = times(simd, &link.felt, &link.rhs);
+    link.change = link.rhs;
     if link.child != NULL {
         let node = &mut nodes[link.child as usize];
         take_product(simd, &mut push, &link.follow.rows, &node.g);
         let columns = &link.jacobians[usize::from(link.child == link.b)].columns;
         node.dv = times(simd, &node.hat, &node.g);
-        take_product(simd, &mut link.rhs, columns, &node.dv);
-        add_product(simd, &mut node.dv, &link.given, &times(simd, &link.inverse, &link.rhs));
+        take_product(simd, &mut link.change, columns, &node.dv);
+        add_product(simd, &mut node.dv, &link.given, &times(simd, &link.inverse, &link.change));
     }
     if link.parent != NULL {
         add_times(simd, &mut nodes[link.parent as usize].g, &push, 1.0);
@@ -267,10 +231,10 @@ fn scatter<S: Simd>(simd: S, nodes: &mut [TreeNode], link: &mut TreeLink) {
     if link.parent != NULL {
         let dv = nodes[link.parent as usize].dv;
         let columns = &link.jacobians[usize::from(link.parent == link.b)].columns;
-        take_product(simd, &mut link.rhs, columns, &dv);
+        take_product(simd, &mut link.change, columns, &dv);
         if link.child != NULL {
             take_product(simd, &mut nodes[link.child as usize].dv, &link.follow.columns, &dv);
         }
     }
-    link.change = times(simd, &link.inverse, &link.rhs);
+    link.change = times(simd, &link.inverse, &link.change);
 }

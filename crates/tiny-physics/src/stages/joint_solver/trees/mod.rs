@@ -13,6 +13,7 @@
 //! they would pull; so do motors, and leave it where they would push with more than they have.
 
 mod factor;
+mod loops;
 mod rows;
 #[cfg(test)]
 mod tests;
@@ -23,9 +24,7 @@ use crate::dynamics::{
     Axis, JointClass, JointColour, JointTree, Joints, Motion, TreeAxis, TreeLink, TreeNode,
     TreeRow, is_jointed,
 };
-use crate::simd::{
-    FourKernel, Simd, SimdLevel, Three, add_times, dispatch_fours, take_product, times,
-};
+use crate::simd::{FourKernel, Simd, SimdLevel, Three, add_times, dispatch_fours, take_product};
 use crate::threads::{SharedRows, Team};
 
 /// Part of a position error that a substep takes away. What is missing at 0.25 is energy: a double pendulum keeps 0.91
@@ -119,10 +118,10 @@ impl FourKernel for Answer<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self(tree, touched, columns) = self;
-        factor::factor(simd, tree);
+        loops::factor(simd, tree);
         let length = columns.len() / (3 * touched.len());
         for (columns, &node) in columns.chunks_exact_mut(3 * length).zip(touched) {
-            factor::answer(simd, tree, node);
+            loops::answer(simd, tree, node);
             for (k, column) in columns.chunks_exact_mut(length).enumerate() {
                 for (column, node) in column.chunks_exact_mut(3).zip(&tree.nodes[..tree.dynamic]) {
                     (0..3).for_each(|i| column[i] = node.answers[k][i] as f32);
@@ -167,7 +166,7 @@ fn run_tree<S: Simd>(
     tree.solved = pass == Pass::Solve || tree.solved && pass == Pass::Relax;
     match pass {
         Pass::WarmStart => {
-            if is_jointed(tree.pace) {
+            if is_jointed(tree.pace) || tree.torn {
                 rows::damp(tree);
             }
             if brakes {
@@ -296,11 +295,10 @@ fn solve<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
     }
     let mut solves = 0;
     loop {
-        factor::factor(simd, tree);
+        loops::factor(simd, tree);
         demand(simd, tree, rates);
-        factor::solve(simd, tree);
+        loops::solve(simd, tree, None);
         apply(simd, tree);
-        close(simd, tree, rates);
         solves += 1;
         if !change_limits(simd, tree, rates, solves >= MOST_SOLVES) {
             break;
@@ -376,8 +374,8 @@ fn snap_share<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) -> f64 {
             }
         }
     }
-    factor::factor(simd, tree);
-    factor::solve(simd, tree);
+    loops::factor(simd, tree);
+    loops::solve(simd, tree, None);
     if tree.tight {
         share_errors(tree, rates);
     }
@@ -569,25 +567,11 @@ fn better(
     (given && needed(link, axis, nodes, rates).abs() < motor_max).then_some((1.0, true))
 }
 
-/// Cuts, one by one, each with all of the tree: they close what it has left open.
-#[inline(always)]
-fn close<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
-    for cut in tree.uncut()..tree.links.len() {
-        let link = &tree.links[cut];
-        let short = short_of(simd, link, &tree.nodes, rates);
-        let change = times(simd, &link.inverse, &short);
-        factor::pull(simd, tree, cut, &change);
-        tree.links[cut].change = change;
-        apply(simd, tree);
-    }
-}
-
 /// Right sides: minus what the velocities and position errors are short of.
 #[inline(always)]
 fn demand<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
-    let uncut = tree.uncut();
     let JointTree { nodes, links, axes, .. } = tree;
-    for link in &mut links[..uncut] {
+    for link in &mut *links {
         link.rhs = short_of(simd, link, nodes, rates);
     }
     for axis in axes {

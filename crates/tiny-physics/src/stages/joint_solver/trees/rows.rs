@@ -185,7 +185,7 @@ pub(super) fn refresh<S: Simd>(
     rows: SharedRows<'_>,
     substep: Substep,
 ) {
-    let JointTree { nodes, dynamic, links, axes, pace, begun, fresh, factored, .. } = tree;
+    let JointTree { nodes, dynamic, links, axes, pace, begun, fresh, factored, torn, .. } = tree;
     for node in nodes.iter_mut() {
         let [x, y, turn] = inverses::<f32>((), &rows.read(node.body));
         if !*begun {
@@ -222,7 +222,7 @@ pub(super) fn refresh<S: Simd>(
     }
     let ropes = axes.iter().filter(|it| links[it.link as usize].class == JointClass::Distance);
     ropes.for_each(|it| stiffen(&links[it.link as usize], nodes, 1, |_| it.axis.total()));
-    heed(nodes, substep.h.into());
+    *torn = heed(nodes, substep.h.into(), open(links));
     for axis in axes {
         let link = &mut links[axis.link as usize];
         tie(simd, link, axis, &nodes[link.a as usize], &nodes[link.b as usize]);
@@ -289,14 +289,34 @@ fn stiffen(link: &TreeLink, nodes: &mut [TreeNode], rows: usize, impulse: impl F
     }
 }
 
-/// Gives nodes moments of inertia that are as stiff as `g` says.
-fn heed(nodes: &mut [TreeNode], h: f64) {
+/// How far joints are open at most.
+fn open(links: &[TreeLink]) -> f64 {
+    let mut open = 0.0;
+    for TreeLink { error, jacobians, .. } in links {
+        for (error, [x, y, ..]) in error.iter().zip(&jacobians[1].rows) {
+            // Angles have no length.
+            let is_length = *x != 0.0 || *y != 0.0;
+            open = if is_length && error.abs() > open { error.abs() } else { open };
+        }
+    }
+    open
+}
+
+/// Gives nodes moments of inertia that are as stiff as `g` says, and no less than their masses have on arms as long as joints are open.
+/// Is any of them torn so?
+fn heed(nodes: &mut [TreeNode], h: f64, open: f64) -> bool {
+    let mut torn = false;
     for node in nodes {
-        let least = h * node.g[2];
+        let (least, inv) = (h * node.g[2], node.inv[0].max(node.inv[1]));
         if node.inv[2] * least > 1.0 {
             node.inv[2] = 1.0 / least;
         }
+        if node.inv[2] * open * open > inv && inv > 0.0 {
+            node.inv[2] = inv / (open * open);
+            torn = true;
+        }
     }
+    torn
 }
 
 /// Makes bodies as stiff against turning as the errors would pull at them were none made good: along a line that is stretched an error
@@ -308,7 +328,7 @@ pub(super) fn stiffen_errors(JointTree { nodes, links, factored, .. }: &mut Join
     links
         .iter()
         .for_each(|link| stiffen(link, nodes, link.rigid, |i| link.rhs[i] / link.compliance[i]));
-    heed(nodes, h);
+    heed(nodes, h, 0.0);
     *factored = false;
 }
 

@@ -1,6 +1,6 @@
 //! The elimination against a dense solver.
 
-use super::factor::{factor, solve};
+use super::loops::{factor, solve};
 use crate::dynamics::{JointClass, JointTree, NULL, TreeLink, TreeNode, TreeRow};
 use crate::simd::{FourKernel, Simd, SimdLevel, dispatch_fours};
 
@@ -10,7 +10,7 @@ impl FourKernel for FactorAndSolve<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         factor(simd, self.0);
-        solve(simd, self.0);
+        solve(simd, self.0, None);
     }
 }
 
@@ -75,6 +75,11 @@ fn random_tree(random: &mut Random) -> JointTree {
     for _ in 0..random.below(3) {
         let node = random.below(count) as u32;
         add(&mut tree, random, node, fixed, [NULL, node]);
+    }
+    for _ in 0..if count > 1 { random.below(4) } else { 0 } {
+        let one = random.below(count);
+        let other = (one + 1 + random.below(count - 1)) % count;
+        add(&mut tree, random, one as u32, other as u32, [NULL; 2]);
     }
     tree
 }
