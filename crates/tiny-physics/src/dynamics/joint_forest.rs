@@ -296,7 +296,7 @@ pub(super) fn is_rope(def: &JointDef) -> bool {
 }
 
 /// Passivity does not watch what springs may drive, and in lanes a spring and a stop that are hit by something heavy throw it back.
-fn has_stops_and_spring(def: &JointDef) -> bool {
+pub(super) fn has_stops_and_spring(def: &JointDef) -> bool {
     match def.kind {
         JointKind::Revolute { spring, limits, .. }
         | JointKind::Prismatic { spring, limits, .. }

@@ -13,7 +13,9 @@ use super::joint_blocks::{
     DistanceBlock, DriveBlock, GearBlock, Impulses, JointClass, JointLanes, PulleyBlock,
     RevoluteBlock, SliderBlock, WeldBlock,
 };
-use super::joint_forest::{JointForest, JointTree, is_rigid, is_rope, rows_of};
+use super::joint_forest::{
+    JointForest, JointTree, has_stops_and_spring, is_rigid, is_rope, rows_of,
+};
 use super::joints::{JointRecord, Joints};
 use super::pace::PLAIN;
 use crate::codec::{Data, Reader, Sink, clone_by_field, store};
@@ -455,8 +457,9 @@ impl JointGraph {
             && record.def.enabled == def.enabled;
         let kept = is_rigid(&record.def) == is_rigid(def) && is_rope(&record.def) == is_rope(def);
         if same && kept {
-            if rows_of(&record.def) != rows_of(def) {
-                // They may contradict each other now, or no longer.
+            let asks = |def| (rows_of(def), has_stops_and_spring(def));
+            if asks(&record.def) != asks(def) {
+                // It may need a tree now, or joints contradict each other, or no longer.
                 self.forest.note(record.body_a, record.body_b);
             }
             joints.records[index as usize].def = *def;

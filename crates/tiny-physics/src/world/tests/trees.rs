@@ -539,3 +539,22 @@ fn longer_steps_move_nothing_on_a_tree() {
         }
     }
 }
+
+#[test]
+fn a_spring_that_comes_later_makes_the_tree_that_one_from_the_start_does() {
+    let mut world = sleepless();
+    let ground = world.add_body(RigidBody::fixed()).unwrap();
+    let ball = world.add_body(RigidBody::dynamic().shape(circle(0.3))).unwrap();
+    let plain = JointDef::wheel(Vec2::Y).limits(-0.2, 0.2);
+    let wheel = world.add_joint(ground, ball, plain).unwrap();
+    world.step(DT);
+    for (def, trees) in [(plain.spring(2.0, 0.1), 1), (plain, 0), (plain.spring(2.0, 0.1), 1)] {
+        world.set_joint(wheel, def).unwrap();
+        world.step(DT);
+        assert_eq!(in_trees(&world), trees);
+        let mut read = World::from_bytes(&world.to_bytes()).unwrap();
+        (0..30).for_each(|_| world.step(DT));
+        (0..30).for_each(|_| read.step(DT));
+        assert_eq!(world.state_hash(), read.state_hash());
+    }
+}
