@@ -3,7 +3,7 @@
 mod common;
 
 use common::energy;
-use tiny_physics::{BodyId, JointDef, Polygon, RigidBody, Shape, Vec2, World};
+use tiny_physics::{BodyId, JointDef, Polygon, RigidBody, Rot, Settings, Shape, Vec2, World};
 
 const DT: f32 = 1.0 / 60.0;
 
@@ -267,5 +267,93 @@ fn the_guard_moves_nothing_that_is_locked() {
                 assert_eq!(world.body(id).unwrap().angular_velocity(), 0.0);
             }
         }
+    }
+}
+
+/// Seconds until a plank that is hinged to the ground at its middle has tipped, beside the same with its two crates welded on: 1 is right.
+/// The crates are 3 to 100 times as heavy as the plank, which is out of balance by 10 to 30 %.
+fn tips_in_time(random: &mut Random) -> f32 {
+    let rate = [60.0, 60.0, 120.0, 240.0][random.range(0.0, 4.0) as usize];
+    let substeps = random.range(2.0, 8.9) as u32;
+    let (unit, pull) = (0.1 * 100.0_f32.powf(random.range(0.0, 1.0)), random.range(1.6, 25.0));
+    let down = Vec2::new(0.0, -pull);
+    let arms = [-random.range(0.5, 1.7), random.range(0.5, 1.7)].map(|arm| arm * unit);
+    let heavier = -arms[0] / arms[1] * random.range(1.1, 1.3);
+    let ratio = 3.0 * 33.0_f32.powf(random.range(0.0, 1.0));
+    let most = 25.0 * (unit / pull).sqrt();
+    let [loose, welded] = [false, true].map(|weld| {
+        let settings = Settings { substeps, length_unit: unit, ..Settings::default() };
+        let mut world = World::with_settings(down, settings);
+        let ground = world.add_body(RigidBody::fixed()).unwrap();
+        let plank = RigidBody::dynamic().mass(0.5 * (1.0 + heavier) / ratio);
+        let plank = world.add_body(plank.shape(rect(2.0 * unit, 0.05 * unit))).unwrap();
+        world.add_joint(ground, plank, JointDef::revolute()).unwrap();
+        for (x, mass) in [(arms[0], 1.0), (arms[1], heavier)] {
+            let place = Vec2::new(x, 0.25 * unit);
+            let load = RigidBody::dynamic().position(place).mass(mass);
+            let load = world.add_body(load.shape(rect(0.2 * unit, 0.2 * unit))).unwrap();
+            if weld {
+                world.add_joint(plank, load, JointDef::weld().anchors(place, Vec2::ZERO)).unwrap();
+            }
+        }
+        let mut time = 0.0;
+        while time < most && world.body(plank).unwrap().angle() > -0.25 {
+            world.step(1.0 / rate);
+            time += 1.0 / rate;
+        }
+        time
+    });
+    loose / welded
+}
+
+#[test]
+fn seesaws_tip_under_loose_loads_as_under_welded_ones() {
+    let mut random = Random(4);
+    let times: Vec<f32> = (0..40).map(|_| tips_in_time(&mut random)).collect();
+    let off: Vec<&f32> = times.iter().filter(|&time| !(0.9..1.15).contains(time)).collect();
+    assert!(off.len() <= 2, "{} of 40: {off:?}", off.len());
+}
+
+#[test]
+fn buckets_swing_on_with_loose_crates() {
+    let mut random = Random(5);
+    for _ in 0..12 {
+        let (length, count) = (random.range(1.0, 3.0), random.range(1.0, 3.9) as usize);
+        let (swing, ratio) = (random.range(0.2, 0.5), random.range(10.0, 60.0));
+        let mut world = World::new(Vec2::new(0.0, -9.8));
+        let ground = world.add_body(RigidBody::fixed()).unwrap();
+        let bucket = RigidBody::dynamic().position(Vec2::new(0.0, -length)).mass(1.0);
+        let wall =
+            |x: f32| Polygon::turned_rect(0.05, 0.25, Vec2::new(x, 0.25), Rot::IDENTITY).unwrap();
+        let bucket = bucket.shape(rect(0.5, 0.05)).shape(Shape::from(wall(-0.5)));
+        let bucket = world.add_body(bucket.shape(Shape::from(wall(0.5)))).unwrap();
+        let hinge = JointDef::revolute().anchors(Vec2::ZERO, Vec2::new(0.0, length));
+        world.add_joint(ground, bucket, hinge).unwrap();
+        let half = if count > 1 { 0.12 } else { 0.2 };
+        let mut ids = vec![bucket];
+        for i in 0..count {
+            let x = 0.28 * (i as f32 - 0.5 * (count - 1) as f32);
+            let place = Vec2::new(x, 0.05 + half - length);
+            let load = RigidBody::dynamic().position(place).mass(ratio / count as f32);
+            ids.push(world.add_body(load.shape(rect(half, half))).unwrap());
+        }
+        let turn = swing * (9.8 / length).sqrt();
+        for id in ids {
+            let mut body = world.body_mut(id).unwrap();
+            let at = body.position();
+            body.set_velocity(Vec2::new(-at.y, at.x) * turn);
+            body.set_angular_velocity(turn);
+        }
+        let (mut first, mut last) = (0.0_f32, 0.0_f32);
+        for step in 0..600 {
+            world.step(DT);
+            let x = world.body(bucket).unwrap().position().x.abs();
+            if step < 150 {
+                first = first.max(x);
+            } else if step >= 420 {
+                last = last.max(x);
+            }
+        }
+        assert!(last > 0.9 * first, "{count} crates of {ratio} on {length} m: {first} and {last}");
     }
 }

@@ -433,19 +433,25 @@ impl JointKind {
         }
     }
 
+    /// Its springs: along or about its free coordinate, or of place and angle.
+    pub(crate) fn springs(mut self) -> [Option<Spring>; 2] {
+        match self {
+            Self::Weld { linear, angular } => [linear, angular],
+            Self::Motor { linear_spring, angular_spring, .. } => [linear_spring, angular_spring],
+            Self::Mouse { spring, .. } => [Some(spring), None],
+            _ => [self.axis().and_then(|(spring, ..)| *spring), None],
+        }
+    }
+
     /// May it set bodies going that are at rest?
     pub(crate) fn drives(&self) -> bool {
-        let moves = |motor: Motor| motor.max > 0.0 && motor.speed != 0.0;
         match *self {
             Self::Mouse { max_force, .. } => max_force > 0.0,
-            Self::Motor { velocity, linear_spring, angular_spring, .. } => {
-                let springs = linear_spring.is_some() || angular_spring.is_some();
-                springs || velocity != Vec2::ZERO || self.motor().is_some_and(moves)
+            Self::Motor { velocity, .. } if velocity != Vec2::ZERO => true,
+            kind => {
+                let moves = |motor: Motor| motor.max > 0.0 && motor.speed != 0.0;
+                kind.springs() != [None; 2] || kind.motor().is_some_and(moves)
             }
-            Self::Weld { linear, angular } => linear.is_some() || angular.is_some(),
-            mut kind => kind
-                .axis()
-                .is_some_and(|(spring, _, motor)| spring.is_some() || motor.is_some_and(moves)),
         }
     }
 

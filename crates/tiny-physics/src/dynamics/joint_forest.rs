@@ -18,12 +18,12 @@ use super::joint_blocks::{Axis, JointClass};
 use super::joints::{JointRecord, Joints};
 use super::places::{claim, put};
 use crate::codec::clone_by_field;
-use crate::describe::{JointDef, JointKind};
+use crate::describe::{BodyKind, JointDef, JointKind};
 use crate::footprint::footprint;
 use crate::simd::Three;
 
-/// Joints in a row from which on a component needs a direct solution, and joints of one that hangs from something fixed:
-/// lanes let a double pendulum gain a fifth of its energy in a minute, and boards on two rods sag.
+/// Joints in a row from which on a component needs a direct solution, and joints of one that hangs from something fixed: lanes let a
+/// double pendulum gain a fifth of its energy in a minute, and boards on two rods sag.
 const LEAST_DEPTH: usize = 8;
 const LEAST_ANCHORED: usize = 2;
 /// So it does where masses differ by this factor, were it one joint: of 100 pairs with masses of 1 to 5..10 that tumble on a
@@ -290,19 +290,37 @@ pub(crate) fn is_rigid(def: &JointDef) -> bool {
         }
 }
 
-/// Is it a rope or a winch, of which a tree may hold the limits and the motor? Nothing else that is not rigid takes one way to move.
-pub(super) fn is_rope(def: &JointDef) -> bool {
-    rows_of(def) == 1 && !is_rigid(def)
+/// What of a joint decides whether it needs a tree, beside its being rigid.
+pub(super) fn asks(def: &JointDef) -> (usize, bool, bool) {
+    (rows_of(def), has_stops_and_spring(def), is_bare(def))
 }
 
-/// Passivity does not watch what springs may drive, and in lanes a spring and a stop that are hit by something heavy throw it back.
-pub(super) fn has_stops_and_spring(def: &JointDef) -> bool {
+/// Does a joint do nothing but hold two ways or three? In lanes a hinge and what lies on its body heave each other up in turns, until
+/// passivity brakes all of it. A motor does work, and what stops that is against a limit is to give way there, not at the hinge.
+fn is_bare(def: &JointDef) -> bool {
+    def.softness.is_none()
+        && matches!(
+            def.kind,
+            JointKind::Revolute { spring: None, limits: None, motor: None, .. }
+                | JointKind::Prismatic { spring: None, limits: None, motor: None, .. }
+                | JointKind::Weld { linear: None, angular: None }
+        )
+}
+
+/// Do a spring and a stop act on the same motion? Passivity does not watch what springs may drive, and in lanes the two throw back what hits
+/// them.
+fn has_stops_and_spring(def: &JointDef) -> bool {
     match def.kind {
         JointKind::Revolute { spring, limits, .. }
         | JointKind::Prismatic { spring, limits, .. }
         | JointKind::Wheel { spring, limits, .. } => spring.is_some() && limits.is_some(),
         _ => false,
     }
+}
+
+/// Is it a rope or a winch, of which a tree may hold the limits and the motor? Nothing else that is not rigid takes one way to move.
+pub(super) fn is_rope(def: &JointDef) -> bool {
+    rows_of(def) == 1 && !is_rigid(def)
 }
 
 /// How many ways to move a joint takes, or may take by its limits: none where it gives way as a spring.
@@ -504,11 +522,19 @@ fn plant(
     };
     let inner_count = component.joints.iter().filter(|joint| inner(joint)).count();
     let anchored = inner_count < links;
-    let how_many = |is: fn(&JointDef) -> bool| {
-        component.joints.iter().filter(|&&joint| is(&joints.records[joint as usize].def)).count()
+    let is_still = |body: u32| bodies.infos[body as usize].kind == BodyKind::Static;
+    let all = component.bodies.iter().flat_map(|&body| {
+        joints.of_body(bodies.infos[body as usize].first_joint).map(|(joint, _)| joint)
+    });
+    let mut all = all.filter(|&joint| joints.records[joint as usize].place != Place::Asleep);
+    let alone = all.all(|joint| component.joints.binary_search(&joint).is_ok());
+    let is_firm = |joint: &u32| {
+        let JointRecord { body_a, body_b, def, .. } = &joints.records[*joint as usize];
+        let bare = alone && is_bare(def) && (is_still(*body_a) || is_still(*body_b));
+        bare || has_stops_and_spring(def)
     };
     let least = match anchored {
-        true if how_many(has_stops_and_spring) > 0 => 1,
+        true if component.joints.iter().any(is_firm) => 1,
         true => LEAST_ANCHORED,
         false => LEAST_DEPTH,
     };
@@ -516,7 +542,8 @@ fn plant(
         return None;
     }
     let cuts = inner_count + 1 - component.bodies.len();
-    let lines = how_many(|def| matches!(def.kind, JointKind::Distance { .. }));
+    let defs = component.joints.iter().map(|&joint| &joints.records[joint as usize].def);
+    let lines = defs.filter(|def| matches!(def.kind, JointKind::Distance { .. })).count();
     let net = 2 * lines > links && cuts > MOST_NET_CUTS.max(links / LINKS_PER_NET_CUT);
     if cuts > MOST_CUTS || net {
         return None;
@@ -541,11 +568,6 @@ fn plant(
         }
     }
     let nodes = vec![NULL; component.bodies.len()];
-    let all = component.bodies.iter().flat_map(|&body| {
-        joints.of_body(bodies.infos[body as usize].first_joint).map(|(joint, _)| joint)
-    });
-    let mut all = all.filter(|&joint| joints.records[joint as usize].place != Place::Asleep);
-    let alone = all.all(|joint| component.joints.binary_search(&joint).is_ok());
     let tree = JointTree { alone, ..JointTree::default() };
     let mut planter = Planter { bodies, joints, places, nodes, tree, depth: Vec::new() };
     planter.plant(&spanning, &anchors);
@@ -557,9 +579,7 @@ fn plant(
     planter.tree.tight = planter.is_tight();
     let depth = planter.depth.last().copied().unwrap_or(0);
     let needed = uneven || anchored || depth >= LEAST_DEPTH;
-    // Free frames of welds that spin gain energy by rows at odds: of 150 that were hit two had more than before, one seven times as much.
-    let at_odds = planter.tree.tight && !anchored && LINKS_PER_NET_CUT * cuts > links;
-    (needed && !at_odds).then_some(planter.tree)
+    needed.then_some(planter.tree)
 }
 
 /// A tree in the making.

@@ -13,12 +13,11 @@ use super::joint_blocks::{
     DistanceBlock, DriveBlock, GearBlock, Impulses, JointClass, JointLanes, PulleyBlock,
     RevoluteBlock, SliderBlock, WeldBlock,
 };
-use super::joint_forest::{
-    JointForest, JointTree, has_stops_and_spring, is_rigid, is_rope, rows_of,
-};
+use super::joint_forest::{JointForest, JointTree, asks, is_rigid, is_rope};
 use super::joints::{JointRecord, Joints};
 use super::pace::PLAIN;
 use crate::codec::{Data, Reader, Sink, clone_by_field, store};
+use crate::describe::JointDef;
 use crate::error::Error;
 use crate::footprint::{Footprint, MemoryUse, footprint};
 use crate::simd::BLOCK;
@@ -423,7 +422,7 @@ impl JointGraph {
         if !self.forest.is_stale() {
             return;
         }
-        // How firmly a joint holds goes with what else its body hangs on.
+        // How firmly a joint holds goes with what else its body hangs on, and so do springs.
         let changed = core::mem::take(&mut self.forest.dirty);
         for &body in changed.iter().filter(|&&body| bodies.is_dynamic(body)) {
             let all = joints.of_body(bodies.infos[body as usize].first_joint);
@@ -450,16 +449,16 @@ impl JointGraph {
         bodies: &mut Bodies,
         joints: &mut Joints,
         index: u32,
-        def: &crate::describe::JointDef,
+        def: &JointDef,
     ) {
         let record = &joints.records[index as usize];
         let same = core::mem::discriminant(&record.def.kind) == core::mem::discriminant(&def.kind)
             && record.def.enabled == def.enabled;
         let kept = is_rigid(&record.def) == is_rigid(def) && is_rope(&record.def) == is_rope(def);
         if same && kept {
-            let asks = |def| (rows_of(def), has_stops_and_spring(def));
+            let asks = |def: &JointDef| (asks(def), def.kind.springs());
             if asks(&record.def) != asks(def) {
-                // It may need a tree now, or joints contradict each other, or no longer.
+                // It may need a tree now, joints contradict each other, or no longer, or more springs act on its bodies together.
                 self.forest.note(record.body_a, record.body_b);
             }
             joints.records[index as usize].def = *def;

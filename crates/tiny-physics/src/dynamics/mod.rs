@@ -35,7 +35,7 @@ pub(crate) use blocks::{
 pub(crate) use bodies::{Bodies, BodyInfo, Given, GivenPoint, Motion, NULL};
 pub(crate) use body_rows::{LOCKED, Slot, give_along, inverse_mass_along, inverses, locked};
 pub(crate) use chosen::Chosen;
-pub(crate) use coloured::{COLOURS, IDLE, Place, colour_at, is_overflow, pace_at};
+pub(crate) use coloured::{COLOURS, IDLE, Place, TREES, colour_at, is_overflow, pace_at};
 pub(crate) use contacts::{Contact, Contacts, SavedPoint};
 pub(crate) use disjoint_sets::DisjointSets;
 pub(crate) use edges::next_edge;

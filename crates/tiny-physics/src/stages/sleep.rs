@@ -8,7 +8,9 @@
 use super::ahead;
 use super::islands::{self, Islands, Stores};
 use crate::describe::BodyKind;
-use crate::dynamics::{Bodies, Bucket, Contacts, Graph, Joints, NULL, Place, flags, next_edge};
+use crate::dynamics::{
+    Bodies, Bucket, Contacts, DisjointSets, Graph, Joints, NULL, Place, flags, next_edge,
+};
 use crate::math::Vec2;
 use crate::simd::BLOCK;
 use std::collections::BTreeSet;
@@ -31,13 +33,24 @@ pub(crate) struct Sets {
     islands: Islands,
     /// Must the island of this root stay awake?
     restless: Vec<bool>,
-    /// Does it slide down what does not move, is it held by that?
-    slides: Vec<[bool; 2]>,
+    stuck: Stuck,
     /// Root and body of those that may sleep.
     resting: Vec<(u32, u32)>,
 }
 
-crate::footprint::footprint!(Sets { islands, restless, slides, resting });
+crate::footprint::footprint!(Sets { islands, restless, stuck, resting });
+
+/// What sticks together by contacts that do not slide and by joints.
+#[derive(Debug, Default)]
+struct Stuck {
+    sets: DisjointSets,
+    /// Does a contact of this body slide?
+    slides: Vec<bool>,
+    /// Is this body, or that of this root, held by what is not dynamic?
+    held: Vec<bool>,
+}
+
+crate::footprint::footprint!(Stuck { sets, slides, held });
 
 /// Finds islands at rest and lists their bodies in `found`, each island ended by [`NULL`]: those in which every
 /// body has rested and none is moved or carried by what it lies on, or by a joint. `lengths` are those of a plain substep, seconds,
@@ -55,7 +68,7 @@ pub(crate) fn find_resting(
     if !bodies.awake.iter().any(|&i| bodies.infos[i as usize].sleep_time >= time_to_sleep) {
         return;
     }
-    let Sets { islands: sets, restless, slides, resting } = sets;
+    let Sets { islands: sets, restless, stuck, resting } = sets;
     sets.find_all(bodies, graph, joints);
     restless.resize(bodies.infos.len(), false);
     bodies.awake.iter().for_each(|&body| restless[body as usize] = false);
@@ -73,11 +86,7 @@ pub(crate) fn find_resting(
             }
         }
     }
-    slides.resize(bodies.infos.len(), [false; 2]);
-    bodies.awake.iter().for_each(|&body| slides[body as usize] = [false; 2]);
-    for (body, way) in leaning(bodies, graph, joints, lengths.1) {
-        slides[sets.root(body) as usize][usize::from(way)] = true;
-    }
+    find_held(bodies, graph, joints, lengths.1, stuck);
     let driven = joints.driven.iter().map(|&index| &joints.records[index as usize]);
     let rested = |i: u32| bodies.infos[i as usize].sleep_time >= time_to_sleep;
     let may_rest = |body: u32| rested(body) || !bodies.is_dynamic(body);
@@ -91,7 +100,9 @@ pub(crate) fn find_resting(
     }
     for &body in &bodies.awake {
         let root = sets.root(body) as usize;
-        if !rested(body) || restless[body as usize] || slides[root] == [true, false] {
+        let slips = stuck.slides[body as usize] && creeps(bodies, body, lengths.1);
+        let goes_on = slips && !stuck.held[stuck.sets.root(body) as usize];
+        if !rested(body) || restless[body as usize] || goes_on {
             restless[root] = true;
         }
     }
@@ -107,34 +118,49 @@ pub(crate) fn find_resting(
     }
 }
 
-/// The bodies that lean on or hang from what is not dynamic, and whether they are held there: all others slide down.
-fn leaning(
-    bodies: &Bodies,
-    graph: &Graph,
-    joints: &Joints,
-    unit: f32,
-) -> impl Iterator<Item = (u32, bool)> {
-    let body_of = |(a, b)| match (bodies.is_dynamic(a), bodies.is_dynamic(b)) {
-        (true, false) => Some(a),
-        (false, true) => Some(b),
-        _ => None,
-    };
-    let creeps = move |body: u32| {
-        let ([x, y, ..], v) = (bodies.motions[body as usize].gain, bodies.velocity(body));
-        let (pull, least) = (Vec2::new(x, y), bodies.infos[body as usize].sleep_speed * unit);
-        v.length() > CREEPS * least && v.dot(pull) > CREEPS * v.length() * pull.length()
-    };
-    let touching = graph.touching_buckets().flat_map(move |(_, bucket)| {
-        (0..bucket.contacts.len()).filter_map(move |slot| {
-            let body = body_of(bucket.bodies(slot))?;
-            Some((body, !(creeps(body) && slides(bucket, slot))))
+/// Finds what sticks together, and what of it is held by what is not dynamic: all else slides, and goes on if it creeps.
+fn find_held(bodies: &Bodies, graph: &Graph, joints: &Joints, unit: f32, stuck: &mut Stuck) {
+    let Stuck { sets, slides, held } = stuck;
+    sets.reset(bodies.infos.len(), bodies.awake.iter().copied());
+    for list in [&mut *slides, &mut *held] {
+        list.resize(bodies.infos.len(), false);
+        bodies.awake.iter().for_each(|&body| list[body as usize] = false);
+    }
+    let touching = graph.touching_buckets().flat_map(|(_, bucket)| {
+        (0..bucket.contacts.len()).map(move |slot| {
+            let ((a, b), lane) = (bucket.bodies(slot), slot % BLOCK);
+            // What does not rub at all says nothing between two that both move.
+            let both = bodies.is_solved(a) && bodies.is_solved(b);
+            let rubs = !both || bucket.constraints[slot / BLOCK].friction[lane] > 0.0;
+            ((a, b), rubs && slides_at(bucket, slot))
         })
     });
-    touching.chain(joints.pairs().filter_map(body_of).map(|body| (body, true)))
+    for ((a, b), sliding) in touching.chain(joints.pairs().map(|pair| (pair, false))) {
+        let [first, second] = [a, b].map(|body| bodies.is_solved(body));
+        // What touches something that is not dynamic and does not creep lies there.
+        if sliding && (first && second || creeps(bodies, if first { a } else { b }, unit)) {
+            (slides[a as usize], slides[b as usize]) = (true, true);
+        } else if first && second {
+            sets.join(a, b);
+        } else {
+            (held[a as usize], held[b as usize]) = (true, true);
+        }
+    }
+    for &body in &bodies.awake {
+        let root = sets.root(body) as usize;
+        held[root] |= held[body as usize];
+    }
+}
+
+/// Does a body go slowly where the forces on it pull it?
+fn creeps(bodies: &Bodies, body: u32, unit: f32) -> bool {
+    let ([x, y, ..], v) = (bodies.motions[body as usize].gain, bodies.velocity(body));
+    let (pull, least) = (Vec2::new(x, y), bodies.infos[body as usize].sleep_speed * unit);
+    v.length() > CREEPS * least && v.dot(pull) > CREEPS * v.length() * pull.length()
 }
 
 /// Do the surfaces of a contact rub as much as they can?
-fn slides(bucket: &Bucket, slot: usize) -> bool {
+fn slides_at(bucket: &Bucket, slot: usize) -> bool {
     let (constraint, lane) = (&bucket.constraints[slot / BLOCK], slot % BLOCK);
     constraint.points.iter().all(|point| {
         point.tangent_impulse[lane].abs() >= SLIDES * constraint.friction[lane] * point.load[lane]
@@ -146,7 +172,7 @@ fn slides(bucket: &Bucket, slot: usize) -> bool {
 fn carried(bucket: &Bucket) -> impl Iterator<Item = (u32, u32)> + '_ {
     let runs = |slot: &usize| {
         let belt = bucket.surfaces[slot / BLOCK].tangent_speed[slot % BLOCK];
-        belt != 0.0 && !slides(bucket, *slot)
+        belt != 0.0 && !slides_at(bucket, *slot)
     };
     let belts = |slot: &usize| bucket.heads[slot / BLOCK].flags & flags::TANGENT_SPEED != 0;
     (0..bucket.contacts.len()).filter(belts).filter(runs).map(|slot| bucket.bodies(slot))

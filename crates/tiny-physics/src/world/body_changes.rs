@@ -85,6 +85,7 @@ impl BodyMut<'_> {
     pub fn set_locks(&mut self, locks: Locks) {
         if self.change(&[], |info| info.locks = locks) {
             self.world.state.bodies.update_inverse_masses(self.index);
+            self.world.refresh_joints(self.index);
         }
     }
 

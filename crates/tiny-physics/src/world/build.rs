@@ -288,6 +288,11 @@ impl World {
             // Shapes have stayed where they were, but for rounding, which a far centre of mass makes visible.
             self.update_boxes(index);
         }
+        self.refresh_joints(index);
+    }
+
+    /// Lets the joints of a body know that its mass is another, or its centre, or how it is locked.
+    pub(super) fn refresh_joints(&mut self, index: u32) {
         let State { bodies, joints, joint_graph, .. } = &mut self.state;
         for (joint, _) in joints.of_body(bodies.infos[index as usize].first_joint) {
             joint_graph.refresh(joints, joint);

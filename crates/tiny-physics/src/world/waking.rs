@@ -6,6 +6,7 @@ use crate::broad_phase::ProxyKind;
 use crate::describe::BodyKind;
 use crate::dynamics::Change;
 use crate::geometry::{LINEAR_SLOP, collide};
+use crate::math::Vec2;
 use crate::stages::solve::Lengths;
 use core::ops::ControlFlow;
 
@@ -14,8 +15,9 @@ impl World {
     /// has been put into.
     pub(super) fn wake_disturbed(&mut self) {
         let felt = self.state.gravity.replace(self.gravity);
-        if felt.is_some_and(|felt| felt != self.gravity) {
+        if let Some(felt) = felt.filter(|&felt| felt != self.gravity) {
             self.wake_all();
+            self.state.graph.scale(kept_weight(felt, self.gravity));
             for i in 0..self.state.bodies.awake.len() {
                 self.state.bodies.disturb(self.state.bodies.awake[i]);
             }
@@ -102,4 +104,13 @@ impl World {
         });
         found
     }
+}
+
+/// What part of the weight that contacts carry is still there under another gravity. All of what the old one left in them would
+/// throw stacks apart where the new one does not press them together; a greater weight they find by themselves.
+fn kept_weight(old: Vec2, new: Vec2) -> f32 {
+    let [x, y] = [old.x, old.y].map(f64::from);
+    let square = x * x + y * y;
+    let along = f64::from(new.x) * x + f64::from(new.y) * y;
+    if square > 0.0 { (along / square).clamp(0.0, 1.0) as f32 } else { 1.0 }
 }

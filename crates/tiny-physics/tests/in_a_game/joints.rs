@@ -243,7 +243,7 @@ fn sliders_of_what_cannot_turn_have_no_torque() {
     for _ in 0..120 {
         world.step(1.0 / 60.0);
         let joint = world.joint(joint).expect("nothing breaks it");
-        assert_eq!(joint.torque(), 0.0);
+        assert!(joint.torque().abs() < 1e-9, "{}", joint.torque());
         assert!((joint.force().y - 10.0).abs() < 0.1, "{}", joint.force());
     }
 }

@@ -25,6 +25,7 @@
 //! pendulums keep their period.
 
 mod axis;
+mod crowd;
 mod distance;
 mod drive;
 mod gear;
@@ -43,12 +44,13 @@ mod tests;
 use crate::describe::{BodyKind, Break, JointDef};
 use crate::dynamics::{
     AxisLanes, BodyInfo, FrameLanes, JointBlocks, JointBucket, JointClass, JointColour, JointGraph,
-    JointLanes, JointLoad, JointRecord, Joints, PACES, Place, REFINEMENT, ROUNDS, TreeLink,
-    joint_classes, pace_at, with_bucket,
+    JointLanes, JointLoad, JointRecord, Joints, PACES, Place, REFINEMENT, ROUNDS, TREES, TreeLink,
+    colour_at, joint_classes, pace_at, with_bucket,
 };
 use crate::math::{Pose, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_baseline, dispatch_narrow};
 use crate::threads::SharedRows;
+use crowd::crowd;
 pub(crate) use parts::Substep;
 use parts::{Pair, Start, Stride};
 use spring::Rates;
@@ -124,9 +126,10 @@ pub(crate) fn describe(graph: &mut JointGraph, joints: &Joints, infos: &[BodyInf
     });
     for (place, colour) in graph.colours.entries_mut() {
         let rates = &rates[pace_at(place)];
+        let in_lanes = colour_at(place) != TREES;
         macro_rules! describe_all {
             (() $($bucket:ident $class:ident $block:ident),*) => {
-                $(describe_bucket(&mut colour.$bucket, joints, infos, rates, all);)*
+                $(describe_bucket(&mut colour.$bucket, joints, infos, rates, all, in_lanes);)*
             };
         }
         joint_classes!(describe_all!());
@@ -141,6 +144,7 @@ fn describe_bucket<B: JointKernel>(
     infos: &[BodyInfo],
     rates: &[Rates; 2],
     all: bool,
+    in_lanes: bool,
 ) {
     let JointBucket { joints: indices, blocks, stale } = bucket;
     for ((block, indices), stale) in blocks.iter_mut().zip(indices.chunks(BLOCK)).zip(stale) {
@@ -155,7 +159,10 @@ fn describe_bucket<B: JointKernel>(
             let b = def.anchor_b - infos[record.body_b as usize].local_center;
             (frame.local_a_x[lane], frame.local_a_y[lane]) = (a.x, a.y);
             (frame.local_b_x[lane], frame.local_b_y[lane]) = (b.x, b.y);
-            block.describe(lane, def, &rates[usize::from(is_anchored(joints, infos, index))]);
+            let rates = &rates[usize::from(is_anchored(joints, infos, index))];
+            // Trees are solved all at once.
+            rates.crowd.set(if in_lanes { crowd(joints, infos, index, rates.h) } else { 1.0 });
+            block.describe(lane, def, rates);
         }
     }
 }

@@ -14,7 +14,7 @@ const RIGID_HERTZ: f32 = 60.0;
 const RIGID_DAMPING_RATIO: f32 = 2.0;
 /// Springs and rigid parts act as if at most this fraction of the substep rate, whatever softness is asked for: at 0.3 trusses shake
 /// for ever, at 0.4 three welds in a row do.
-const MAX_RATE_FRACTION: f32 = 0.25;
+pub(super) const MAX_RATE_FRACTION: f32 = 0.25;
 /// What joints hold rigid to a body that does not move, as a fraction of the substep rate.
 const ANCHORED_RATE_FRACTION: f32 = 1.5;
 /// In [`SoftLanes::rigid`], what is held as softly as the user asks.
@@ -31,8 +31,10 @@ pub(super) struct Rates {
     rigid: Coefficients,
     /// Hertz that what is held rigid has at most.
     stiffest: f32,
-    /// The spring that was asked for last: neighbours are often alike, and exponentials are dear.
-    last: Cell<Option<(Spring, Coefficients)>>,
+    /// How many springs like those of the joint at hand act on its bodies.
+    pub(super) crowd: Cell<f32>,
+    /// The spring that was asked for last, in such a crowd: neighbours are often alike, and exponentials are dear.
+    last: Cell<Option<(Spring, f32, Coefficients)>>,
 }
 
 impl Rates {
@@ -48,7 +50,8 @@ impl Rates {
 
     fn with(h: f32, rounds: u32, hertz: f32, stiffest: f32) -> Self {
         let spring = Spring { hertz: hertz.min(stiffest), damping_ratio: RIGID_DAMPING_RATIO };
-        Self { h, rounds, rigid: softness(spring, h), stiffest, last: Cell::new(None) }
+        let (crowd, last) = (Cell::new(1.0), Cell::new(None));
+        Self { h, rounds, rigid: softness(spring, h), stiffest, crowd, last }
     }
 
     /// Of what a joint holds rigid.
@@ -61,11 +64,12 @@ impl Rates {
     /// Of a spring; zeros for none.
     pub(super) fn spring(&self, spring: Option<Spring>) -> Coefficients {
         let Some(spring) = spring else { return [0.0; 4] };
+        let crowd = self.crowd.get();
         match self.last.get() {
-            Some((last, known)) if last == spring => known,
+            Some((last, among, known)) if last == spring && among == crowd => known,
             _ => {
-                let found = coefficients(spring, self.h, self.rounds);
-                self.last.set(Some((spring, found)));
+                let found = coefficients(spring, self.h, self.rounds, crowd);
+                self.last.set(Some((spring, crowd, found)));
                 found
             }
         }
@@ -107,6 +111,12 @@ fn softness(spring: Spring, h: f32) -> Coefficients {
 /// The largest part of its way by which a substep pushes a spring back, `h b`: that of an undamped one of a seventh of the substeps'
 /// rate. Nets of 4 and of 8 springs a knot and side rest with it; with 1 they swing up within seconds, with 2 within steps.
 const MOST_CHANGE: f64 = 0.7;
+/// From so much on it is damped more than asked.
+const EASY: f64 = 0.4;
+/// The same of all springs on a body together, and the largest part of its speed that they take before the way. Without the damping
+/// bodies on many undamped springs gain up to half of their energy for a while.
+const MOST_TOGETHER: f64 = 1.5;
+const EASY_TOGETHER: f64 = 1.0;
 
 /// A spring with the exact frequency and decay.
 ///
@@ -127,7 +137,11 @@ const MOST_CHANGE: f64 = 0.7;
 /// substeps' rate, without damping): with `1 - a = h b / 2` no number of them on one body swings up, and nets want half as much again.
 /// Beyond [`MOST_CHANGE`] they swing up all the same. A single spring of an eighth of the rate so loses a quarter of its speed in a
 /// substep; by implicit Euler it would lose a fifth.
-pub(super) fn coefficients(spring: Spring, h: f32, rounds: u32) -> Coefficients {
+///
+/// Springs that do not act along one line take from each other what they keep from the substep before, and so swing up what no line of
+/// springs would: eight of a sixth of the rate over half a turn by half in a substep. So all on a body together, of which each knows how
+/// many there are, neither push nor damp by more than [`MOST_TOGETHER`]; what is left of the damping goes to the relax pass.
+pub(super) fn coefficients(spring: Spring, h: f32, rounds: u32, crowd: f32) -> Coefficients {
     let hertz = spring.hertz.min(MAX_RATE_FRACTION / h);
     let zeta = f64::from(spring.damping_ratio.min(MAX_DAMPING_RATIO));
     let w = core::f64::consts::TAU * f64::from(hertz) * f64::from(h);
@@ -139,11 +153,14 @@ pub(super) fn coefficients(spring: Spring, h: f32, rounds: u32) -> Coefficients 
         // zeta - root without cancellation.
         exp_minus(w / (zeta + root)) + exp_minus(w * (zeta + root))
     };
-    let change = (1.0 - sum + product).min(MOST_CHANGE);
+    let asked = (1.0 - sum + product).min(MOST_CHANGE);
+    let crowd = f64::from(crowd);
+    let most = MOST_TOGETHER / crowd;
+    let change = asked.min(most);
     let push = if change > 0.0 { change / f64::from(h) } else { 0.0 };
-    let exact = change / (w * w);
-    let crowd = 1.0 - (0.75 * change).min(2.5 * (change - 0.4));
-    let kept = exact.clamp(product, 1.0).min(crowd);
+    let exact = asked / (w * w);
+    let calm = 1.0 - (0.75 * change).min(2.5 * (asked - EASY.min(EASY_TOGETHER / crowd)));
+    let kept = exact.clamp(product, 1.0).min(calm).max(1.0 - most);
     let product = product.min(kept);
     let eased = (0..rounds.ilog2()).fold(product / kept, |eased, _| eased.sqrt());
     [push as f32, (1.0 - kept) as f32, kept as f32, (1.0 - eased) as f32]
@@ -199,8 +216,9 @@ mod tests {
                 for h in [1e-5, 1.0 / 240.0, 0.1] {
                     let spring = Spring { hertz, damping_ratio };
                     let def = JointDef::weld().softness(hertz, damping_ratio);
-                    for value in
-                        coefficients(spring, h, 1).into_iter().chain(Rates::new(h, 1).rigid(&def))
+                    for value in coefficients(spring, h, 1, 1.0)
+                        .into_iter()
+                        .chain(Rates::new(h, 1).rigid(&def))
                     {
                         assert!(value.is_finite() && value >= 0.0, "{spring:?} {h}: {value}");
                     }

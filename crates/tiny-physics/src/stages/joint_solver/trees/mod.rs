@@ -175,6 +175,9 @@ fn run_tree<S: Simd>(
             if swings_freely(tree) {
                 kick(simd, tree, -1.0);
             }
+            if is_strained(tree) {
+                bend(simd, tree, &rates.stride);
+            }
             warm_start(simd, tree);
         }
         _ => {
@@ -285,13 +288,8 @@ fn solve<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
     begin_limits(simd, tree, rates);
     let share = if rates.bias { snap_share(simd, tree, rates) } else { 0.0 };
     let rates = &Rates { push: share * rates.push, ..*rates };
-    if rates.bias {
-        // What is taken back between two solves leaves velocities that nothing has.
-        let JointTree { nodes, links, .. } = tree;
-        for link in links {
-            let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
-            link.curve = curve(simd, link, a, b, &rates.stride);
-        }
+    if rates.bias && !is_strained(tree) {
+        bend(simd, tree, &rates.stride);
     }
     let mut solves = 0;
     loop {
@@ -612,6 +610,23 @@ fn short_of<S: Simd>(simd: S, link: &TreeLink, nodes: &[TreeNode], rates: &Rates
     take_product(simd, &mut rhs, &link.jacobians[1].columns, &b.v);
     take_product(simd, &mut rhs, &link.jacobians[0].columns, &a.v);
     rhs
+}
+
+/// Do its joints strain each other? The impulses of the substep before have not turned with its bodies, and would turn them by so much more
+/// than they do that strains grew from substep to substep: there it counts how bodies turn before them, else before what is solved, as
+/// what is taken back between two solves leaves velocities that nothing has.
+fn is_strained(tree: &JointTree) -> bool {
+    tree.uncut() < tree.links.len()
+}
+
+/// Looks how the bodies turn.
+#[inline(always)]
+fn bend<S: Simd>(simd: S, tree: &mut JointTree, stride: &Stride<f64>) {
+    let JointTree { nodes, links, .. } = tree;
+    for link in links {
+        let (a, b) = (&nodes[link.a as usize], &nodes[link.b as usize]);
+        link.curve = curve(simd, link, a, b, stride);
+    }
 }
 
 /// What the circles of anchors and rods take from the mean velocities over a substep, to second order:

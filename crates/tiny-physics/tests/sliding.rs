@@ -1,0 +1,67 @@
+//! What slides slowly off something that stays does not fall asleep on its way.
+
+mod common;
+
+use common::{Random, rect};
+use tiny_physics::{RigidBody, ShapeDef, Vec2, World};
+
+/// From `least` to `most`, each factor as likely as any other.
+fn any_scale(random: &mut Random, least: f32, most: f32) -> f32 {
+    least * (random.range(0.0, (most / least).ln())).exp()
+}
+
+fn any_rate(random: &mut Random, world: &mut World) -> f32 {
+    world.settings.substeps = 1 << random.below(4);
+    [1.0 / 30.0, 1.0 / 60.0, 1.0 / 120.0, 1.0 / 240.0][random.below(4) as usize]
+}
+
+/// Does a slab that slides down planks on a slope fall asleep on its way?
+fn sleeps_on_its_way(random: &mut Random) -> bool {
+    let unit = [0.05, 1.0, 20.0][random.below(3) as usize];
+    let mut world = World::new(Vec2::new(0.0, -any_scale(random, 1.6, 40.0) * unit));
+    world.settings.length_unit = unit;
+    let dt = any_rate(random, &mut world);
+    let slope = random.range(0.05, 0.4);
+    let (sin, cos) = slope.sin_cos();
+    let place = |height: f32| Vec2::new(-sin, cos) * (height * unit);
+    let ground = ShapeDef::new(rect(60.0 * unit, unit)).friction(1.0);
+    let ground = RigidBody::fixed().position(place(-1.0)).angle(slope).shape(ground);
+    world.add_body(ground).expect("a slope");
+    let mut add = |x: f32, y: f32, height: f32, friction: f32, mass: f32| {
+        let shape = ShapeDef::new(rect(x * unit, y * unit)).friction(friction);
+        let mut body = RigidBody::dynamic().position(place(height + y)).angle(slope).shape(shape);
+        body.mass = Some(mass);
+        world.add_body(body).expect("a body")
+    };
+    let planks = 1 + random.below(3) as usize;
+    for k in 0..planks {
+        add(3.0, 0.2, 0.4 * k as f32, 1.0, any_scale(random, 1.0, 10.0));
+    }
+    // Surfaces rub by the geometric mean.
+    let rubs = slope.tan() * random.range(0.95, 0.99);
+    let mass = any_scale(random, 0.1, 100.0);
+    let slab = add(0.3, 0.08, 0.4 * planks as f32, rubs * rubs, mass);
+    let mut way = Vec::new();
+    while way.len() < (20.0 / dt) as usize {
+        world.step(dt);
+        way.push(common::position(&world, slab));
+        let body = world.body(slab).expect("the slab");
+        if (way[way.len() - 1] - way[0]).length() > 2.6 * unit {
+            return false;
+        }
+        if !body.is_awake() {
+            let before = way[way.len().saturating_sub(1 + (0.5 / dt) as usize)];
+            return (way[way.len() - 1] - before).length() > 1e-3 * unit;
+        }
+    }
+    false
+}
+
+/// What slides slowly off something that stays goes on.
+#[test]
+fn what_slides_off_what_stays_does_not_fall_asleep() {
+    let mut random = Random::new(4);
+    let asleep = (0..200).filter(|_| sleeps_on_its_way(&mut random)).count();
+    println!("{asleep} of 200");
+    assert!(asleep == 0, "{asleep} of 200 fell asleep");
+}
