@@ -57,11 +57,11 @@ fn sleeps_on_its_way(random: &mut Random) -> bool {
     false
 }
 
-/// What slides slowly off something that stays goes on.
+/// What slides slowly off something that stays goes on. Of such slabs 83 of 200 fell asleep, while an island counted as held if any of it
+/// was.
 #[test]
 fn what_slides_off_what_stays_does_not_fall_asleep() {
     let mut random = Random::new(4);
     let asleep = (0..200).filter(|_| sleeps_on_its_way(&mut random)).count();
-    println!("{asleep} of 200");
     assert!(asleep == 0, "{asleep} of 200 fell asleep");
 }
