@@ -152,6 +152,8 @@ pub(crate) struct TreeAxis {
     pub(crate) link: u32,
     /// In trees the first limit's impulse is that of both, the lower's less the upper's: at most one of them pushes.
     pub(crate) axis: Axis<f64>,
+    /// Its limits give way as they do in lanes.
+    pub(crate) soft: bool,
     /// Velocity per impulse of the two bodies, as the rigid rows tie them.
     pub(crate) tied: f64,
     /// The same of its motor.
@@ -159,6 +161,19 @@ pub(crate) struct TreeAxis {
     /// The row that an impulse of one acts along with what the rigid rows then give, and how much they give.
     pub(crate) on: [Three; 2],
     pub(crate) given: Three,
+}
+
+impl TreeAxis {
+    /// Does nothing but limits act along it?
+    pub(crate) fn is_limit_only(&self) -> bool {
+        self.axis.push == 0.0 && self.axis.motor_max == 0.0
+    }
+
+    /// How far a coordinate is beyond its limits.
+    pub(crate) fn overrun(&self, value: f64) -> f64 {
+        let [lower, upper] = self.axis.ends;
+        (lower - value).max(value - upper)
+    }
 }
 
 /// A component of joints that is solved directly.
@@ -301,8 +316,8 @@ fn is_bare(def: &JointDef) -> bool {
     def.softness.is_none()
         && matches!(
             def.kind,
-            JointKind::Revolute { spring: None, limits: None, motor: None, .. }
-                | JointKind::Prismatic { spring: None, limits: None, motor: None, .. }
+            JointKind::Revolute { spring: None, motor: None, .. }
+                | JointKind::Prismatic { spring: None, motor: None, .. }
                 | JointKind::Weld { linear: None, angular: None }
         )
 }

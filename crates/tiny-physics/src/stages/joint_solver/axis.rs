@@ -39,10 +39,9 @@ impl<L: Lanes, const BIAS: bool> Held<L, BIAS> {
     pub(super) fn solve(
         &self,
         stride: &Stride<L>,
-        soft: &Soft<L, BIAS>,
         axis: &mut AxisLanes,
         coordinate: Coordinate<L>,
-        give: Give<L>,
+        give: Give<L, BIAS>,
     ) -> ([L; 2], L) {
         let alone = scale(self.inverse.apply(self.demand), -stride.one);
         if !stride.extras {
@@ -53,7 +52,7 @@ impl<L: Lanes, const BIAS: bool> Held<L, BIAS> {
         let velocity = coordinate.velocity + dot(self.coupling, alone);
         let inv_mass = complement(stride, coordinate.inv_mass, self.coupling, per);
         let coordinate = Coordinate { velocity, inv_mass, ..coordinate };
-        let along = axis.solve::<L, BIAS>(stride, soft, give, coordinate);
+        let along = axis.solve(stride, give, coordinate);
         (sub(alone, scale(per, along)), along)
     }
 }
@@ -142,13 +141,12 @@ impl AxisLanes {
         self.spring[lane] + self.motor[lane] + self.lower_impulse[lane] - self.upper_impulse[lane]
     }
 
-    /// The impulse to be added along the coordinate. `soft` is that of limits, which push back as `give` says.
+    /// The impulse to be added along the coordinate. Limits push back as `give` says.
     #[inline(always)]
     pub(super) fn solve<L: Lanes, const BIAS: bool>(
         &mut self,
         stride: &Stride<L>,
-        soft: &Soft<L, BIAS>,
-        give: Give<L>,
+        give: Give<L, BIAS>,
         coordinate: Coordinate<L>,
     ) -> L {
         let Coordinate { value, mut velocity, inv_mass } = coordinate;
@@ -158,16 +156,9 @@ impl AxisLanes {
         let total = spring + axis.drive(&mut velocity, [mass, inv_mass]);
         stride.store(axis.spring, &mut self.spring);
         stride.store(axis.motor, &mut self.motor);
-        let ([old_lower, old_upper], [lower, upper]) = (axis.limits, axis.ends);
-        let motion = [velocity, mass, inv_mass];
-        let impulse = give.solve::<BIAS>(stride, soft, old_lower, value - lower, motion);
-        stride.store(impulse, &mut self.lower_impulse);
-        let change = impulse - old_lower;
-        let (total, velocity) = (total + change, velocity + inv_mass * change);
-        let motion = [-velocity, mass, inv_mass];
-        let impulse = give.solve::<BIAS>(stride, soft, old_upper, upper - value, motion);
-        stride.store(impulse, &mut self.upper_impulse);
-        total - (impulse - old_upper)
+        let change = axis.stop(stride, give, value, [velocity, mass, inv_mass]);
+        stride.store2(axis.limits, &mut self.lower_impulse, &mut self.upper_impulse);
+        total + change
     }
 }
 
@@ -195,6 +186,25 @@ impl<L: Lanes> Axis<L> {
         self.spring = self.spring + change;
         *velocity = *velocity + inv_mass * change;
         change
+    }
+
+    /// The same of the limits; with the coordinate's velocity, mass and inverse mass.
+    #[inline(always)]
+    pub(super) fn stop<const BIAS: bool>(
+        &mut self,
+        stride: &Stride<L>,
+        give: Give<L, BIAS>,
+        value: L,
+        [velocity, mass, inv_mass]: [L; 3],
+    ) -> L {
+        let ([old_lower, old_upper], [lower, upper]) = (self.limits, self.ends);
+        let motion = [velocity, mass, inv_mass];
+        let at_lower = give.solve(stride, old_lower, value - lower, motion);
+        let change = at_lower - old_lower;
+        let motion = [-(velocity + inv_mass * change), mass, inv_mass];
+        let at_upper = give.solve(stride, old_upper, upper - value, motion);
+        self.limits = [at_lower, at_upper];
+        change - (at_upper - old_upper)
     }
 
     /// The same of the motor.
@@ -237,14 +247,22 @@ const TURN_BACK: f32 = 40.0;
 /// for what is in its way to be seen.
 const BENT: f32 = 0.2;
 
+/// The part of its impulse that a limit lets go of beyond that. A door that begins .3 to .7 radians beyond its limits behind a peg goes a
+/// millimetre into it; if nothing is let go of it goes through. If all is, it pushes a ball of a third of its mass at a sixth of the speed.
+const LET_GO: f32 = 0.5;
+
 /// How limits give way.
 #[derive(Clone, Copy)]
-pub(super) struct Give<L> {
+pub(super) struct Give<L, const BIAS: bool> {
+    /// As softly as their joint, or their part of it.
+    soft: Soft<L, BIAS>,
     /// Speed at which an overrun is taken back, besides that with which it comes and what the limit stops already: a
     /// ragdoll that is hit needs more than one that lies in a heap.
     snap: L,
-    /// So much faster close to the limit, and how that fades over an overrun.
+    /// So much faster close to the limit.
     haste: L,
+    /// How that fades over an overrun, with it what is firm and what the limit bears: it gives way to what stands in its way. Not at all
+    /// where the user has asked for a softness.
     fade: L,
     /// Overrun beyond which it is pushed back more firmly than softly, and that over which it becomes quite firm.
     overrun: L,
@@ -253,65 +271,64 @@ pub(super) struct Give<L> {
     yields: L,
 }
 
-impl<L: Lanes> Give<L> {
+impl<L: Lanes, const BIAS: bool> Give<L, BIAS> {
     /// Limits of angles.
     #[inline(always)]
-    pub(super) fn turning<const BIAS: bool>(stride: &Stride<L>, soft: &Soft<L, BIAS>) -> Self {
+    pub(super) fn turning(stride: &Stride<L>, soft: Soft<L, BIAS>) -> Self {
         Self {
             snap: stride.snap_turn,
             haste: stride.snap_turn * stride.splat(TURN_BACK - 1.0),
-            fade: stride.splat(1.0 / BENT),
-            overrun: soft.overrun(stride, stride.splat(SOFT_OVERRUN)),
+            fade: soft.unasked(stride, stride.splat(1.0 / BENT), stride.zero),
+            overrun: soft.unasked(stride, stride.splat(SOFT_OVERRUN), stride.splat(f32::MAX)),
             spread: stride.splat(SPREAD),
             yields: stride.zero,
+            soft,
         }
     }
 
     /// Limits of places.
     #[inline(always)]
-    pub(super) fn sliding<const BIAS: bool>(
-        stride: &Stride<L>,
-        soft: &Soft<L, BIAS>,
-        yields: L,
-    ) -> Self {
-        let overrun = soft.overrun(stride, stride.unit * stride.splat(SOFT_OVERRUN));
-        let spread = stride.unit * stride.splat(SPREAD);
-        let [haste, fade] = [stride.zero; 2];
-        Self { snap: stride.snap, haste, fade, overrun, spread, yields }
+    pub(super) fn sliding(stride: &Stride<L>, soft: Soft<L, BIAS>, yields: L) -> Self {
+        let turning = Self::turning(stride, soft);
+        let (overrun, spread) = (stride.unit * turning.overrun, stride.unit * turning.spread);
+        let fade = turning.fade / stride.unit;
+        Self { snap: stride.snap, haste: stride.zero, fade, overrun, spread, yields, soft }
     }
 
     /// Ropes, never firm: a net of 900 whips itself to 26 m/s with firm ones. In time they have to follow a net that
     /// swings: with a snap of once the usual its fastest knot has 0.3 m/s after half a minute, with four times 0.08.
     #[inline(always)]
-    pub(super) fn rope(stride: &Stride<L>, yields: L) -> Self {
+    pub(super) fn rope(stride: &Stride<L>, soft: Soft<L, BIAS>, yields: L) -> Self {
         let snap = stride.snap * stride.splat(4.0);
         let [haste, fade] = [stride.zero; 2];
-        Self { snap, haste, fade, overrun: stride.splat(f32::MAX), spread: stride.one, yields }
+        let overrun = stride.splat(f32::MAX);
+        Self { snap, haste, fade, overrun, spread: stride.one, yields, soft }
     }
 
     /// The impulse of one limit: it pushes only, and stops within the substep what would run over it.
     #[inline(always)]
-    pub(super) fn solve<const BIAS: bool>(
+    pub(super) fn solve(
         &self,
         stride: &Stride<L>,
-        soft: &Soft<L, BIAS>,
         old: L,
         room: L,
         [velocity, mass, inv_mass]: [L; 3],
     ) -> L {
+        let soft = &self.soft;
         let apart = room.gt(stride.zero);
         let impulse = if BIAS {
             let (soft_push, firm_push) = (soft.push * room, (room + self.overrun) * stride.inv_h);
             let near = (stride.one + room * self.fade).clamp(stride.zero, stride.one);
             let snap = self.snap + self.haste * near;
-            let borne = L::select(self.yields.gt(stride.zero), stride.zero, old);
+            let borne = near * L::select(self.yields.gt(stride.zero), stride.zero, old);
             let least = velocity.min(stride.zero) - inv_mass * borne - snap;
             let push = firm_push.min(soft_push).max(least);
             // Only a soft push takes part of the velocity, and of what was pushed before.
             let firm = (soft_push - firm_push) / (self.spread * stride.inv_h);
-            let firm = firm.clamp(stride.zero, stride.one);
+            let firm = near * firm.clamp(stride.zero, stride.one);
             let share = soft.mass_scale + firm * (stride.one - soft.mass_scale);
-            let decay = soft.impulse_scale.max(self.yields) * old;
+            let yields = self.yields.max(stride.splat(LET_GO) * (stride.one - near));
+            let decay = soft.impulse_scale.max(yields) * old;
             let mass = mass * (stride.one + firm * stride.splat(FIRMNESS - 1.0));
             let bias = L::select(apart, room * stride.inv_h, push);
             let velocity = L::select(apart, velocity, share * velocity);

@@ -110,8 +110,8 @@ impl JointKernel for DistanceBlock {
         let mut change = stride.zero;
         if stride.extras {
             let coordinate = Coordinate { value, velocity, inv_mass };
-            let give = Give::rope(stride, yields);
-            change = self.axis.solve::<L, BIAS>(stride, &soft, give, coordinate);
+            let give = Give::rope(stride, soft, yields);
+            change = self.axis.solve(stride, give, coordinate);
             velocity = velocity + inv_mass * change;
         }
         let old = stride.load(&self.rod.impulse);

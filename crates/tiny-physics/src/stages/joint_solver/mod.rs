@@ -50,6 +50,7 @@ use crate::dynamics::{
 use crate::math::{Pose, Vec2};
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_baseline, dispatch_narrow};
 use crate::threads::SharedRows;
+use axis::Give;
 use crowd::crowd;
 pub(crate) use parts::Substep;
 use parts::{Pair, Start, Stride};
@@ -78,6 +79,10 @@ trait JointKernel: JointLanes {
     }
     /// Writes the rows of a joint that a tree holds, whose impulses are the first, and the free coordinate.
     fn tie(&self, _stride: &Stride<f64>, _pair: &Pair<f64>, _link: &mut TreeLink) {}
+    /// How its limits give way, where they may do so in a tree.
+    fn give<const BIAS: bool>(&self, _stride: &Stride<f64>) -> Option<Give<f64, BIAS>> {
+        None
+    }
     /// The direction along which their load is told, if that follows from no impulse.
     fn told(&mut self) -> Option<[&mut [f32; BLOCK]; 2]> {
         None

@@ -307,10 +307,10 @@ impl<L: Lanes, const BIAS: bool> Soft<L, BIAS> {
         Self { push, mass_scale, impulse_scale, held }
     }
 
-    /// Overrun from which on limits are firm: never where the user has asked for a softness.
+    /// The one or, where the user has asked for a softness, the other.
     #[inline(always)]
-    pub(super) fn overrun(&self, stride: &Stride<L>, usual: L) -> L {
-        L::select(self.held.gt(stride.one), stride.splat(f32::MAX), usual)
+    pub(super) fn unasked(&self, stride: &Stride<L>, usual: L, asked: L) -> L {
+        L::select(self.held.gt(stride.one), asked, usual)
     }
 
     /// The velocity that the constraint takes away. Errors are no matter of the relax pass.

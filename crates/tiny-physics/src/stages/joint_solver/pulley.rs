@@ -92,8 +92,7 @@ impl JointKernel for PulleyBlock {
         let velocity = rope.pull.velocity(pair);
         let old = stride.load(&self.rod.impulse);
         let motion = [velocity, mass, inv_mass];
-        let tension =
-            Give::rope(stride, stride.zero).solve::<BIAS>(stride, &soft, old, rope.room, motion);
+        let tension = Give::rope(stride, soft, stride.zero).solve(stride, old, rope.room, motion);
         stride.store(tension, &mut self.rod.impulse);
         rope.pull.apply(pair, tension - old);
         if !BIAS {

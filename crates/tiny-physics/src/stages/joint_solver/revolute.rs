@@ -32,6 +32,10 @@ impl JointKernel for RevoluteBlock {
         link.let_go(&Row::ANGLE, pair.angle(stride, &self.angle));
     }
 
+    fn give<const BIAS: bool>(&self, stride: &Stride<f64>) -> Option<Give<f64, BIAS>> {
+        Some(Give::turning(stride, Soft::load(stride, &self.soft)))
+    }
+
     fn describe(&mut self, lane: usize, def: &JointDef, rates: &Rates) {
         let JointKind::Revolute { spring, target_angle, limits, motor } = def.kind else { return };
         rates.write(def, None, &mut self.soft, lane);
@@ -88,8 +92,8 @@ impl JointKernel for RevoluteBlock {
             velocity: pair.spin(),
             inv_mass: pair.inv_inertia(),
         };
-        let give = Give::turning(stride, &soft);
-        let (change, angular) = rows.solve(stride, &soft, &mut self.axis, coordinate, give);
+        let give = Give::turning(stride, soft);
+        let (change, angular) = rows.solve(stride, &mut self.axis, coordinate, give);
         let impulse = add(old, change);
         stride.store2(impulse, &mut self.point.impulse_x, &mut self.point.impulse_y);
         pair.apply_at_anchors(change, angular);

@@ -153,6 +153,10 @@ impl JointKernel for SliderBlock {
         (self.direction.local_x[lane], self.direction.local_y[lane]) = (direction.c, direction.s);
     }
 
+    fn give<const BIAS: bool>(&self, stride: &Stride<f64>) -> Option<Give<f64, BIAS>> {
+        Some(Give::sliding(stride, Soft::load(stride, &self.soft), stride.zero))
+    }
+
     #[inline(always)]
     fn prepare<L: Lanes>(&mut self, stride: &Stride<L>, start: &Start<L>, _: &[Pose]) {
         start.prepare_angle(stride, &mut self.angle);
@@ -214,8 +218,8 @@ impl JointKernel for SliderBlock {
             velocity: pair.velocity_along(&jacobians.along),
             inv_mass: pair.inv_mass_along(&jacobians.along),
         };
-        let give = Give::sliding(stride, &soft, yields);
-        let (change, along) = rows.solve(stride, &soft, &mut self.axis, coordinate, give);
+        let give = Give::sliding(stride, soft, yields);
+        let (change, along) = rows.solve(stride, &mut self.axis, coordinate, give);
         let impulse = add([across, angular], change);
         stride.store2(impulse, &mut self.rigid.impulse_x, &mut self.rigid.impulse_y);
         jacobians.apply(pair, along, change);

@@ -18,13 +18,15 @@ mod rows;
 #[cfg(test)]
 mod tests;
 
-use super::Pass;
 use super::parts::{SNAP, SNAP_SHARE, Stride, Substep, slow_turn};
+use super::{JointKernel, Pass};
 use crate::dynamics::{
     Axis, JointClass, JointColour, JointTree, Joints, Motion, TreeAxis, TreeLink, TreeNode,
-    TreeRow, is_jointed,
+    TreeRow, is_jointed, with_bucket,
 };
-use crate::simd::{FourKernel, Simd, SimdLevel, Three, add_times, dispatch_fours, take_product};
+use crate::simd::{
+    BLOCK, FourKernel, Simd, SimdLevel, Three, add_times, dispatch_fours, take_product,
+};
 use crate::threads::{SharedRows, Team};
 
 /// Part of a position error that a substep takes away. What is missing at 0.25 is energy: a double pendulum keeps 0.91
@@ -186,6 +188,9 @@ fn run_tree<S: Simd>(
             }
             drive(simd, tree, &rates);
             solve(simd, tree, &rates);
+            if tree.axes.iter().any(|axis| axis.soft) {
+                give_way(simd, tree, lanes, substep, rates.bias);
+            }
         }
     }
     rows::store(tree, bodies);
@@ -260,6 +265,36 @@ fn drive<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
             let needed = needed(link, axis, nodes, rates);
             bound(simd, link, axis, nodes, needed);
         }
+    }
+}
+
+/// Limits that give way as they do in lanes, once what is rigid holds.
+#[inline(always)]
+fn give_way<S: Simd>(
+    simd: S,
+    tree: &mut JointTree,
+    lanes: &JointColour,
+    substep: Substep,
+    bias: bool,
+) {
+    let JointTree { nodes, links, axes, .. } = tree;
+    for axis in axes.iter_mut().filter(|axis| axis.soft) {
+        let link = &mut links[axis.link as usize];
+        let stride = Stride::new((), link.slot as usize % BLOCK, substep);
+        let velocity = speed_along(&link.coordinate, link, nodes);
+        let (motion, value) = ([velocity, stride.invert(axis.tied), axis.tied], link.value);
+        let own = &mut axis.axis;
+        own.limits = [own.limits[0].max(0.0), -own.limits[0].min(0.0)];
+        let change = with_bucket!(lanes, link.class, bucket => {
+            let block = &bucket.blocks[link.slot as usize / BLOCK];
+            if bias {
+                block.give::<true>(&stride).map(|give| own.stop(&stride, give, value, motion))
+            } else {
+                block.give::<false>(&stride).map(|give| own.stop(&stride, give, value, motion))
+            }
+        });
+        own.limits = [own.limits[0] - own.limits[1], 0.0];
+        push_along(simd, link, axis, nodes, change.unwrap_or(0.0));
     }
 }
 
@@ -489,7 +524,8 @@ fn begin_limits<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
         let wants = |side: f64| {
             side * axis.axis.limits[0] > 0.0 || overrun(link, axis, velocity, side, rates) > 0.0
         };
-        let side = [1.0, -1.0].into_iter().find(|&side| wants(side)).unwrap_or(0.0);
+        let holds = |&side: &f64| !axis.soft && wants(side);
+        let side = [1.0, -1.0].into_iter().find(holds).unwrap_or(0.0);
         if side * axis.axis.limits[0] < 0.0 {
             release(simd, link, axis, nodes);
         }
@@ -513,7 +549,7 @@ fn begin_limits<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
 fn change_limits<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates, sticks: bool) -> bool {
     let JointTree { nodes, links, axes, factored, .. } = tree;
     let mut changed = false;
-    for axis in axes {
+    for axis in axes.iter_mut().filter(|axis| !axis.soft) {
         let link = &mut links[axis.link as usize];
         let Some((limit, driven)) = better(link, axis, nodes, rates) else { continue };
         changed = true;
