@@ -310,8 +310,8 @@ pub(super) fn asks(def: &JointDef) -> (usize, bool, bool) {
     (rows_of(def), has_stops_and_spring(def), is_bare(def))
 }
 
-/// Does a joint do nothing but hold two ways or three? In lanes a hinge and what lies on its body heave each other up in turns, until
-/// passivity brakes all of it. A motor does work, and what stops that is against a limit is to give way there, not at the hinge.
+/// Does a joint do nothing but hold two ways or three, and stop? In lanes a hinge and what lies on its body heave each other up in turns,
+/// until passivity brakes all of it. A motor does work.
 fn is_bare(def: &JointDef) -> bool {
     def.softness.is_none()
         && matches!(
