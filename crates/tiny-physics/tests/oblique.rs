@@ -120,7 +120,7 @@ fn gas(random: &mut Random) -> f64 {
         world.add_body(RigidBody::fixed().position(place).shape(wall)).expect("a wall");
     }
     for k in 0..rows * rows {
-        let place = |k: u32| (k as f32 - 0.5 * (rows - 1) as f32) * 2.4 * r;
+        let place = |k: u64| (k as f32 - 0.5 * (rows - 1) as f32) * 2.4 * r;
         let place = Vec2::new(place(k % rows), place(k / rows));
         let velocity = Vec2::new(random.range(-1.0, 1.0), random.range(-1.0, 1.0)) * speed;
         ball(&mut world, r, any_scale(random, 1.0, 10.0), 1.0, [place, velocity]);
