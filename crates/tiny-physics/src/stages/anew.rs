@@ -14,6 +14,12 @@ pub(crate) struct Scope<'a> {
     pub(crate) reach: f32,
 }
 
+/// Is a shape one-way, or a link of a chain?
+pub(super) fn has_rules(shapes: &Shapes, shape: u32) -> bool {
+    let record = &shapes.records[shape as usize];
+    record.one_way.is_some() || record.link.is_some()
+}
+
 /// The two bodies of a contact: how they have moved since the start of the step, up to some time from now.
 pub(super) struct Course {
     bodies: [u32; 2],

@@ -6,7 +6,7 @@
 //! will be in the middle of it: what is off then is of third order. What lies on a drum goes along its arc the same way.
 
 use super::ahead::{HEAVIER, Predictions};
-use super::anew::{Course, Scope};
+use super::anew::{self, Course, Scope};
 use super::islands::Stores;
 use crate::dynamics::{Bodies, Bucket, Contact, Contacts, Graph, Joints, Place, Shapes};
 use crate::footprint::footprint;
@@ -143,9 +143,8 @@ fn is_joined(bodies: &Bodies, joints: &Joints, body: u32) -> bool {
 /// of their own.
 fn has_rules(contact: &Contact, shapes: &Shapes, turns: u32) -> bool {
     [contact.shape_a, contact.shape_b].into_iter().any(|shape| {
-        let record = &shapes.records[shape as usize];
         let is_guarded = shape != turns && shapes.guards[shape as usize] != 0;
-        is_guarded || record.one_way.is_some() || record.link.is_some()
+        is_guarded || anew::has_rules(shapes, shape)
     })
 }
 

@@ -14,7 +14,7 @@ use crate::dynamics::{Bodies, Bucket, ConstraintBlock, NULL, Slot};
 use crate::geometry::Shape;
 use crate::math::Vec2;
 use crate::simd::{BLOCK, Row};
-use crate::stages::anew::{Course, Scope};
+use crate::stages::anew::{self, Course, Scope};
 use crate::stages::effective_mass::{changes, effective_mass};
 
 /// How often the moment is looked for: each time the rest of the way shrinks to about its square.
@@ -45,15 +45,13 @@ pub(super) fn bring_up(
     let is_disk =
         |&shape: &u32| matches!(scope.shapes.records[shape as usize].shape, Shape::Circle { .. });
     // Surfaces that go on have rules of their own.
-    let has_rules = |&shape: &u32| {
-        let record = &scope.shapes.records[shape as usize];
-        let is_guarded = scope.shapes.guards[shape as usize] != 0;
-        is_guarded || record.one_way.is_some() || record.link.is_some()
+    let goes_on = |&shape: &u32| {
+        scope.shapes.guards[shape as usize] != 0 || anew::has_rules(scope.shapes, shape)
     };
-    if shapes.iter().any(is_disk) && !shapes.iter().any(has_rules) {
+    if shapes.iter().any(is_disk) && !shapes.iter().any(goes_on) {
         // What has pushed before has its place by that.
         let is_new = constraint.points[0].normal_impulse[lane] == 0.0;
-        let earliest = if is_free && is_new { before } else { before.max(0.0) };
+        let earliest = if is_new { before } else { before.max(0.0) };
         let span = if is_joined { [0.0; 2] } else { [earliest, after] };
         return meet(bodies, bucket, scope, (slot, span));
     }
