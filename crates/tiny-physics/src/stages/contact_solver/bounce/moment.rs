@@ -4,11 +4,12 @@
 //! bodies have gone on by some `e` against each other, so the impulse `P` and its opposite would act at two points and make a
 //! torque `P x e` out of nothing, and the normal of what is round has turned.
 //!
-//! So the contact of a disk is found anew for the moment when it meets the other shape, later in the substep or, where it was not
+//! So the contact of two disks is found anew for the moment when they meet, later in the substep or, where it was not
 //! foreseen, up to a step ago. The impulse acts when the substep begins: what it takes two free bodies up to the moment is taken off
 //! their places. They end up where they belong, with the angular momentum and the energy that they had.
 //!
-//! Of what else moves freely the arms are made to meet in one point half way.
+//! Of what else moves freely the arms are made to meet in one point: a disk keeps its own. Disks were found anew with boxes, too: then 132
+//! of 500 showers of boxes and balls on a dull ground went deep.
 
 use crate::dynamics::{Bodies, Bucket, ConstraintBlock, NULL, Slot};
 use crate::geometry::Shape;
@@ -48,7 +49,7 @@ pub(super) fn bring_up(
     let goes_on = |&shape: &u32| {
         scope.shapes.guards[shape as usize] != 0 || anew::has_rules(scope.shapes, shape)
     };
-    if shapes.iter().any(is_disk) && !shapes.iter().any(goes_on) {
+    if shapes.iter().all(is_disk) && !shapes.iter().any(goes_on) {
         // What has pushed before has its place by that.
         let is_new = constraint.points[0].normal_impulse[lane] == 0.0;
         let earliest = if is_new { before } else { before.max(0.0) };
