@@ -4,6 +4,7 @@
 //! world.
 
 pub(crate) mod ahead;
+pub(crate) mod anew;
 pub(crate) mod arcs;
 pub(crate) mod boxes;
 pub(crate) mod contact_solver;

@@ -4,7 +4,8 @@
 //! velocities, warm start, solve with bias, integrate positions, relax without bias.
 
 use super::ahead::Predictions;
-use super::arcs::{Arcs, Scope};
+use super::anew::Scope;
+use super::arcs::Arcs;
 use super::contact_solver::{self, Bounces, Parameters, Pass, Softness};
 use super::free::FreeIslands;
 use super::islands::Stores;
@@ -128,11 +129,12 @@ impl Rules {
     }
 
     fn contact_parameters(&self) -> Parameters {
-        let Self { settings, lengths: Lengths { h, .. }, .. } = *self;
+        let Self { settings, lengths: Lengths { dt, h, .. }, .. } = *self;
         let hertz = self.contact_hertz();
         let damping = settings.contact_damping_ratio;
         Parameters {
             inv_h: 1.0 / h,
+            dt,
             soft: Softness::new(hertz, damping, h),
             static_soft: Softness::new(STATIC_STIFFNESS * hertz, damping, h),
             push_speed: settings.push_speed * settings.length_unit,
@@ -279,7 +281,7 @@ impl Solver {
         for substep in 0..lengths.substeps {
             let first = substep == 0;
             self.arcs.renew((stores.bodies, stores.graph), scope, (pace, h), first);
-            bounces.run((team, level), &parameters, stores, (pace, scope.shapes));
+            bounces.run((team, level), &parameters, stores, (pace, scope));
             integrate::velocities(team, level, listed, stores.bodies, first);
             joints(stores, joint_solver::Pass::WarmStart);
             if first {

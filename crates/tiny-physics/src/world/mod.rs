@@ -57,7 +57,7 @@ use crate::stages::narrow_context::{Context, Ground};
 use crate::stages::solve::{Lengths, Solver};
 use crate::stages::touching::Changes;
 use crate::stages::{
-    ahead, arcs, boxes, continuous, finalize, narrow_phase, paces, pairs, rocking, sleep, solve,
+    ahead, anew, boxes, continuous, finalize, narrow_phase, paces, pairs, rocking, sleep, solve,
     surfaces, sway, touching,
 };
 use crate::threads::{Habit, Pool, Team};
@@ -487,7 +487,7 @@ impl World {
         let (shapes, mut stores) = self.state.shapes_and_solved();
         let amount = stores.graph.touching_count();
         solving.run(team, amount, |team| {
-            solver.run(team, &mut stores, rules, predictions, arcs::Scope { shapes, reach });
+            solver.run(team, &mut stores, rules, predictions, anew::Scope { shapes, reach });
         });
         self.stats.withheld_energy = self.scratch.solver.passivity.withheld;
         self.collect_hits();

@@ -79,6 +79,8 @@ impl Softness {
 pub(crate) struct Parameters {
     /// 1 / substep length.
     pub(crate) inv_h: f32,
+    /// Length of the step, seconds.
+    pub(crate) dt: f32,
     /// Between moving bodies.
     pub(crate) soft: Softness,
     /// Against bodies that nothing moves.

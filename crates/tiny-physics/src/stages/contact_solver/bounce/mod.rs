@@ -3,12 +3,14 @@
 //! A substep has rounds. In the first, what came faster than the threshold when the step began bounces, and what nothing
 //! presses together from lower speeds on. What it pushes may hit the next body in turn, so each later round looks at the
 //! contacts of the bodies that bounced in the round before, and at those alone; those of them that will hit in later
-//! substeps are looked at in these. Points that bounce in the same round are solved together, in a few iterations.
+//! substeps are looked at in these. What hits a body later than something else waits for the next round. Points that bounce in the
+//! same round are solved together, in a few iterations.
 //!
 //! Few contacts bounce at a time, so they are copied out of the graph into blocks of their own, colour by
 //! colour, and those are full.
 
 mod moment;
+mod order;
 mod search;
 
 use super::friction::solve_friction;
@@ -16,14 +18,15 @@ use super::normals::Normal;
 use super::pair::{Constants, Pair, Stride};
 use super::{CHUNK, Parameters};
 use crate::dynamics::{
-    Bodies, ConstraintBlock, Contacts, Graph, LaneBlock, NULL, PointLanes, Shapes, flags,
-    is_overflow,
+    Bodies, ConstraintBlock, Contacts, Graph, LaneBlock, NULL, PointLanes, flags, is_overflow,
 };
 use crate::footprint::footprint;
 use crate::math::Vec2;
 use crate::simd::{BLOCK, LaneKernel, Lanes, SimdLevel, dispatch_narrow};
+use crate::stages::anew::Scope;
 use crate::stages::islands::Stores;
 use crate::threads::{SharedRows, SharedSlice, Team};
+use order::Order;
 use search::{At, Hit, Search, leaves};
 
 /// Rounds in a substep: an impulse runs through this many bodies at once.
@@ -81,6 +84,7 @@ pub(crate) struct Bounces {
     bounciest: f32,
     found: Vec<Vec<Hit>>,
     hits: Vec<Hit>,
+    order: Order,
     batches: Vec<Batch>,
     /// Bodies that bounce in this round, some more than once, and how far their velocities were from `starts`; then how
     /// these change, at one place.
@@ -94,7 +98,7 @@ pub(crate) struct Bounces {
 }
 
 footprint!(Batch { blocks, aims, hits });
-footprint!(Bounces { approaching, list, hits, changes, waiting, joined, told } each { found, batches } none { bounciest });
+footprint!(Bounces { approaching, list, hits, order, changes, waiting, joined, told } each { found, batches } none { bounciest });
 
 impl Bounces {
     /// Begins with the contacts of a pace.
@@ -108,13 +112,14 @@ impl Bounces {
         (team, level): (&Team, SimdLevel),
         parameters: &Parameters,
         stores: &mut Stores<'_>,
-        (pace, shapes): (usize, &Shapes),
+        (pace, scope): (usize, Scope<'_>),
     ) {
         self.joined.clear();
         if self.approaching.is_empty() && self.waiting.is_empty() {
             return;
         }
         self.changes.clear();
+        self.order.begin();
         self.list.clone_from(&self.approaching);
         for round in 0..ROUNDS {
             let Stores { bodies, graph, .. } = stores;
@@ -123,12 +128,17 @@ impl Bounces {
             let search = Search { graph, rows, parameters, motions, first };
             let found = (&mut self.hits, &mut self.approaching);
             search.run(team, &self.list, &mut self.found, found);
-            self.bring_up(stores, shapes, parameters, first);
+            self.order.take_up(search, &mut self.hits);
+            self.bring_up(stores, scope, parameters);
             if self.hits.is_empty() && (!first || self.waiting.is_empty()) {
                 return;
             }
+            if round + 1 < ROUNDS {
+                self.order.put_off(stores, &mut self.hits, 1.0 / parameters.inv_h);
+            }
             let count = self.leave((team, level), parameters, stores, &[], |_| {});
             let Stores { bodies, contacts, graph, .. } = stores;
+            self.order.note(bodies, graph, &self.hits);
             let is_joined = |body: u32| bodies.infos[body as usize].first_joint != NULL;
             let done = self.batches[..count].iter().flat_map(Batch::done);
             self.joined.extend(done.filter(|hit| {
@@ -144,28 +154,25 @@ impl Bounces {
     }
 
     /// Brings what is springy up to where its bodies are when it hits; what does not hit there is left to later substeps.
-    fn bring_up(
-        &mut self,
-        stores: &mut Stores<'_>,
-        shapes: &Shapes,
-        parameters: &Parameters,
-        first: bool,
-    ) {
+    fn bring_up(&mut self, stores: &mut Stores<'_>, scope: Scope<'_>, parameters: &Parameters) {
         let Stores { bodies, graph, .. } = stores;
         let (hits, approaching) = (&mut self.hits, &mut self.approaching);
         hits.retain_mut(|hit| {
-            let Hit { at, .. } = *hit;
+            let Hit { at, first, .. } = *hit;
             if at.restitution(graph) < SPRINGY {
                 return true;
             }
-            moment::bring_up(bodies, graph.bucket_mut(at.place, at.class), shapes, at.slot);
+            let bucket = graph.bucket_mut(at.place, at.class);
+            let since = self.order.since(bucket.bodies(at.slot));
+            let span = [since.unwrap_or(-parameters.dt), 1.0 / parameters.inv_h];
+            let due = moment::bring_up(bodies, bucket, scope, (at.slot, span));
             let (rows, motions) = (SharedRows::new(&mut bodies.rows), &bodies.motions);
             let aimed = Search { graph, rows, parameters, motions, first }.aim(at);
             let still = aimed.filter(|aimed| aimed.targets != [0.0; 2]);
             if still.is_none() && !first {
                 approaching.push(at);
             }
-            still.inspect(|&still| *hit = still).is_some()
+            still.inspect(|&still| *hit = Hit { due, ..still }).is_some()
         });
     }
 
@@ -254,7 +261,10 @@ impl Bounces {
             batches.iter_mut().for_each(|batch| batch.run(team, level, parameters, rows));
         }
         let Stores { bodies, graph, .. } = stores;
-        batches.iter().for_each(|batch| batch.tell(graph, told));
+        batches.iter().for_each(|batch| {
+            batch.tell(graph, told);
+            batch.set_out(bodies);
+        });
         for (body, change) in changes {
             let at = *body as usize;
             let (row, start) = (&bodies.rows[at], &mut bodies.starts[at]);
@@ -297,7 +307,7 @@ impl Batch {
     /// Copies the contacts out of the graph, with the speeds at which their points are to leave.
     fn fill(&mut self, graph: &Graph) {
         let Self { blocks, aims, hits, .. } = self;
-        for (index, Hit { at: source, targets, slips, given }) in hits.iter().enumerate() {
+        for (index, Hit { at: source, targets, slips, given, .. }) in hits.iter().enumerate() {
             let (from, at) = (source.slot / BLOCK, source.slot % BLOCK);
             let lane = index % BLOCK;
             if lane == 0 {
@@ -325,6 +335,13 @@ impl Batch {
             if head.flags & flags::SUMMED != 0 {
                 told.push((at, [0, 1].map(|k| given[k][0] - before.given[k][0])));
             }
+        }
+    }
+
+    /// Has its bodies set out from where they meet.
+    fn set_out(&self, bodies: &mut Bodies) {
+        for (index, hit) in self.hits.iter().enumerate().filter(|(_, hit)| hit.due != 0.0) {
+            moment::set_out(bodies, &self.blocks[index / BLOCK], index % BLOCK, hit.due);
         }
     }
 

@@ -51,6 +51,10 @@ pub(super) struct Hit {
     pub(super) slips: [f32; 2],
     /// Impulses that its points have had in bounces of the substep: along the normal, along the tangent.
     pub(super) given: [[f32; 2]; 2],
+    /// When its shapes meet, seconds since the substep began; see [`moment`](super::moment).
+    pub(super) due: f32,
+    /// Is it one of the first round, or has it waited since?
+    pub(super) first: bool,
 }
 
 /// What falls back within this time is as good as at rest, seconds: what forces press together bounces from the speed
@@ -131,6 +135,10 @@ fn pair_of(graph: &Graph, rows: SharedRows<'_>, at: At) -> Pair<f32> {
 }
 
 impl Hit {
+    pub(super) fn bodies(&self, graph: &Graph) -> [u32; 2] {
+        graph.bucket(self.at.place, self.at.class).bodies(self.at.slot).into()
+    }
+
     /// Adds what it was given in another round.
     pub(super) fn add(&mut self, other: &Self) {
         for (sum, more) in self.given.iter_mut().flatten().zip(other.given.iter().flatten()) {
@@ -252,6 +260,6 @@ impl Search<'_> {
                 slips[k] = restitution * (pair.tangent_velocity(arms[0], arms[1]) + belt);
             }
         }
-        any.then_some(Hit { at, targets, slips, given: [[0.0; 2]; 2] })
+        any.then_some(Hit { at, targets, slips, given: [[0.0; 2]; 2], due: 0.0, first: self.first })
     }
 }
