@@ -70,6 +70,8 @@ pub(crate) struct TreeNode {
     pub(crate) half_gain: Three,
     /// Inverse moment of inertia of its own.
     pub(crate) own_inv_inertia: f64,
+    /// That which all impulses of a substep ask for, at the last look.
+    pub(crate) taut: f64,
     /// Inverse mass, twice, and inverse moment of inertia: with geometric stiffness once the rows are there. The last is kept here while that
     /// of errors counts as well.
     pub(crate) inv: Three,

@@ -75,8 +75,9 @@ pub fn energy(world: &World) -> f64 {
         let (v, w) = (body.velocity(), f64::from(body.angular_velocity()));
         let speed_sq = f64::from(v.x).powi(2) + f64::from(v.y).powi(2);
         let (mass, inertia) = (f64::from(body.mass()), f64::from(body.inertia()));
-        let height = f64::from(world.gravity.y) * body.position_f64().y;
-        0.5 * (mass * speed_sq + inertia * w * w) - mass * height
+        let (gravity, at) = (world.gravity, body.position_f64());
+        let fallen = f64::from(gravity.x) * at.x + f64::from(gravity.y) * at.y;
+        0.5 * (mass * speed_sq + inertia * w * w) - mass * fallen
     };
     world.bodies().map(of).sum()
 }

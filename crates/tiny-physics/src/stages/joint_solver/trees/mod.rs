@@ -160,10 +160,15 @@ fn run_tree<S: Simd>(
     let brakes = substep.leaps && !tree.begun && !is_jointed(tree.pace);
     let rates = Rates::new(substep, tree.pace, pass == Pass::Solve);
     let moved = pass == Pass::Relax && tree.moved;
+    // What motors turn keeps its speed, and what strains itself would lose it.
+    let slows = moved && swings_freely(tree) && !is_strained(tree);
+    rows::load(tree, bodies);
     if moved || !tree.fresh {
         rows::refresh(simd, tree, lanes, bodies, substep);
     }
-    rows::load(tree, bodies);
+    if slows {
+        tree.nodes.iter_mut().for_each(|node| rows::slow(node, node.inv[2]));
+    }
     tree.moved = pass == Pass::Solve;
     tree.solved = pass == Pass::Solve || tree.solved && pass == Pass::Relax;
     match pass {
@@ -190,6 +195,9 @@ fn run_tree<S: Simd>(
             solve(simd, tree, &rates);
             if tree.axes.iter().any(|axis| axis.soft) {
                 give_way(simd, tree, lanes, substep, rates.bias);
+            }
+            if slows {
+                rows::tighten(tree, rates.stride.h);
             }
         }
     }

@@ -28,6 +28,8 @@ const BENT: f64 = 0.03;
 const LOCKED: f64 = 0.01;
 /// And nothing about an arm whose square is no more than this, length units: that is rounding.
 const ROUNDING: f64 = 1.0e-10;
+/// Impulses have grown much where they ask for so many times the moment of inertia.
+const TAUTER: f64 = 1.1;
 
 impl Row<f64> {
     /// That of the angle.
@@ -196,8 +198,9 @@ pub(super) fn refresh<S: Simd>(
         if !*begun {
             node.own_inv_inertia = f64::from(turn);
         }
+        let before = node.inv[2];
+        node.taut = if before < node.taut { before } else { node.taut };
         node.inv = [f64::from(x), f64::from(y), node.own_inv_inertia, 0.0];
-        node.g = [0.0; 4];
     }
     for (index, link) in links.iter_mut().enumerate() {
         let stride = Stride::new((), link.slot as usize % BLOCK, substep);
@@ -223,11 +226,12 @@ pub(super) fn refresh<S: Simd>(
             let give = if give > rounding { give } else { UNANSWERED };
             link.compliance[i] = COMPLIANCE.max(yields) * give;
         }
-        stiffen(link, nodes, link.rigid, |i| link.impulses[i]);
     }
-    let ropes = axes.iter().filter(|it| links[it.link as usize].class == JointClass::Distance);
-    ropes.for_each(|it| stiffen(&links[it.link as usize], nodes, 1, |_| it.axis.total()));
+    sum_stiffness(nodes, links, axes);
     *torn = heed(nodes, substep.h.into(), open(links));
+    if !*begun {
+        nodes.iter_mut().for_each(|node| node.taut = node.inv[2]);
+    }
     for axis in axes {
         let link = &mut links[axis.link as usize];
         tie(simd, link, axis, &nodes[link.a as usize], &nodes[link.b as usize]);
@@ -255,6 +259,32 @@ fn give_inertia(rows: SharedRows<'_>, body: u32, inverse: f64) {
             row[Slot::INV_INERTIA] = (inverse as f32).copysign(row[Slot::INV_INERTIA]);
         }
     });
+}
+
+/// What has become stiffer against turning than it was keeps its angular momentum: turning on as fast, it would have as much more energy
+/// as inertia, and joints would hand that on.
+pub(super) fn slow(node: &mut TreeNode, inverse: f64) {
+    if inverse < node.taut {
+        node.v[2] *= inverse / node.taut;
+        node.taut = inverse;
+    }
+}
+
+/// Makes bodies as stiff against turning as the impulses of the substep say, where those have grown much since the substep before:
+/// what is drawn taut may not turn on as if it were slack.
+pub(super) fn tighten(tree: &mut JointTree, h: f64) {
+    let JointTree { nodes, links, axes, factored, .. } = tree;
+    sum_stiffness(nodes, links, axes);
+    for node in nodes {
+        let (least, own) = (h * node.g[2], node.own_inv_inertia);
+        let asked = if own * least > 1.0 { 1.0 / least } else { own };
+        if asked * TAUTER < node.taut {
+            slow(node, asked);
+            (node.inv[2], *factored) = (asked, false);
+        } else if asked > node.taut {
+            node.taut = asked;
+        }
+    }
 }
 
 /// The other half of backward Euler: what is stiff against turning keeps its angular momentum with the greater
@@ -294,6 +324,14 @@ fn stiffen(link: &TreeLink, nodes: &mut [TreeNode], rows: usize, impulse: impl F
         nodes[link.a as usize].g[2] -= link.reach[0][i] * impulse(i);
         nodes[link.b as usize].g[2] += link.reach[1][i] * impulse(i);
     }
+}
+
+/// The same of all joints.
+fn sum_stiffness(nodes: &mut [TreeNode], links: &[TreeLink], axes: &[TreeAxis]) {
+    nodes.iter_mut().for_each(|node| node.g = [0.0; 4]);
+    links.iter().for_each(|link| stiffen(link, nodes, link.rigid, |i| link.impulses[i]));
+    let ropes = axes.iter().filter(|it| links[it.link as usize].class == JointClass::Distance);
+    ropes.for_each(|it| stiffen(&links[it.link as usize], nodes, 1, |_| it.axis.total()));
 }
 
 /// How far joints are open at most.
