@@ -163,9 +163,9 @@ impl Bounces {
                 return true;
             }
             let bucket = graph.bucket_mut(at.place, at.class);
-            let since = self.order.since(bucket.bodies(at.slot));
-            let span = [since.unwrap_or(-parameters.dt), 1.0 / parameters.inv_h];
-            let due = moment::bring_up(bodies, bucket, scope, (at.slot, span));
+            let since = |both| self.order.since(both).unwrap_or(-parameters.dt);
+            let end = 1.0 / parameters.inv_h;
+            let due = moment::bring_up(bodies, bucket, scope, at.slot, (since, end));
             let (rows, motions) = (SharedRows::new(&mut bodies.rows), &bodies.motions);
             let aimed = Search { graph, rows, parameters, motions, first }.aim(at);
             let still = aimed.filter(|aimed| aimed.targets != [0.0; 2]);

@@ -25,13 +25,14 @@ const KNOWN: f32 = 1e-5;
 /// Shapes are looked at that would come together within this time, seconds: what was foreseen along a normal may not meet at all.
 const FAR: f32 = 1e3;
 
-/// Brings a contact up to the moment when its shapes meet, as far as it is within a span, seconds since the substep began. Gives that
-/// moment, 0 where it is not known.
+/// Brings a contact up to the moment when its shapes meet, as far as it is after that since which its bodies have come as they do and
+/// before the end, seconds since the substep began. Gives that moment, 0 where it is not known.
 pub(super) fn bring_up(
     bodies: &mut Bodies,
     bucket: &mut Bucket,
     scope: Scope<'_>,
-    (slot, [before, after]): (usize, [f32; 2]),
+    slot: usize,
+    (since, end): (impl FnOnce([u32; 2]) -> f32, f32),
 ) -> f32 {
     let (block, lane) = (slot / BLOCK, slot % BLOCK);
     let (constraint, known) = (&bucket.constraints[block], &bucket.manifolds[block]);
@@ -52,8 +53,9 @@ pub(super) fn bring_up(
     if shapes.iter().all(is_disk) && !shapes.iter().any(goes_on) {
         // What has pushed before has its place by that.
         let is_new = constraint.points[0].normal_impulse[lane] == 0.0;
-        let earliest = if is_new { before } else { before.max(0.0) };
-        let span = if is_joined { [0.0; 2] } else { [earliest, after] };
+        let since = if is_joined { 0.0 } else { since(both) };
+        let earliest = if is_new { since } else { since.max(0.0) };
+        let span = if is_joined { [0.0; 2] } else { [earliest, end] };
         return meet(bodies, bucket, scope, (slot, span));
     }
     if is_free {

@@ -13,13 +13,14 @@ const AT_ONCE: f32 = 0.02;
 pub(super) struct Order {
     /// What waits for something that hits sooner.
     late: Vec<Hit>,
-    /// When bodies were hit last, by their numbers.
+    /// When bodies were hit last, by their numbers once it is asked for.
     since: Vec<(u32, f32)>,
+    sorted: bool,
     /// When they are hit first in a round.
     dues: Vec<(u32, f32)>,
 }
 
-footprint!(Order { late, since, dues });
+footprint!(Order { late, since, dues } none { sorted });
 
 fn time(times: &[(u32, f32)], body: u32) -> Option<f32> {
     times.binary_search_by_key(&body, |&(body, _)| body).ok().map(|at| times[at].1)
@@ -39,7 +40,11 @@ impl Order {
     }
 
     /// When one of two bodies was hit in this substep.
-    pub(super) fn since(&self, (a, b): (u32, u32)) -> Option<f32> {
+    pub(super) fn since(&mut self, [a, b]: [u32; 2]) -> Option<f32> {
+        if !core::mem::replace(&mut self.sorted, true) {
+            self.since.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
+            self.since.dedup_by_key(|&mut (body, _)| body);
+        }
         let [a, b] = [a, b].map(|body| time(&self.since, body));
         if a > b { a } else { b }
     }
@@ -60,6 +65,9 @@ impl Order {
 
     /// Puts off what hits a body later than something else, in a substep of `h` seconds.
     pub(super) fn put_off(&mut self, stores: &Stores<'_>, hits: &mut Vec<Hit>, h: f32) {
+        if hits.iter().all(|hit| hit.due == 0.0) {
+            return;
+        }
         let Self { late, dues, .. } = self;
         let Stores { bodies, graph, .. } = stores;
         dues.clear();
@@ -77,9 +85,7 @@ impl Order {
 
     /// Notes when the bodies of hits were hit.
     pub(super) fn note(&mut self, bodies: &Bodies, graph: &Graph, hits: &[Hit]) {
-        let Self { since, .. } = self;
-        since.extend(times(bodies, graph, hits));
-        since.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
-        since.dedup_by_key(|&mut (body, _)| body);
+        self.since.extend(times(bodies, graph, hits));
+        self.sorted = false;
     }
 }
