@@ -34,7 +34,7 @@ fn oblique_hit(random: &mut Random, restitution: f32) -> [f32; 3] {
     let (r, speed) = (any_scale(random, 0.03, 0.5), any_scale(random, 1.0, 20.0));
     let radii = [r, r * [0.5, 1.0, 1.0, 2.0][random.below(4) as usize]];
     let masses = [1.0, any_scale(random, 0.1, 10.0)];
-    let normal = turned(Vec2::X, random.range(0.0, 6.28));
+    let normal = turned(Vec2::X, random.range(0.0, core::f32::consts::TAU));
     let way = turned(-normal, random.range(-1.0, 1.0)) * speed;
     let drift = Vec2::new(random.range(-1.0, 1.0), random.range(-1.0, 1.0)) * speed;
     let velocities = if random.below(2) == 0 { [way, Vec2::ZERO] } else { [way + drift, drift] };
@@ -76,7 +76,7 @@ fn peg(random: &mut Random, restitution: f32) -> f32 {
     let radius = r * random.range(0.5, 2.0);
     let shape = ShapeDef::new(circle(radius)).friction(0.0).restitution(restitution);
     world.add_body(RigidBody::fixed().shape(shape)).expect("a peg");
-    let normal = turned(Vec2::X, random.range(0.0, 6.28));
+    let normal = turned(Vec2::X, random.range(0.0, core::f32::consts::TAU));
     let velocity = turned(-normal, random.range(-1.0, 1.0)) * speed;
     let before = dt * random.range(3.0, 5.0);
     let start = normal * (r + radius) - velocity * before;

@@ -43,7 +43,7 @@ impl Chain {
         let angle = self.up + core::f32::consts::PI + angle;
         let whole = way(angle) * self.length;
         let body = RigidBody::dynamic().position(self.end + whole * 0.5).angle(angle);
-        self.add(body, shape.clone(), 1.0, Vec2::new(-0.5 * self.length, 0.0));
+        self.add(body, *shape, 1.0, Vec2::new(-0.5 * self.length, 0.0));
         self.end += whole;
     }
 

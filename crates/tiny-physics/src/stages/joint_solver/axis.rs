@@ -246,6 +246,8 @@ const TURN_BACK: f32 = 40.0;
 /// Overrun of an angle at which that is over, radians: no hit bends so far. What was moved or made out of its limits comes in slowly enough
 /// for what is in its way to be seen.
 const BENT: f32 = 0.2;
+/// Over how many times that a limit holds: hits bend joints in lanes almost so far. See [`Give::alone`].
+const HOLDS: f32 = 2.0;
 
 /// The part of its impulse that a limit lets go of beyond that. A door that begins .3 to .7 radians beyond its limits behind a peg goes a
 /// millimetre into it; if nothing is let go of it goes through. If all is, it pushes a ball of a third of its mass at a sixth of the speed.
@@ -259,11 +261,11 @@ pub(super) struct Give<L, const BIAS: bool> {
     /// Speed at which an overrun is taken back, besides that with which it comes and what the limit stops already: a
     /// ragdoll that is hit needs more than one that lies in a heap.
     snap: L,
-    /// So much faster close to the limit.
+    /// So much faster close to the limit, and how that fades over an overrun.
     haste: L,
-    /// How that fades over an overrun, with it what is firm and what the limit bears: it gives way to what stands in its way. Not at all
-    /// where the user has asked for a softness.
     fade: L,
+    /// Over how many times that it holds firmly and bears what it does: further out it gives way to what stands in its way.
+    holds: L,
     /// Overrun beyond which it is pushed back more firmly than softly, and that over which it becomes quite firm.
     overrun: L,
     spread: L,
@@ -278,7 +280,8 @@ impl<L: Lanes, const BIAS: bool> Give<L, BIAS> {
         Self {
             snap: stride.snap_turn,
             haste: stride.snap_turn * stride.splat(TURN_BACK - 1.0),
-            fade: soft.unasked(stride, stride.splat(1.0 / BENT), stride.zero),
+            fade: stride.splat(1.0 / BENT),
+            holds: soft.unasked(stride, stride.splat(HOLDS), stride.splat(f32::MAX)),
             overrun: soft.unasked(stride, stride.splat(SOFT_OVERRUN), stride.splat(f32::MAX)),
             spread: stride.splat(SPREAD),
             yields: stride.zero,
@@ -292,7 +295,13 @@ impl<L: Lanes, const BIAS: bool> Give<L, BIAS> {
         let turning = Self::turning(stride, soft);
         let (overrun, spread) = (stride.unit * turning.overrun, stride.unit * turning.spread);
         let fade = turning.fade / stride.unit;
-        Self { snap: stride.snap, haste: stride.zero, fade, overrun, spread, yields, soft }
+        Self { snap: stride.snap, haste: stride.zero, fade, overrun, spread, yields, ..turning }
+    }
+
+    /// The same of a joint by itself, whose limits let go sooner as its tree holds them while they are not far overrun.
+    #[inline(always)]
+    pub(super) fn alone(self, stride: &Stride<L>) -> Self {
+        Self { holds: self.holds.min(stride.one), ..self }
     }
 
     /// Ropes, never firm: a net of 900 whips itself to 26 m/s with firm ones. In time they have to follow a net that
@@ -301,8 +310,8 @@ impl<L: Lanes, const BIAS: bool> Give<L, BIAS> {
     pub(super) fn rope(stride: &Stride<L>, soft: Soft<L, BIAS>, yields: L) -> Self {
         let snap = stride.snap * stride.splat(4.0);
         let [haste, fade] = [stride.zero; 2];
-        let overrun = stride.splat(f32::MAX);
-        Self { snap, haste, fade, overrun, spread: stride.one, yields, soft }
+        let (overrun, [spread, holds]) = (stride.splat(f32::MAX), [stride.one; 2]);
+        Self { snap, haste, fade, holds, overrun, spread, yields, soft }
     }
 
     /// The impulse of one limit: it pushes only, and stops within the substep what would run over it.
@@ -320,14 +329,15 @@ impl<L: Lanes, const BIAS: bool> Give<L, BIAS> {
             let (soft_push, firm_push) = (soft.push * room, (room + self.overrun) * stride.inv_h);
             let near = (stride.one + room * self.fade).clamp(stride.zero, stride.one);
             let snap = self.snap + self.haste * near;
-            let borne = near * L::select(self.yields.gt(stride.zero), stride.zero, old);
+            let holds = (self.holds + room * self.fade).clamp(stride.zero, stride.one);
+            let borne = holds * L::select(self.yields.gt(stride.zero), stride.zero, old);
             let least = velocity.min(stride.zero) - inv_mass * borne - snap;
             let push = firm_push.min(soft_push).max(least);
             // Only a soft push takes part of the velocity, and of what was pushed before.
             let firm = (soft_push - firm_push) / (self.spread * stride.inv_h);
-            let firm = near * firm.clamp(stride.zero, stride.one);
+            let firm = holds * firm.clamp(stride.zero, stride.one);
             let share = soft.mass_scale + firm * (stride.one - soft.mass_scale);
-            let yields = self.yields.max(stride.splat(LET_GO) * (stride.one - near));
+            let yields = self.yields.max(stride.splat(LET_GO) * (stride.one - holds));
             let decay = soft.impulse_scale.max(yields) * old;
             let mass = mass * (stride.one + firm * stride.splat(FIRMNESS - 1.0));
             let bias = L::select(apart, room * stride.inv_h, push);

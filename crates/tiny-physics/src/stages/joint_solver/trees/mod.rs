@@ -296,9 +296,9 @@ fn give_way<S: Simd>(
         let change = with_bucket!(lanes, link.class, bucket => {
             let block = &bucket.blocks[link.slot as usize / BLOCK];
             if bias {
-                block.give::<true>(&stride).map(|give| own.stop(&stride, give, value, motion))
+                block.give::<true>(&stride).map(|give| own.stop(&stride, give.alone(&stride), value, motion))
             } else {
-                block.give::<false>(&stride).map(|give| own.stop(&stride, give, value, motion))
+                block.give::<false>(&stride).map(|give| own.stop(&stride, give.alone(&stride), value, motion))
             }
         });
         own.limits = [own.limits[0] - own.limits[1], 0.0];
