@@ -439,3 +439,23 @@ fn laden_seesaws_rest_on_their_stops() {
         }
     }
 }
+
+/// A limit that is moved takes what lies on the body with it, as long as nothing that stands still is in the way.
+#[test]
+fn limits_that_are_moved_lift_what_lies_there() {
+    for (turn, load) in [(0.15, 100.0), (0.3, 30.0), (0.5, 100.0), (1.0, 10.0), (1.0, 100.0)] {
+        let mut world = World::new(Vec2::new(0.0, -9.8));
+        let wall = world.add_body(RigidBody::fixed()).unwrap();
+        let arm = RigidBody::dynamic().mass(1.0).position(Vec2::new(1.0, 0.0));
+        let arm = world.add_body(arm.shape(rough(1.0, 0.05))).unwrap();
+        let hinge = JointDef::revolute().anchors(Vec2::ZERO, Vec2::new(-1.0, 0.0));
+        world.add_joint(wall, arm, hinge.limits(turn, turn + 1.0)).unwrap();
+        let load = RigidBody::dynamic().mass(load).position(Vec2::new(1.2, 0.26));
+        world.add_body(load.shape(rough(0.2, 0.2))).unwrap();
+        for _ in 0..240 {
+            world.step(DT);
+        }
+        let angle = world.body(arm).unwrap().angle();
+        assert!((angle - turn).abs() < 0.01, "{angle} of {turn}");
+    }
+}

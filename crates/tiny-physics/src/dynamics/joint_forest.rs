@@ -154,7 +154,7 @@ pub(crate) struct TreeAxis {
     pub(crate) link: u32,
     /// In trees the first limit's impulse is that of both, the lower's less the upper's: at most one of them pushes.
     pub(crate) axis: Axis<f64>,
-    /// Its limits give way as they do in lanes.
+    /// Its limits give way.
     pub(crate) soft: bool,
     /// Velocity per impulse of the two bodies, as the rigid rows tie them.
     pub(crate) tied: f64,
@@ -197,6 +197,8 @@ pub(crate) struct JointTree {
     pub(crate) pace: usize,
     /// No other joint moves its bodies.
     pub(crate) alone: bool,
+    /// Something that cannot move touches it.
+    pub(crate) blocked: bool,
     /// It has more rows, or anchors of one body have, than the bodies have ways to move: they may contradict each other.
     pub(crate) tight: bool,
     /// Joints are open so far that bodies are stiff against turning.
@@ -225,6 +227,7 @@ clone_by_field!(JointTree {
     axes,
     pace,
     alone,
+    blocked,
     tight,
     torn,
     undisturbed,
@@ -238,6 +241,7 @@ footprint!(JointTree { nodes, links, closing, answered, wanted, axes } none {
     dynamic,
     pace,
     alone,
+    blocked,
     tight,
     torn,
     undisturbed,

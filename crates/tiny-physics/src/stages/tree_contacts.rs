@@ -180,10 +180,12 @@ impl TreeContacts {
             let runs = |def: &JointDef| def.kind.motor().is_some_and(runs);
             let drives = kinds(tree, stores.joints).any(runs);
             let all_through_it = !drives && self.find(index as u32, tree, stores);
-            stores.joint_graph.forest.trees[index].note_undisturbed(all_through_it);
+            let tree = &mut stores.joint_graph.forest.trees[index];
+            tree.note_undisturbed(all_through_it);
+            tree.blocked = false;
         }
         self.found.sort_unstable();
-        let Stores { bodies, graph, .. } = stores;
+        let Stores { bodies, graph, joint_graph, .. } = stores;
         for sides_of_trees in self.found.chunk_by(|a, b| a.at == b.at) {
             let at = sides_of_trees[0].at;
             let bucket = &mut graph.buckets.list_mut()[at.0];
@@ -193,7 +195,10 @@ impl TreeContacts {
                 let fixed = bodies.inverse_masses(body).0 == 0.0;
                 Side { body, of_tree: None, jointed, fixed, inverse: [0.0; 3] }
             });
+            let is_blocked = sides.iter().any(|side| side.fixed);
             for found in sides_of_trees {
+                let tree = self.answers[found.of_tree.answers as usize].tree as usize;
+                joint_graph.forest.trees[tree].blocked |= is_blocked;
                 sides[found.side] = Side { of_tree: Some(found.of_tree), ..sides[found.side] };
             }
             self.touches.push(Touch::take(bucket, at, sides));

@@ -246,8 +246,6 @@ const TURN_BACK: f32 = 40.0;
 /// Overrun of an angle at which that is over, radians: no hit bends so far. What was moved or made out of its limits comes in slowly enough
 /// for what is in its way to be seen.
 const BENT: f32 = 0.2;
-/// Over how many times that a limit holds: hits bend joints in lanes almost so far. See [`Give::alone`].
-const HOLDS: f32 = 2.0;
 
 /// The part of its impulse that a limit lets go of beyond that. A door that begins .3 to .7 radians beyond its limits behind a peg goes a
 /// millimetre into it; if nothing is let go of it goes through. If all is, it pushes a ball of a third of its mass at a sixth of the speed.
@@ -264,7 +262,7 @@ pub(super) struct Give<L, const BIAS: bool> {
     /// So much faster close to the limit, and how that fades over an overrun.
     haste: L,
     fade: L,
-    /// Over how many times that it holds firmly and bears what it does: further out it gives way to what stands in its way.
+    /// Over how many times that it holds firmly and bears what it does: what is blocked further out gives way.
     holds: L,
     /// Overrun beyond which it is pushed back more firmly than softly, and that over which it becomes quite firm.
     overrun: L,
@@ -281,8 +279,8 @@ impl<L: Lanes, const BIAS: bool> Give<L, BIAS> {
             snap: stride.snap_turn,
             haste: stride.snap_turn * stride.splat(TURN_BACK - 1.0),
             fade: stride.splat(1.0 / BENT),
-            holds: soft.unasked(stride, stride.splat(HOLDS), stride.splat(f32::MAX)),
-            overrun: soft.unasked(stride, stride.splat(SOFT_OVERRUN), stride.splat(f32::MAX)),
+            holds: stride.splat(f32::MAX),
+            overrun: soft.overrun(stride, stride.splat(SOFT_OVERRUN)),
             spread: stride.splat(SPREAD),
             yields: stride.zero,
             soft,
@@ -298,10 +296,10 @@ impl<L: Lanes, const BIAS: bool> Give<L, BIAS> {
         Self { snap: stride.snap, haste: stride.zero, fade, overrun, spread, yields, ..turning }
     }
 
-    /// The same of a joint by itself, whose limits let go sooner as its tree holds them while they are not far overrun.
+    /// The same of a joint by itself that is blocked.
     #[inline(always)]
-    pub(super) fn alone(self, stride: &Stride<L>) -> Self {
-        Self { holds: self.holds.min(stride.one), ..self }
+    pub(super) fn blocked(self, stride: &Stride<L>) -> Self {
+        Self { holds: stride.one, ..self }
     }
 
     /// Ropes, never firm: a net of 900 whips itself to 26 m/s with firm ones. In time they have to follow a net that

@@ -307,10 +307,10 @@ impl<L: Lanes, const BIAS: bool> Soft<L, BIAS> {
         Self { push, mass_scale, impulse_scale, held }
     }
 
-    /// The one or, where the user has asked for a softness, the other.
+    /// Overrun from which on limits are firm: never where the user has asked for a softness.
     #[inline(always)]
-    pub(super) fn unasked(&self, stride: &Stride<L>, usual: L, asked: L) -> L {
-        L::select(self.held.gt(stride.one), asked, usual)
+    pub(super) fn overrun(&self, stride: &Stride<L>, usual: L) -> L {
+        L::select(self.held.gt(stride.one), stride.splat(f32::MAX), usual)
     }
 
     /// The velocity that the constraint takes away. Errors are no matter of the relax pass.

@@ -276,7 +276,7 @@ fn drive<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
     }
 }
 
-/// Limits that give way as they do in lanes, once what is rigid holds.
+/// Limits that give way, as softly as those in lanes, once what is rigid holds.
 #[inline(always)]
 fn give_way<S: Simd>(
     simd: S,
@@ -296,9 +296,11 @@ fn give_way<S: Simd>(
         let change = with_bucket!(lanes, link.class, bucket => {
             let block = &bucket.blocks[link.slot as usize / BLOCK];
             if bias {
-                block.give::<true>(&stride).map(|give| own.stop(&stride, give.alone(&stride), value, motion))
+                let give = block.give::<true>(&stride);
+                give.map(|give| own.stop(&stride, give.blocked(&stride), value, motion))
             } else {
-                block.give::<false>(&stride).map(|give| own.stop(&stride, give.alone(&stride), value, motion))
+                let give = block.give::<false>(&stride);
+                give.map(|give| own.stop(&stride, give.blocked(&stride), value, motion))
             }
         });
         own.limits = [own.limits[0] - own.limits[1], 0.0];

@@ -21,7 +21,7 @@ const ABOUT: [Three; 2] = [[0.0, 0.0, -1.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
 const COMPLIANCE: f64 = 3.0e-5;
 /// What a row gives that nothing answers, such as one against turning between what cannot turn: it has no share in its link.
 const UNANSWERED: f64 = 1.0e30;
-/// Overrun from which on the limit of a joint by itself gives way to what stands in its way, radians or length units.
+/// Overrun from which on the limit of a joint by itself gives way to what stands in its way and cannot move, radians or length units.
 const BENT: f64 = 0.03;
 /// It counts as no less than this part of what an impulse across the arm would give: what is locked along an axis gives by
 /// its turning alone, and about a short arm that would be held as firmly as about a long one.
@@ -190,9 +190,20 @@ pub(super) fn refresh<S: Simd>(
     substep: Substep,
 ) {
     let JointTree {
-        nodes, dynamic, links, axes, pace, begun, fresh, factored, torn, alone, ..
+        nodes,
+        dynamic,
+        links,
+        axes,
+        pace,
+        begun,
+        fresh,
+        factored,
+        torn,
+        alone,
+        blocked,
+        ..
     } = tree;
-    let lone = *alone && links.len() == 1 && *dynamic == 1;
+    let may_yield = *blocked && *alone && links.len() == 1 && *dynamic == 1;
     for node in nodes.iter_mut() {
         let [x, y, turn] = inverses::<f32>((), &rows.read(node.body));
         if !*begun {
@@ -236,7 +247,7 @@ pub(super) fn refresh<S: Simd>(
         let link = &mut links[axis.link as usize];
         tie(simd, link, axis, &nodes[link.a as usize], &nodes[link.b as usize]);
         let unit = if link.class == JointClass::Revolute { 1.0 } else { f64::from(substep.unit) };
-        axis.soft = lone && axis.is_limit_only() && axis.overrun(link.value) > BENT * unit;
+        axis.soft = may_yield && axis.is_limit_only() && axis.overrun(link.value) > BENT * unit;
     }
     (*begun, *fresh, *factored) = (true, true, false);
     if is_jointed(*pace) {
