@@ -247,10 +247,6 @@ const TURN_BACK: f32 = 40.0;
 /// for what is in its way to be seen.
 const BENT: f32 = 0.2;
 
-/// The part of its impulse that a limit lets go of beyond that. A door that begins .3 to .7 radians beyond its limits behind a peg goes a
-/// millimetre into it; if nothing is let go of it goes through. If all is, it pushes a ball of a third of its mass at a sixth of the speed.
-const LET_GO: f32 = 0.5;
-
 /// How limits give way.
 #[derive(Clone, Copy)]
 pub(super) struct Give<L, const BIAS: bool> {
@@ -262,8 +258,8 @@ pub(super) struct Give<L, const BIAS: bool> {
     /// So much faster close to the limit, and how that fades over an overrun.
     haste: L,
     fade: L,
-    /// Over how many times that it holds firmly and bears what it does: what is blocked further out gives way.
-    holds: L,
+    /// 1, or 0 where it bears nothing, and so gives way.
+    bears: L,
     /// Overrun beyond which it is pushed back more firmly than softly, and that over which it becomes quite firm.
     overrun: L,
     spread: L,
@@ -279,7 +275,7 @@ impl<L: Lanes, const BIAS: bool> Give<L, BIAS> {
             snap: stride.snap_turn,
             haste: stride.snap_turn * stride.splat(TURN_BACK - 1.0),
             fade: stride.splat(1.0 / BENT),
-            holds: stride.splat(f32::MAX),
+            bears: stride.one,
             overrun: soft.overrun(stride, stride.splat(SOFT_OVERRUN)),
             spread: stride.splat(SPREAD),
             yields: stride.zero,
@@ -296,10 +292,11 @@ impl<L: Lanes, const BIAS: bool> Give<L, BIAS> {
         Self { snap: stride.snap, haste: stride.zero, fade, overrun, spread, yields, ..turning }
     }
 
-    /// The same of a joint by itself that is blocked.
+    /// The same where something stands in its way. If a door that begins beyond its limits behind a peg bears half of what it has borne, it
+    /// goes a millimetre deeper; if all, through.
     #[inline(always)]
     pub(super) fn blocked(self, stride: &Stride<L>) -> Self {
-        Self { holds: stride.one, ..self }
+        Self { haste: stride.zero, bears: stride.zero, ..self }
     }
 
     /// Ropes, never firm: a net of 900 whips itself to 26 m/s with firm ones. In time they have to follow a net that
@@ -308,8 +305,8 @@ impl<L: Lanes, const BIAS: bool> Give<L, BIAS> {
     pub(super) fn rope(stride: &Stride<L>, soft: Soft<L, BIAS>, yields: L) -> Self {
         let snap = stride.snap * stride.splat(4.0);
         let [haste, fade] = [stride.zero; 2];
-        let (overrun, [spread, holds]) = (stride.splat(f32::MAX), [stride.one; 2]);
-        Self { snap, haste, fade, holds, overrun, spread, yields, soft }
+        let (overrun, [spread, bears]) = (stride.splat(f32::MAX), [stride.one; 2]);
+        Self { snap, haste, fade, bears, overrun, spread, yields, soft }
     }
 
     /// The impulse of one limit: it pushes only, and stops within the substep what would run over it.
@@ -327,15 +324,14 @@ impl<L: Lanes, const BIAS: bool> Give<L, BIAS> {
             let (soft_push, firm_push) = (soft.push * room, (room + self.overrun) * stride.inv_h);
             let near = (stride.one + room * self.fade).clamp(stride.zero, stride.one);
             let snap = self.snap + self.haste * near;
-            let holds = (self.holds + room * self.fade).clamp(stride.zero, stride.one);
-            let borne = holds * L::select(self.yields.gt(stride.zero), stride.zero, old);
+            let borne = self.bears * L::select(self.yields.gt(stride.zero), stride.zero, old);
             let least = velocity.min(stride.zero) - inv_mass * borne - snap;
             let push = firm_push.min(soft_push).max(least);
             // Only a soft push takes part of the velocity, and of what was pushed before.
             let firm = (soft_push - firm_push) / (self.spread * stride.inv_h);
-            let firm = holds * firm.clamp(stride.zero, stride.one);
+            let firm = self.bears * firm.clamp(stride.zero, stride.one);
             let share = soft.mass_scale + firm * (stride.one - soft.mass_scale);
-            let yields = self.yields.max(stride.splat(LET_GO) * (stride.one - holds));
+            let yields = self.yields.max(stride.one - self.bears);
             let decay = soft.impulse_scale.max(yields) * old;
             let mass = mass * (stride.one + firm * stride.splat(FIRMNESS - 1.0));
             let bias = L::select(apart, room * stride.inv_h, push);

@@ -287,8 +287,7 @@ pub(super) fn tighten(tree: &mut JointTree, h: f64) {
     let JointTree { nodes, links, axes, factored, .. } = tree;
     sum_stiffness(nodes, links, axes);
     for node in nodes {
-        let (least, own) = (h * node.g[2], node.own_inv_inertia);
-        let asked = if own * least > 1.0 { 1.0 / least } else { own };
+        let asked = stiff(node.own_inv_inertia, h * node.g[2]);
         if asked * TAUTER < node.taut {
             slow(node, asked);
             (node.inv[2], *factored) = (asked, false);
@@ -358,15 +357,18 @@ fn open(links: &[TreeLink]) -> f64 {
     open
 }
 
+/// An inverse moment of inertia that is no less than that.
+fn stiff(inverse: f64, least: f64) -> f64 {
+    if inverse * least > 1.0 { 1.0 / least } else { inverse }
+}
+
 /// Gives nodes moments of inertia that are as stiff as `g` says, and no less than their masses have on arms as long as joints are open.
 /// Is any of them torn so?
 fn heed(nodes: &mut [TreeNode], h: f64, open: f64) -> bool {
     let mut torn = false;
     for node in nodes {
         let (least, inv) = (h * node.g[2], node.inv[0].max(node.inv[1]));
-        if node.inv[2] * least > 1.0 {
-            node.inv[2] = 1.0 / least;
-        }
+        node.inv[2] = stiff(node.inv[2], least);
         if node.inv[2] * open * open > inv && inv > 0.0 {
             node.inv[2] = inv / (open * open);
             torn = true;
