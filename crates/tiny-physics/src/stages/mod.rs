@@ -12,6 +12,7 @@ pub(crate) mod continuous;
 mod effective_mass;
 pub(crate) mod finalize;
 mod free;
+pub(crate) mod heirs;
 pub(crate) mod integrate;
 pub(crate) mod islands;
 pub(crate) mod joint_solver;

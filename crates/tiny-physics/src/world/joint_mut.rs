@@ -52,7 +52,7 @@ impl JointMut<'_> {
     /// # Errors
     /// A number in the description is out of range.
     pub fn set_def(&mut self, def: JointDef) -> Result<(), Error> {
-        if *self.as_ref().def() == def { Ok(()) } else { self.world.set_joint(self.id, def) }
+        self.world.set_joint(self.id, def)
     }
 
     /// Sets the motor, or takes it away. Of a [`JointKind::Motor`] it is the angular part.

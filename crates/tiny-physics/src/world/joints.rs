@@ -192,7 +192,7 @@ impl World {
     }
 
     /// Gives a joint another description: motor speeds, limits, springs, even another kind. Its bodies
-    /// wake; impulses live on unless the kind is another.
+    /// wake; impulses live on unless the kind is another. What is the same already changes nothing.
     ///
     /// # Errors
     /// The handle is stale, or a number in the description is out of range.
@@ -201,6 +201,9 @@ impl World {
         let record = &self.state.joints.records[index as usize];
         let (a, b, before) = (record.body_a, record.body_b, record.def);
         let def = self.place_joint(a, b, def)?;
+        if def == before {
+            return Ok(());
+        }
         self.stats.pushes += 1;
         self.wake_index(a);
         self.wake_index(b);

@@ -57,8 +57,8 @@ use crate::stages::narrow_context::{Context, Ground};
 use crate::stages::solve::{Lengths, Solver};
 use crate::stages::touching::Changes;
 use crate::stages::{
-    ahead, anew, boxes, continuous, finalize, narrow_phase, paces, pairs, rocking, sleep, solve,
-    surfaces, sway, touching,
+    ahead, anew, boxes, continuous, finalize, heirs, narrow_phase, paces, pairs, rocking, sleep,
+    solve, surfaces, sway, touching,
 };
 use crate::threads::{Habit, Pool, Team};
 use state::State;
@@ -140,6 +140,7 @@ struct Scratch {
     touching: Vec<hooks::At>,
     answers: Vec<Vec<ContactRules>>,
     switched_off: Vec<[u32; 2]>,
+    loads: Vec<heirs::Load>,
 }
 
 impl World {
@@ -444,6 +445,8 @@ impl World {
         let predictions = &self.scratch.predictions;
         let is_foreseen = |index| predictions.of(index).is_some();
         changes.began.retain(|&index| is_foreseen(index) || self.may_begin(index));
+        let State { bodies, contacts, graph, .. } = &self.state;
+        heirs::list(&changes.ended, (bodies, contacts, graph), &mut self.scratch.loads);
         self.transfer(team, &changes);
         self.assign_paces(lengths);
         self.stats.contacts_begun = changes.began.len();
@@ -453,7 +456,8 @@ impl World {
             self.state.graph.watch(&self.state.contacts.records[contact as usize]);
         }
         self.update_fresh_manifolds(team, lengths);
-        let State { contacts, graph, .. } = &mut self.state;
+        let State { bodies, contacts, graph, .. } = &mut self.state;
+        heirs::hand_on(&self.scratch.loads, (bodies, contacts), graph);
         self.scratch.predictions.hold_back(contacts, graph);
         let predictions = &self.scratch.predictions;
         let bodies = &self.state.bodies;

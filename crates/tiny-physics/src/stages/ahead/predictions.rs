@@ -16,6 +16,7 @@ use crate::geometry::{LINEAR_SLOP, ToiState, impact_within, pass_by};
 use crate::math::{Transform, Vec2};
 use crate::stages::ahead::{Found, SLIGHT, Ways};
 use crate::stages::boxes;
+use crate::stages::contact_solver::SPRINGY;
 use crate::stages::effective_mass::draw_near;
 use crate::stages::narrow_context::Context;
 use crate::stages::one_way;
@@ -327,7 +328,10 @@ impl Predictions {
             }
         }
         let astray = [impact.courses[0].astray, impact.courses[1].astray];
-        self.note_squeezed(scene, hit, &mut impact.courses);
+        // What bounces is hit to and fro, one hit after another, with the mass that it has.
+        if contact.restitution < SPRINGY {
+            self.note_squeezed(scene, hit, &mut impact.courses);
+        }
         // Joints take a body elsewhere than a hit alone would, and what bounces may do so a substep sooner.
         let is_plain = contact.restitution == 0.0;
         let sure = bodies.map(|body| is_plain && !scene.is_joined(body));

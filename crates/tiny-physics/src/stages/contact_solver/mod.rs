@@ -32,7 +32,7 @@ mod friction;
 mod normals;
 mod pair;
 
-pub(crate) use bounce::Bounces;
+pub(crate) use bounce::{Bounces, SPRINGY};
 
 use crate::dynamics::{
     BlockHead, Blocks, ConstraintBlock, Graph, LaneBlock, PointLanes, Run, Schedule, Source,

@@ -542,3 +542,20 @@ fn ground_keeps_nothing_that_is_not_finite() {
         assert!((y(&world, ball) - 1.0).abs() < 0.02, "{kind:?}");
     }
 }
+
+/// A game may set its motors in every step: what they are already wakes nothing.
+#[test]
+fn a_joint_that_is_given_what_it_has_goes_on_sleeping() {
+    let mut world = world();
+    let wall = world.add_body(RigidBody::fixed()).unwrap();
+    let arm = add(&mut world, 0.5, 0.0, rect(0.5, 0.1));
+    let hinge = JointDef::revolute().anchors(Vec2::ZERO, Vec2::new(-0.5, 0.0)).motor(0.0, 100.3);
+    let joint = world.add_joint(wall, arm, hinge).unwrap();
+    run(&mut world, 120);
+    assert!(!world.body(arm).unwrap().is_awake());
+    let def = *world.joint(joint).unwrap().def();
+    world.set_joint(joint, def).unwrap();
+    assert!(!world.body(arm).unwrap().is_awake());
+    world.set_joint(joint, hinge.motor(0.1, 100.3)).unwrap();
+    assert!(world.body(arm).unwrap().is_awake());
+}

@@ -45,7 +45,7 @@ const HANDED_ON: f32 = 0.1;
 
 /// What is less bouncy than this is left where it was found: it loses so much anyway that nobody misses the rest, and in a drum of
 /// things of restitution .1 bringing them up took 4 % of the step.
-const SPRINGY: f32 = 0.25;
+pub(crate) const SPRINGY: f32 = 0.25;
 
 /// What a copied block has besides its constraints.
 #[derive(Clone, Copy, Debug)]

@@ -633,8 +633,9 @@ fn demand<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
                 (overrun(link, axis, velocity, link.limit, rates), link.limit * axis.axis.limits[0])
             };
             if rates.bias {
-                wanted -= link.compliance[link.rigid] * impulse;
-                wanted -= link.error[link.rigid];
+                // A limit gives a little; a motor that did would creep on.
+                let gives = if link.driven { 0.0 } else { link.compliance[link.rigid] };
+                wanted -= gives * impulse + link.error[link.rigid];
             }
             link.rhs[link.rigid] = wanted;
         }
