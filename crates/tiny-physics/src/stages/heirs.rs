@@ -7,8 +7,9 @@
 use crate::dynamics::{Bodies, Contact, Contacts, Graph, Place, REFINEMENT, pace_at};
 use crate::math::Vec2;
 use crate::simd::BLOCK;
+use crate::stages::anew::{Course, Scope};
 
-/// Normals differ by no more than this, as a cosine: that of what was left leans over its edge.
+/// Normals differ by no more than this, as a cosine: beyond its edge that of what was left leans over.
 const ALIGNED: f32 = 0.5;
 
 /// What a contact that ended bore.
@@ -23,21 +24,29 @@ pub(crate) struct Load {
     impulse: f32,
 }
 
-/// Lists what contacts bore that end.
+/// Lists what contacts bore that end, in a step of `dt` seconds.
 pub(crate) fn list(
     ended: &[u32],
     (bodies, contacts, graph): (&Bodies, &Contacts, &Graph),
+    (scope, dt): (Scope<'_>, f32),
     loads: &mut Vec<Load>,
 ) {
     loads.clear();
     for &index in ended {
         let contact = &contacts.records[index as usize];
-        let Some(at) = At::of(graph, contact) else { continue };
-        let impulse = at.load(graph);
-        for (body, sign) in [(contact.body_a, -1.0), (contact.body_b, 1.0)] {
-            if impulse > 0.0 && bodies.is_solved(body) {
-                let (ground, normal) = (contact.other(body), at.normal(graph) * sign);
-                loads.push(Load { body, ground, normal, impulse });
+        let impulse = At::of(graph, contact).map_or(0.0, |at| at.load(graph));
+        if impulse > 0.0 {
+            // The lanes have no normal any more where neighbours cover what is nearest.
+            let both = [contact.body_a, contact.body_b];
+            let course = Course::new(bodies, both, 0.0, dt);
+            let shapes = [contact.shape_a, contact.shape_b];
+            let (frame, found) = course.collide(bodies, scope, shapes);
+            let normal = frame.q.rotate(found.normal);
+            let loads_of = [(both[0], both[1], -normal), (both[1], both[0], normal)];
+            for (body, ground, normal) in loads_of {
+                if bodies.is_solved(body) && found.count > 0 {
+                    loads.push(Load { body, ground, normal, impulse });
+                }
             }
         }
     }

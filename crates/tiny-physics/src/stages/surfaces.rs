@@ -64,11 +64,6 @@ impl LanePoints {
         self.values[6] > f32::MAX * 0.5 && self.values[7] > f32::MAX * 0.5
     }
 
-    /// Its normal stays: [`heirs`](super::heirs) look which way it was.
-    fn drop_points(&mut self) {
-        self.values[6..8].fill(f32::MAX);
-    }
-
     fn is_valid(&self, k: usize, limit: f32) -> bool {
         self.values[6 + k] <= limit
     }
@@ -133,7 +128,7 @@ pub(crate) fn correct(context: &Context<'_>, pair: Pair, lane: &mut LanePoints) 
         let view = View::new(context, shapes[side], shapes[1 - side], frames, side);
         match view.judge(lane) {
             Verdict::Keep => {}
-            Verdict::Drop => lane.drop_points(),
+            Verdict::Drop => *lane = LanePoints::NONE,
             Verdict::Replace(manifold) => {
                 let sign = if side == 0 { 1.0 } else { -1.0 };
                 *lane = LanePoints::from_manifold(&manifold, frames[side], sign);

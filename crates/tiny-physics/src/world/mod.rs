@@ -445,8 +445,10 @@ impl World {
         let predictions = &self.scratch.predictions;
         let is_foreseen = |index| predictions.of(index).is_some();
         changes.began.retain(|&index| is_foreseen(index) || self.may_begin(index));
+        let scope = anew::Scope { shapes: &self.state.shapes, reach: self.contact_reach() };
         let State { bodies, contacts, graph, .. } = &self.state;
-        heirs::list(&changes.ended, (bodies, contacts, graph), &mut self.scratch.loads);
+        let (stores, step) = ((bodies, contacts, graph), (scope, lengths.dt));
+        heirs::list(&changes.ended, stores, step, &mut self.scratch.loads);
         self.transfer(team, &changes);
         self.assign_paces(lengths);
         self.stats.contacts_begun = changes.began.len();

@@ -14,9 +14,8 @@ use crate::footprint::footprint;
 use crate::geometry::manifold::Manifold;
 use crate::geometry::{LINEAR_SLOP, ToiState, impact_within, pass_by};
 use crate::math::{Transform, Vec2};
-use crate::stages::ahead::{Found, SLIGHT, Ways};
+use crate::stages::ahead::{Found, SLIGHT, SPRINGY, Ways};
 use crate::stages::boxes;
-use crate::stages::contact_solver::SPRINGY;
 use crate::stages::effective_mass::draw_near;
 use crate::stages::narrow_context::Context;
 use crate::stages::one_way;
@@ -328,10 +327,7 @@ impl Predictions {
             }
         }
         let astray = [impact.courses[0].astray, impact.courses[1].astray];
-        // What bounces is hit to and fro, one hit after another, with the mass that it has.
-        if contact.restitution < SPRINGY {
-            self.note_squeezed(scene, hit, &mut impact.courses);
-        }
+        self.note_squeezed(scene, hit, &mut impact.courses);
         // Joints take a body elsewhere than a hit alone would, and what bounces may do so a substep sooner.
         let is_plain = contact.restitution == 0.0;
         let sure = bodies.map(|body| is_plain && !scene.is_joined(body));
@@ -427,16 +423,18 @@ impl Predictions {
         self.list.get_mut(self.places[contact as usize].wrapping_sub(1) as usize)
     }
 
-    /// Notes a light body that a heavy one hits, or that is in it already; it hits others as the heavy one would.
+    /// Notes a light body that a heavy one hits, or that is in it already; it hits others as the heavy one would. What bounces is hit to
+    /// and fro, one hit after another, with the mass that it has.
     fn note_squeezed(&mut self, scene: Scene<'_>, hit: &Hit, courses: &mut [Course; 2]) {
         let [a, b] = [0, 1].map(|k| courses[k].inverse_mass);
-        if !squeezed::is_uneven(a, b) {
+        let bounces = scene.contacts.records[hit.contact as usize].restitution >= SPRINGY;
+        if bounces || !squeezed::is_uneven(a, b) {
             return;
         }
         // Another hit may have stopped the heavy one already, on its way beyond the light one.
         let first = [0, 1].map(|k| Course::of(scene.bodies, scene.dt, courses[k].body));
-        let approaches = [hit.parting(courses), hit.parting(&first)];
-        let coming = approaches.into_iter().flatten().fold(0.0, f32::min);
+        let coming = [&*courses, &first].into_iter().filter_map(|of| hit.parting(of));
+        let coming = coming.fold(0.0, f32::min);
         let light = usize::from(b > a);
         let Context { speculative_distance, ground, .. } = scene.narrow_phase;
         let pressed = Pressed {
