@@ -433,18 +433,17 @@ impl Predictions {
         }
         // Another hit may have stopped the heavy one already, on its way beyond the light one.
         let first = [0, 1].map(|k| Course::of(scene.bodies, scene.dt, courses[k].body));
-        let coming = [&*courses, &first].into_iter().filter_map(|of| hit.parting(of));
-        let coming = coming.fold(0.0, f32::min);
-        let light = usize::from(b > a);
-        let Context { speculative_distance, ground, .. } = scene.narrow_phase;
+        let approaches = [&*courses, &first].map(|of| hit.parting(of));
+        let coming = approaches.into_iter().flatten().fold(0.0, f32::min);
+        let (light, context) = (usize::from(b > a), scene.narrow_phase);
         let pressed = Pressed {
             body: courses[light].body,
             by: a.min(b),
             velocity: scene.bodies.velocity(courses[1 - light].body),
             direction: if light == 1 { hit.normal } else { -hit.normal },
-            coming: coming < -squeezed::COMING * ground.length_unit,
+            coming: coming < -squeezed::COMING * context.ground.length_unit,
         };
-        if coming * scene.dt < -SLIGHT * speculative_distance {
+        if coming * scene.dt < -SLIGHT * context.speculative_distance {
             self.squeezed.hit.push(pressed.body);
         }
         courses[light].inverse_mass = pressed.by;
