@@ -316,8 +316,9 @@ impl<'a> Seams<'a> {
         let unit = self.ground.length_unit;
         let mut ghost = false;
         self.each_neighbour(&[corner], |neighbour| {
-            ghost |= point_gap(neighbour, corner) <= TOLERANCE * unit
-                && support_height(neighbour, normal) - normal.dot(corner) > CONE_TOLERANCE * unit;
+            let (gap, height) = (point_gap(neighbour, corner), normal.dot(corner));
+            let above = support_height(neighbour, normal) - height - self.core.radius;
+            ghost |= gap + self.core.radius <= TOLERANCE * unit && above > CONE_TOLERANCE * unit;
         });
         ghost
     }
@@ -473,7 +474,8 @@ impl<'a> View<'a> {
         let Self { seams, context, .. } = self;
         let (core, other) = (&seams.core, seams.other_core());
         for face in (0..core.edge_count()).filter(|&face| self.is_solid(face)) {
-            let ((start, end), normal) = (core.edge(face), core.normal(face));
+            let (edge, normal) = (core.edge(face), core.normal(face));
+            let [start, end] = [edge.0, edge.1].map(|end| end + normal * core.radius);
             let (along, low) = (normal.perp(), other.points[other.support(-normal)]);
             let at = along.dot(low - start);
             let beyond = [-at, at - along.dot(end - start)].map(|beyond| beyond.max(0.0));

@@ -62,7 +62,7 @@ fn touched_features(
     let record = &shapes.records[index as usize];
     let core = boxed_core(record);
     let Some(kind) = broad_phase.kind(shapes.proxy(index)) else { return 0 };
-    if record.sensor || record.link.is_some() || core.radius > 0.0 {
+    if record.sensor || record.link.is_some() || core.radius > 0.0 && kind == ProxyKind::Dynamic {
         return 0;
     }
     let tolerance = TOLERANCE * length_unit;
@@ -104,13 +104,18 @@ fn goes_on_flush(core: &Core, other: &Core, touched: u32, tolerance: f32) -> boo
     (0..count).any(|i| is_met(i) && (is_flush(i) || is_flush(i + 1)))
 }
 
-/// Faces and corners of `core` that `other` touches; rather one too many.
+/// Faces and corners of `core` that `other` touches; rather one too many. Those that are round if the whole circle lies within `other`:
+/// capsules end to end share the end of their middle lines.
 fn touched_by(core: &Core, other: &Core, tolerance: f32) -> u32 {
     let mut bits = 0;
     for (i, point) in core.points().iter().enumerate() {
-        if point_gap(other, *point) <= tolerance {
+        if point_gap(other, *point) + core.radius <= tolerance {
             bits |= guard::corner(i);
         }
+    }
+    // Faces of what is round count as free: others rarely lie against them.
+    if core.radius > 0.0 {
+        return bits;
     }
     for i in 0..core.edge_count() {
         let ((start, end), normal) = (core.edge(i), core.normal(i));
