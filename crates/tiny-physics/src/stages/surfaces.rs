@@ -311,14 +311,21 @@ impl<'a> Seams<'a> {
         covered == [true; 2]
     }
 
-    /// Does another static shape go on from a corner in the direction of the normal?
+    /// Does another static shape go on from a corner in the direction of the normal? From one that is round, if the place that it is touched
+    /// at lies on or below a face of the other, so that this bears what comes there.
     fn goes_on(&self, corner: Vec2, normal: Vec2) -> bool {
-        let unit = self.ground.length_unit;
+        let (unit, radius) = (self.ground.length_unit, self.core.radius);
+        let place = corner + normal * radius;
         let mut ghost = false;
-        self.each_neighbour(&[corner], |neighbour| {
-            let (gap, height) = (point_gap(neighbour, corner), normal.dot(corner));
-            let above = support_height(neighbour, normal) - height - self.core.radius;
-            ghost |= gap + self.core.radius <= TOLERANCE * unit && above > CONE_TOLERANCE * unit;
+        self.each_neighbour(&[place], |neighbour| {
+            let is_below = |face: usize| {
+                let ((start, end), out) = (neighbour.edge(face), neighbour.normal(face));
+                let at = out.perp().dot(place - start);
+                out.dot(normal) > 0.0 && at >= 0.0 && at <= out.perp().dot(end - start)
+            };
+            ghost |= point_gap(neighbour, place) <= TOLERANCE * unit
+                && support_height(neighbour, normal) - normal.dot(place) > CONE_TOLERANCE * unit
+                && (radius == 0.0 || (0..neighbour.edge_count()).any(is_below));
         });
         ghost
     }

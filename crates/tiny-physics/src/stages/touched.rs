@@ -104,12 +104,11 @@ fn goes_on_flush(core: &Core, other: &Core, touched: u32, tolerance: f32) -> boo
     (0..count).any(|i| is_met(i) && (is_flush(i) || is_flush(i + 1)))
 }
 
-/// Faces and corners of `core` that `other` touches; rather one too many. Those that are round if the whole circle lies within `other`:
-/// capsules end to end share the end of their middle lines.
+/// Faces and corners of `core` that `other` touches; rather one too many.
 fn touched_by(core: &Core, other: &Core, tolerance: f32) -> u32 {
     let mut bits = 0;
     for (i, point) in core.points().iter().enumerate() {
-        if point_gap(other, *point) + core.radius <= tolerance {
+        if point_gap(other, *point) <= tolerance + core.radius {
             bits |= guard::corner(i);
         }
     }
@@ -128,14 +127,14 @@ fn touched_by(core: &Core, other: &Core, tolerance: f32) -> u32 {
         if above > tolerance && below <= tolerance && beside < -THIN * tolerance {
             bits |= guard::face(i);
         }
-        let stands_before = |corner: Vec2| {
+        let is_nook = |k: usize, corner: Vec2| {
             let is_away = |point: &&Vec2| (**point - corner).length() > tolerance + other.radius;
-            let mut away = other.points().iter().filter(is_away).peekable();
-            point_gap(other, corner) <= tolerance
-                && away.peek().is_some()
-                && away.all(|&point| normal.dot(point - start) > tolerance)
+            let mut away = other.points().iter().filter(is_away);
+            bits & guard::corner(k) != 0 && away.all(|&point| normal.dot(point - start) > tolerance)
         };
-        if stands_before(start) || stands_before(end) {
+        // As a rule what touches a corner goes on below the face.
+        let is_before = above > tolerance && below >= -tolerance;
+        if is_before && (is_nook(i, start) || is_nook((i + 1) % core.edge_count(), end)) {
             bits |= guard::nook(i);
         }
     }
