@@ -80,6 +80,11 @@ pub(crate) mod guard {
         1 << (8 + index)
     }
 
+    /// Another shape goes from an end of this face, wholly before it.
+    pub(crate) fn nook(face: usize) -> u32 {
+        1 << (24 + face)
+    }
+
     /// The bit that says that the face with this normal (in the frame of the rounded box) is touched by
     /// nothing; 0 for normals that are not along an axis.
     #[inline]

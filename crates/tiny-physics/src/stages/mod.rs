@@ -31,5 +31,6 @@ pub(crate) mod sleep;
 pub(crate) mod solve;
 pub(crate) mod surfaces;
 pub(crate) mod sway;
+pub(crate) mod touched;
 pub(crate) mod touching;
 pub(crate) mod tree_contacts;

@@ -10,16 +10,16 @@
 //!   in the normal cone of both shapes together;
 //! - a ghost is replaced by the contact with the highest face that is not covered, or by none.
 //!
-//! Which faces and corners are touched by others is found when static shapes come, go or are moved, so
-//! the usual contact (on a free face) costs a look at a few bits. Worlds without static neighbours pay one
+//! Which faces and corners are touched by others is found when static shapes come, go or are moved
+//! (`stages/touched.rs`), so the usual contact (on a free face) costs a look at a few bits. Worlds without static neighbours pay one
 //! comparison a stride of lanes.
 
 use super::narrow_context::{Context, Ground};
 use super::one_way;
 use super::pairs::may_collide;
-use crate::broad_phase::{BroadPhase, ProxyId, ProxyKind};
+use crate::broad_phase::{ProxyId, ProxyKind};
 use crate::describe::ChainLink;
-use crate::dynamics::{Bodies, Change, ShapeRecord, Shapes, Slot, guard};
+use crate::dynamics::{ShapeRecord, Slot, guard};
 use crate::geometry::manifold::{
     Manifold, collide_face, face_of, nearest_vertex, point_gap, support_height,
 };
@@ -28,11 +28,9 @@ use crate::math::{Aabb, DVec2, Pose, Transform, Vec2};
 use core::cell::OnceCell;
 
 /// Shapes this close to each other make one surface, metres; multiplied by the length unit.
-const TOLERANCE: f32 = 0.002;
+pub(super) const TOLERANCE: f32 = 0.002;
 /// A face counts as covered at a point if it is so there and this far to both sides, metres; multiplied likewise.
 const REACH: f32 = 0.02;
-/// What covers a face by more than this part of [`TOLERANCE`] touches it: thin plates do, tiles at a corner do not.
-const THIN: f32 = 0.1;
 /// Lines count as so thick where they go on from a face: more than [`REACH`], metres; multiplied likewise.
 const THICK: f32 = 0.05;
 /// A corner's normal is free if the neighbours rise by no more than this above it, metres.
@@ -184,7 +182,7 @@ impl<'a> Seams<'a> {
             return !self.link_has(link, normal);
         }
         if let Some(face) = face_of(&self.core, normal) {
-            return self.guard & guard::face(face) != 0 && self.is_covered(face, points);
+            return self.is_within(face, points);
         }
         let is_ghost = |point: Vec2| {
             let vertex = nearest_vertex(&self.core, point);
@@ -216,6 +214,39 @@ impl<'a> Seams<'a> {
         let way = end.map(|end| self.record.box_frame.unapply(end) - corner);
         let peak = way.filter(|way| normal.dot(*way) <= LINK_TOLERANCE * way.length());
         (corner, peak.map(|way| if at_start { way.perp() } else { -way.perp() }))
+    }
+
+    /// Is a face where it is touched no part of the surface, or not of the side of it that the other shape is on?
+    fn is_within(&self, face: usize, points: [Option<Vec2>; 2]) -> bool {
+        self.guard & guard::face(face) != 0 && self.is_covered(face, points)
+            || self.guard & guard::nook(face) != 0 && self.is_hidden(face, points)
+    }
+
+    /// Is a face of a nook hidden from the other shape's middle behind what makes the nook with it, at all points of contact? What slides
+    /// over a seam has its middle before the undersides of both pieces, perhaps, but is not between these.
+    fn is_hidden(&self, face: usize, points: [Option<Vec2>; 2]) -> bool {
+        let tolerance = TOLERANCE * self.ground.length_unit;
+        let ((start, end), normal) = (self.core.edge(face), self.core.normal(face));
+        let viewer = middle(self.other_core());
+        let mut hidden = points.map(|point| point.is_none());
+        for (corner, sense) in [(start, 1.0), (end, -1.0)] {
+            self.each_neighbour(&[corner], |neighbour| {
+                let gaps = [corner, viewer].map(|point| point_gap(neighbour, point));
+                if gaps[0] > tolerance || gaps[1] <= 0.0 {
+                    return;
+                }
+                for (point, hidden) in points.iter().zip(&mut hidden) {
+                    let is_between =
+                        |from: Vec2, what: Vec2| sense * (what - from).cross(viewer - from) < 0.0;
+                    *hidden |= neighbour.points().iter().any(|&what| {
+                        normal.dot(what - corner) > tolerance
+                            && is_between(corner, what)
+                            && point.is_some_and(|point| is_between(point, what))
+                    });
+                }
+            });
+        }
+        points != [None; 2] && hidden == [true; 2]
     }
 
     /// Do other static shapes cover a face around all points of contact with it?
@@ -280,13 +311,21 @@ impl<'a> Seams<'a> {
         covered == [true; 2]
     }
 
-    /// Does another static shape go on from a corner in the direction of the normal?
+    /// Does another static shape go on from a corner in the direction of the normal? From one that is round, if the place that it is touched
+    /// at lies on or below a face of the other, so that this bears what comes there.
     fn goes_on(&self, corner: Vec2, normal: Vec2) -> bool {
-        let unit = self.ground.length_unit;
+        let (unit, radius) = (self.ground.length_unit, self.core.radius);
+        let place = corner + normal * radius;
         let mut ghost = false;
-        self.each_neighbour(&[corner], |neighbour| {
-            ghost |= point_gap(neighbour, corner) <= TOLERANCE * unit
-                && support_height(neighbour, normal) - normal.dot(corner) > CONE_TOLERANCE * unit;
+        self.each_neighbour(&[place], |neighbour| {
+            let is_below = |face: usize| {
+                let ((start, end), out) = (neighbour.edge(face), neighbour.normal(face));
+                let at = out.perp().dot(place - start);
+                out.dot(normal) > 0.0 && at >= 0.0 && at <= out.perp().dot(end - start)
+            };
+            ghost |= point_gap(neighbour, place) <= TOLERANCE * unit
+                && support_height(neighbour, normal) - normal.dot(place) > CONE_TOLERANCE * unit
+                && (radius == 0.0 || (0..neighbour.edge_count()).any(is_below));
         });
         ghost
     }
@@ -298,7 +337,9 @@ impl<'a> Seams<'a> {
         self.each_neighbour(&[point], |neighbour| {
             let behind = along.dot(end).min(support_height(neighbour, along));
             let before = along.dot(start).max(-support_height(neighbour, -along));
-            over |= behind - before > REACH * self.ground.length_unit;
+            // What only passes through the plane of the face is beside it, or goes on below what is met.
+            let is_before = along.perp().dot(middle(neighbour) - start) <= 0.0;
+            over |= is_before && behind - before > REACH * self.ground.length_unit;
         });
         over
     }
@@ -440,7 +481,8 @@ impl<'a> View<'a> {
         let Self { seams, context, .. } = self;
         let (core, other) = (&seams.core, seams.other_core());
         for face in (0..core.edge_count()).filter(|&face| self.is_solid(face)) {
-            let ((start, end), normal) = (core.edge(face), core.normal(face));
+            let (edge, normal) = (core.edge(face), core.normal(face));
+            let [start, end] = [edge.0, edge.1].map(|end| end + normal * core.radius);
             let (along, low) = (normal.perp(), other.points[other.support(-normal)]);
             let at = along.dot(low - start);
             let beyond = [-at, at - along.dot(end - start)].map(|beyond| beyond.max(0.0));
@@ -530,7 +572,7 @@ impl<'a> View<'a> {
             }
             let Some((face, _, manifold)) = best else { return self.ahead() };
             let points = [0, 1].map(|k| manifold.points().get(k).map(|p| p.point));
-            if self.seams.guard & guard::face(face) == 0 || !self.seams.is_covered(face, points) {
+            if !self.seams.is_within(face, points) {
                 return Verdict::Replace(manifold);
             }
             tried |= 1 << face;
@@ -568,13 +610,18 @@ fn way_of(record: &ShapeRecord) -> Option<Vec2> {
 
 /// Can a shape cover another, `own`, of the same kind of body? What moves makes a surface only with the
 /// rest of its body.
-fn is_ground(record: &ShapeRecord, own: &ShapeRecord, kind: ProxyKind) -> bool {
+pub(super) fn is_ground(record: &ShapeRecord, own: &ShapeRecord, kind: ProxyKind) -> bool {
     !record.sensor && (kind == ProxyKind::Static || record.body == own.body)
 }
 
 /// What goes on behind a core: a line, from before or behind its first face, is one side of something thick. The segment of a chain is
 /// so from before alone; nothing is there from behind.
-fn solid(core: Core, link: Option<ChainLink>, is_before: bool, length_unit: f32) -> Option<Core> {
+pub(super) fn solid(
+    core: Core,
+    link: Option<ChainLink>,
+    is_before: bool,
+    length_unit: f32,
+) -> Option<Core> {
     if core.count != 2 || core.radius > 0.0 {
         return Some(core);
     }
@@ -590,12 +637,12 @@ fn solid(core: Core, link: Option<ChainLink>, is_before: bool, length_unit: f32)
 }
 
 /// The core in the frame of the shape's rounded box.
-fn boxed_core(record: &ShapeRecord) -> Core {
+pub(super) fn boxed_core(record: &ShapeRecord) -> Core {
     record.shape.core().transformed(record.box_frame.inverse())
 }
 
 /// The frame of a shape's rounded box in the world.
-fn boxed_pose(poses: &[Pose], record: &ShapeRecord) -> Pose {
+pub(super) fn boxed_pose(poses: &[Pose], record: &ShapeRecord) -> Pose {
     poses[record.body as usize].compose(record.central.compose(record.box_frame))
 }
 
@@ -604,129 +651,13 @@ pub(crate) fn middle(core: &Core) -> Vec2 {
     sum / core.count as f32
 }
 
-fn world_box(pose: Pose, points: &[Vec2], margin: f32) -> Aabb {
+pub(super) fn world_box(pose: Pose, points: &[Vec2], margin: f32) -> Aabb {
     let mut bounds = Aabb::EMPTY;
     for point in points {
         let place: DVec2 = pose.apply(*point);
         bounds = bounds.union(&Aabb::rounded_out(place, place));
     }
     bounds.grown(margin)
-}
-
-/// Finds anew which faces and corners of shapes others touch that make one surface with them, around the places where such shapes have
-/// changed.
-pub(crate) fn refresh(
-    shapes: &mut Shapes,
-    bodies: &Bodies,
-    broad_phase: &BroadPhase,
-    length_unit: f32,
-) {
-    let mut changed = core::mem::take(&mut shapes.changed_ground);
-    changed.retain(|change| !matches!(change, Change::Moved { .. }));
-    if changed.is_empty() {
-        return;
-    }
-    // A bit a shape: much less than a sorted list where a large level is built.
-    let mut near = vec![0_u64; shapes.records.len().div_ceil(64)];
-    let mut mark = |index: u32| near[index as usize / 64] |= 1 << (index % 64);
-    let mut parts = Vec::new();
-    for change in changed {
-        match change {
-            Change::Ground { bounds } => {
-                broad_phase.each_of(ProxyKind::Static, &bounds, u64::MAX, &mut mark);
-            }
-            Change::Parts { body } => parts.push(body),
-            Change::Moved { .. } => {}
-        }
-    }
-    parts.sort_unstable();
-    parts.dedup();
-    for info in parts.into_iter().filter_map(|body| bodies.infos.get(body as usize)) {
-        shapes.of_body(info.first_shape).for_each(&mut mark);
-    }
-    for (word, mut bits) in near.into_iter().enumerate() {
-        while bits != 0 {
-            let index = word as u32 * 64 + bits.trailing_zeros();
-            bits &= bits - 1;
-            let touched = touched_features(index, shapes, bodies, broad_phase, length_unit);
-            shapes.set_touched(index, touched);
-        }
-    }
-}
-
-/// Faces and corners of a shape that others touch with which it makes one surface, as bits.
-fn touched_features(
-    index: u32,
-    shapes: &Shapes,
-    bodies: &Bodies,
-    broad_phase: &BroadPhase,
-    length_unit: f32,
-) -> u32 {
-    let record = &shapes.records[index as usize];
-    let core = boxed_core(record);
-    let Some(kind) = broad_phase.kind(shapes.proxy(index)) else { return 0 };
-    if record.sensor || record.link.is_some() || core.radius > 0.0 {
-        return 0;
-    }
-    let tolerance = TOLERANCE * length_unit;
-    let pose = boxed_pose(&bodies.poses, record);
-    let bounds = world_box(pose, core.points(), tolerance);
-    let mut bits = 0;
-    broad_phase.each_of(kind, &bounds, u64::MAX, |other| {
-        let neighbour = &shapes.records[other as usize];
-        if other != index && is_ground(neighbour, record, kind) {
-            let place = boxed_pose(&bodies.poses, neighbour).relative_to(pose);
-            let line = boxed_core(neighbour).transformed(place);
-            let sides = [true, false].map(|side| solid(line, neighbour.link, side, length_unit));
-            let both = if sides[0] == sides[1] { 1 } else { 2 };
-            for neighbour in sides.iter().take(both).flatten() {
-                let touched = touched_by(&core, neighbour, tolerance);
-                // A part that only sticks in another costs no looks: what is inside meets nothing.
-                let counts = kind != ProxyKind::Dynamic
-                    || goes_on_flush(&core, neighbour, touched, tolerance);
-                bits |= if counts { touched } else { 0 };
-            }
-        }
-    });
-    if bits == 0 || record.one_way.is_some() {
-        return bits;
-    }
-    let is_free = |face: &usize| bits & guard::face(*face) == 0;
-    let free = (0..core.edge_count()).filter(is_free);
-    free.fold(bits, |bits, face| bits | guard::free(core.normal(face)))
-}
-
-/// Is there a face that `other` touches, at a corner that lies on the surface of that, not within?
-fn goes_on_flush(core: &Core, other: &Core, touched: u32, tolerance: f32) -> bool {
-    let count = core.edge_count();
-    let is_flush = |corner: usize| {
-        let corner = corner % count;
-        touched & guard::corner(corner) != 0 && point_gap(other, core.points[corner]) >= -tolerance
-    };
-    (0..count).any(|i| touched & guard::face(i) != 0 && (is_flush(i) || is_flush(i + 1)))
-}
-
-/// Faces and corners of `core` that `other` touches; rather one too many.
-fn touched_by(core: &Core, other: &Core, tolerance: f32) -> u32 {
-    let mut bits = 0;
-    for (i, point) in core.points().iter().enumerate() {
-        if point_gap(other, *point) <= tolerance {
-            bits |= guard::corner(i);
-        }
-    }
-    for i in 0..core.edge_count() {
-        let ((start, end), normal) = (core.edge(i), core.normal(i));
-        let along = normal.perp();
-        let above = support_height(other, normal) - normal.dot(start);
-        let below = -support_height(other, -normal) - normal.dot(start);
-        let before = -support_height(other, -along) - along.dot(end);
-        let behind = along.dot(start) - support_height(other, along);
-        let beside = if before > behind { before } else { behind };
-        if above > tolerance && below <= tolerance && beside < -THIN * tolerance {
-            bits |= guard::face(i);
-        }
-    }
-    bits
 }
 
 /// May something that moves by `motion` (metres, world) from behind or inside pass this shape? For the

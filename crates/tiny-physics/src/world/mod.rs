@@ -58,7 +58,7 @@ use crate::stages::solve::{Lengths, Solver};
 use crate::stages::touching::Changes;
 use crate::stages::{
     ahead, anew, boxes, continuous, finalize, heirs, narrow_phase, paces, pairs, rocking, sleep,
-    solve, surfaces, sway, touching,
+    solve, sway, touched, touching,
 };
 use crate::threads::{Habit, Pool, Team};
 use state::State;
@@ -279,7 +279,7 @@ impl World {
     /// Finds which faces of static shapes are covered by others, where static shapes have changed.
     fn refresh_surfaces(&mut self) {
         let State { shapes, bodies, broad_phase, .. } = &mut self.state;
-        surfaces::refresh(shapes, bodies, broad_phase, self.settings.length_unit);
+        touched::refresh(shapes, bodies, broad_phase, self.settings.length_unit);
     }
 
     /// Computes the manifolds and constraints of all contacts in the graph.
