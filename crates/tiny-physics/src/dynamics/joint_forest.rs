@@ -316,14 +316,14 @@ pub(super) fn asks(def: &JointDef) -> (usize, bool, bool) {
     (rows_of(def), has_stops_and_spring(def), is_bare(def))
 }
 
-/// Does a joint do nothing but hold two ways or three, and stop? In lanes a hinge and what lies on its body heave each other up in turns,
-/// until passivity brakes all of it. A motor does work.
+/// Does a joint do nothing but hold two ways or three, stop and drive? In lanes a hinge and what lies on its body heave each other up in turns,
+/// until passivity brakes all of it, or the motor drives it on. What its motor does is no matter: it may be told otherwise in every step.
 fn is_bare(def: &JointDef) -> bool {
     def.softness.is_none()
         && matches!(
             def.kind,
-            JointKind::Revolute { spring: None, motor: None, .. }
-                | JointKind::Prismatic { spring: None, motor: None, .. }
+            JointKind::Revolute { spring: None, .. }
+                | JointKind::Prismatic { spring: None, .. }
                 | JointKind::Weld { linear: None, angular: None }
         )
 }
@@ -376,6 +376,11 @@ impl JointForest {
     /// Joints of all trees.
     pub(crate) fn count(&self) -> usize {
         self.trees.iter().map(|tree| tree.links.len()).sum()
+    }
+
+    /// The tree that a joint is in.
+    pub(super) fn tree_mut(&mut self, joint: u32) -> Option<&mut JointTree> {
+        self.trees.get_mut(*self.tree_of.get(joint as usize)? as usize)
     }
 
     /// Fells the tree that a joint is in.

@@ -393,6 +393,27 @@ impl JointGraph {
         }
     }
 
+    /// Takes a joint out of the graph until [`Self::put_back`]: its tree stays.
+    pub(crate) fn lift(&mut self, bodies: &mut Bodies, joints: &mut Joints, index: u32) {
+        match self.forest.tree_mut(index) {
+            Some(_) => self.take(bodies, joints, index),
+            None => self.remove(bodies, joints, index),
+        }
+    }
+
+    /// Puts a joint that has been lifted where its bodies' pace wants it.
+    pub(crate) fn put_back(&mut self, bodies: &mut Bodies, joints: &mut Joints, index: u32) {
+        let JointRecord { body_a: a, body_b: b, .. } = joints.records[index as usize];
+        match self.forest.tree_mut(index) {
+            Some(tree) => {
+                tree.pace = bodies.common_pace(a, b);
+                let place = place_of(tree.pace, TREES);
+                self.put(joints, index, place);
+            }
+            None => self.insert(bodies, joints, index),
+        }
+    }
+
     /// Takes a joint's lanes away.
     fn take(&mut self, bodies: &mut Bodies, joints: &mut Joints, index: u32) {
         let record = &mut joints.records[index as usize];

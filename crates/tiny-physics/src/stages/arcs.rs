@@ -65,6 +65,11 @@ impl Arcs {
         self.list.dedup();
     }
 
+    /// Is a contact found anew?
+    pub(crate) fn holds(&self, at: (usize, usize)) -> bool {
+        self.list.binary_search_by_key(&at, |arc| arc.at).is_ok()
+    }
+
     /// Finds those of a pace anew before a substep of `h` seconds, half of it ahead; the `first` has what the narrow phase found.
     pub(crate) fn renew(
         &mut self,

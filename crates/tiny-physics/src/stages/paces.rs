@@ -552,7 +552,7 @@ fn change(stores: &mut Stores<'_>, rules: Rules, memory: &mut Memory) {
             let joint = &joints.records[edge as usize / 2];
             if let Place::Graph { .. } = joint.place {
                 let pace = joint_graph.pace_of(joint);
-                joint_graph.remove(bodies, joints, edge / 2);
+                joint_graph.lift(bodies, joints, edge / 2);
                 moved_joints.push((edge / 2, pace));
             }
             edge = next_edge(&joints.records, edge);
@@ -576,7 +576,7 @@ fn change(stores: &mut Stores<'_>, rules: Rules, memory: &mut Memory) {
         let record = &mut joints.records[index as usize];
         let scale = rescale(old, bodies.common_pace(record.body_a, record.body_b));
         record.scale_saved(scale);
-        joint_graph.insert(bodies, joints, index);
+        joint_graph.put_back(bodies, joints, index);
     }
 }
 

@@ -263,7 +263,7 @@ impl Solver {
         let joints = |stores: &mut Stores<'_>, pass| {
             run_joints(team, stores, level, pace, &places, pass, joint_substep)
         };
-        tree_contacts.take(pace, stores);
+        tree_contacts.take(pace, stores, &self.arcs);
         schedule.fill_pace(stores.graph, pace, contact_solver::CHUNK);
         let in_lanes = |stores: &mut Stores<'_>, pass, schedule: &Schedule| {
             let rows = SharedRows::new(&mut stores.bodies.rows);
