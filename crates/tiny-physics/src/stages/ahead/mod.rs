@@ -31,7 +31,6 @@ pub(crate) use predictions::{Predictions, Scene};
 pub(crate) use squeezed::HEAVIER;
 
 use super::boxes::{self, Moved};
-use super::contact_solver::SPRINGY;
 use crate::broad_phase::BroadPhase;
 use crate::dynamics::{Bodies, Shapes};
 use crate::footprint::footprint;

@@ -14,7 +14,7 @@ use crate::footprint::footprint;
 use crate::geometry::manifold::Manifold;
 use crate::geometry::{LINEAR_SLOP, ToiState, impact_within, pass_by};
 use crate::math::{Transform, Vec2};
-use crate::stages::ahead::{Found, SLIGHT, SPRINGY, Ways};
+use crate::stages::ahead::{Found, SLIGHT, Ways};
 use crate::stages::boxes;
 use crate::stages::effective_mass::draw_near;
 use crate::stages::narrow_context::Context;
@@ -423,12 +423,11 @@ impl Predictions {
         self.list.get_mut(self.places[contact as usize].wrapping_sub(1) as usize)
     }
 
-    /// Notes a light body that a heavy one hits, or that is in it already; it hits others as the heavy one would. What bounces is hit to
-    /// and fro, one hit after another, with the mass that it has.
+    /// Notes a light body that a heavy one hits, or that is in it already; it hits others as the heavy one would.
     fn note_squeezed(&mut self, scene: Scene<'_>, hit: &Hit, courses: &mut [Course; 2]) {
         let [a, b] = [0, 1].map(|k| courses[k].inverse_mass);
-        let bounces = scene.contacts.records[hit.contact as usize].restitution >= SPRINGY;
-        if bounces || !squeezed::is_uneven(a, b) {
+        let restitution = scene.contacts.records[hit.contact as usize].restitution;
+        if !squeezed::is_uneven([a, b], restitution) {
             return;
         }
         // Another hit may have stopped the heavy one already, on its way beyond the light one.

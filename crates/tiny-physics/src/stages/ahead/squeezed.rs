@@ -15,11 +15,15 @@
 use crate::dynamics::{Bodies, BodyInfo, Contacts, Graph, Slot};
 use crate::footprint::footprint;
 use crate::math::Vec2;
+use crate::stages::contact_solver::SPRINGY;
 use crate::stages::effective_mass;
 use crate::stages::paces::is_still;
 
 /// What is hit by something so many times its mass may be squeezed.
 pub(crate) const HEAVIER: f32 = 4.0;
+/// Between something so many times its mass and a wall what bounces goes to and fro, and is hit about as often as there are rounds of
+/// hits. Heavier things go through it; lighter ones, if it counted as heavier, would take momentum and energy from gases.
+const HEAVIER_THAN_SPRINGY: f32 = 16.0;
 /// What is squeezed counts as one part in so many of what squeezes it.
 const SHARE: f32 = 2.0;
 /// How fast something in the row must come to squeeze, length units a second: what rests has its paces and rests.
@@ -44,8 +48,9 @@ const FADE: f32 = 8.0;
 const BACKED: f32 = 0.5;
 
 /// Is one of two bodies light enough to be squeezed by the other, as their inverse masses say?
-pub(super) fn is_uneven(a: f32, b: f32) -> bool {
-    a.max(b) > HEAVIER * a.min(b) && a.min(b) > 0.0
+pub(super) fn is_uneven([a, b]: [f32; 2], restitution: f32) -> bool {
+    let heavier = if restitution >= SPRINGY { HEAVIER_THAN_SPRINGY } else { HEAVIER };
+    a.max(b) > heavier * a.min(b) && a.min(b) > 0.0
 }
 
 /// A light body that a heavy one presses.
