@@ -116,7 +116,7 @@ fn kernels_map_no_arrays() {
 }
 
 /// Lines of the reading path through the core, and how far off what the page says of its parts may be.
-const MOST_LINES_OF_AN_EVENING: usize = 6_840;
+const MOST_LINES_OF_AN_EVENING: usize = 6_850;
 const ROUGHLY: usize = 40;
 
 #[test]
