@@ -414,7 +414,9 @@ fn tie<S: Simd>(simd: S, link: &mut TreeLink, axis: &mut TreeAxis, a: &TreeNode,
             add_times(simd, sum, on, axis.given[i]);
         }
     }
-    (link.drive, axis.driven) = (link.coordinate, axis.tied);
+    // A motor bears nothing where nothing can move.
+    let driven = if free < UNANSWERED { axis.tied } else { 0.0 };
+    (link.drive, axis.driven) = (link.coordinate, driven);
     if link.turns {
         axis.driven = a.inv[2] + b.inv[2];
         link.drive = TreeRow { on: ABOUT, compliance: COMPLIANCE * axis.driven, ..link.drive };
