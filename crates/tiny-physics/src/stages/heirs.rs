@@ -2,7 +2,7 @@
 //!
 //! Friction goes by the load of the substep before, and a contact that begins has none: what touches with one point lost a substep
 //! of friction at each seam, and on pieces shorter than its way in a step it was never braked. So where a body leaves one piece and
-//! comes onto another in the same step, along nearly the same normal, the impulses of the old contact are those of the new one.
+//! comes onto another in the same step, along nearly the same normal, the new contact begins with what the old one bore.
 
 use crate::dynamics::{Bodies, Contact, Contacts, Graph, Place, REFINEMENT, pace_at};
 use crate::math::Vec2;

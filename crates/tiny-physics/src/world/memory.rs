@@ -28,7 +28,8 @@ footprint!(Scratch {
     sway,
     overlaps,
     touching,
-    switched_off, loads
+    switched_off,
+    loads
 } each { found_changes, findings, found_overlaps, answers } none { solving });
 
 /// Memory that a world holds on the heap, by what it is for. What is left out: closures given as hooks, threads and
