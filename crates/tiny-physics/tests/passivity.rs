@@ -383,7 +383,7 @@ fn doors_that_are_blocked_beyond_their_limits_stay_on_their_hinges() {
         let turned = Rot::from_angle(upper + beyond);
         let door = RigidBody::dynamic().shape(rect(unit, 0.05 * unit)).angle(upper + beyond);
         let door = world.add_body(door.position(turned.rotate(Vec2::new(unit, 0.0)))).unwrap();
-        let (at, radius) = (random.range(0.8, 1.9), random.range(0.1, 0.3));
+        let (at, radius) = (random.range(0.3, 1.9), random.range(0.1, 0.3));
         let peg = turned.rotate(Vec2::new(at * unit, -(0.05 + radius) * unit));
         let peg = RigidBody::fixed().position(peg).shape(disk(radius * unit));
         world.add_body(peg).unwrap();

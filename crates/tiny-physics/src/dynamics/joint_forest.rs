@@ -203,6 +203,8 @@ pub(crate) struct JointTree {
     pub(crate) tight: bool,
     /// Joints are open so far that bodies are stiff against turning.
     pub(crate) torn: bool,
+    /// Its joints are out of place by more than they make good in a substep, or a limit of it gives way.
+    pub(crate) snaps: bool,
     /// See [`JointTree::is_undisturbed`]; but for its axes.
     undisturbed: bool,
     /// The rows have been worked out in this step.
@@ -230,6 +232,7 @@ clone_by_field!(JointTree {
     blocked,
     tight,
     torn,
+    snaps,
     undisturbed,
     begun,
     fresh,
@@ -244,6 +247,7 @@ footprint!(JointTree { nodes, links, closing, answered, wanted, axes } none {
     blocked,
     tight,
     torn,
+    snaps,
     undisturbed,
     begun,
     fresh,

@@ -43,6 +43,20 @@ const HEAVIEST: f32 = 2.5;
 /// The same in trees with springs, whose islands may gain energy (see [`super::passivity`]): of 120 cars of 10 to 300 times their wheels' mass,
 /// many with their brakes on, at rest on the stops of their springs 18 shake with 2.5, none with 5.
 const SPRUNG: f32 = 5.0;
+/// A contact between a body on one joint and what cannot move counts as so many times its mass at most, however near to the hinge it is.
+const UNBOUNDED: f32 = 1e6;
+
+/// The mass of a tree that hangs on nothing; of one body on one joint, which gives way about the longer arm, as much as may be. Chains that a
+/// hand drags against a wall are hurled about by more than a few times their links.
+fn bears(tree: &JointTree) -> f32 {
+    let (bodies, anchors) = tree.nodes.split_at(tree.dynamic);
+    let mass = bodies.iter().map(|node| 1.0 / node.inv[0].max(node.inv[1])).sum::<f64>() as f32;
+    match (bodies.len(), anchors.is_empty()) {
+        (1, _) => UNBOUNDED * mass,
+        (_, true) => mass,
+        _ => 0.0,
+    }
+}
 
 /// Along x, along y, and about the middle.
 type Planar = [f32; 3];
@@ -63,6 +77,8 @@ struct Answers {
     span: Span,
     /// The limits that held then.
     limits: Vec<i8>,
+    /// Contacts with what cannot move may count as that, kilograms: as all of a tree, where joints that are out of place pull at it.
+    bears: f32,
 }
 
 /// Where numbers begin, and how many.
@@ -160,7 +176,7 @@ pub(crate) struct TreeContacts {
     moved: bool,
 }
 
-crate::footprint::footprint!(Answers { bodies, touched, columns, limits } none { tree, span });
+crate::footprint::footprint!(Answers { bodies, touched, columns, limits } none { tree, span, bears });
 crate::footprint::footprint!(
     TreeContacts { found, touches, velocities, responses } each { answers } none { used, moved }
 );
@@ -272,6 +288,7 @@ impl TreeContacts {
             if !answers.limits.is_empty() && same() {
                 continue;
             }
+            answers.bears = if tree.snaps { bears(tree) } else { 0.0 };
             answers.limits.clear();
             answers.limits.extend(limits());
             // Not zeroed: what nobody writes fills chunks up, and nobody reads it.
@@ -410,10 +427,13 @@ impl Touch {
         let any = |is: fn(OfTree) -> bool| sides.iter().any(|side| side.of_tree.is_some_and(is));
         let heaviest = if any(|at| at.braked) { 1.0 } else { HEAVIEST };
         let heaviest = if any(|at| at.sprung) { SPRUNG } else { heaviest };
+        let bears = |side: &Side| side.of_tree.map(|at| answers[at.answers as usize].bears);
+        let is_held = sides.iter().any(|side| side.fixed);
+        let bears = sides.iter().filter_map(bears).filter(|_| is_held).fold(0.0, f32::max);
         let points = self.points.iter_mut().filter(|point| point.there);
         for line in points.flat_map(|point| [&mut point.normal, &mut point.tangent]) {
             let give = line.respond(&sides, answers, responses, rows);
-            let most = heaviest * line.alone;
+            let most = bears.max(heaviest * line.alone);
             line.mass = if give * most > 1.0 { 1.0 / give } else { most };
         }
         if self.rolling > 0.0 {

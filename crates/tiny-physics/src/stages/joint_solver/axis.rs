@@ -247,9 +247,6 @@ const TURN_BACK: f32 = 40.0;
 /// for what is in its way to be seen.
 const BENT: f32 = 0.2;
 
-/// How many times the usual way in a second what is blocked is pulled back: a quarter of a radian or length unit.
-const BLOCKED_RATE: f32 = 50.0;
-
 /// How limits give way.
 #[derive(Clone, Copy)]
 pub(super) struct Give<L, const BIAS: bool> {
@@ -299,9 +296,7 @@ impl<L: Lanes, const BIAS: bool> Give<L, BIAS> {
     /// goes a millimetre deeper; if all, through.
     #[inline(always)]
     pub(super) fn blocked(self, stride: &Stride<L>) -> Self {
-        // Slower than contacts push out, however short substeps are.
-        let snap = self.snap.min(self.snap * stride.h * stride.splat(BLOCKED_RATE));
-        Self { snap, haste: stride.zero, bears: stride.zero, ..self }
+        Self { haste: stride.zero, bears: stride.zero, ..self }
     }
 
     /// Ropes, never firm: a net of 900 whips itself to 26 m/s with firm ones. In time they have to follow a net that

@@ -332,6 +332,9 @@ fn push_along<S: Simd>(
 fn solve<S: Simd>(simd: S, tree: &mut JointTree, rates: &Rates) {
     begin_limits(simd, tree, rates);
     let share = if rates.bias { snap_share(simd, tree, rates) } else { 0.0 };
+    if rates.bias {
+        tree.snaps = share < 1.0 || tree.axes.iter().any(|axis| axis.soft);
+    }
     let rates = &Rates { push: share * rates.push, ..*rates };
     if rates.bias && !is_strained(tree) {
         bend(simd, tree, &rates.stride);
