@@ -6,7 +6,7 @@ use common::sources::{Source, sources};
 use std::collections::BTreeMap;
 
 /// Lines of the engine without blanks, comments and tests. Lower it where code has gone; the goal is 16,000.
-const MOST_LINES: usize = 32_170;
+const MOST_LINES: usize = 32_180;
 
 /// Lines of a file. One subject needs no more.
 const MOST_LINES_OF_A_FILE: usize = 600;
