@@ -142,7 +142,7 @@ fn snap_together(random: &mut Random) -> (f32, bool) {
         for &(id, half) in &boxes {
             let body = world.body(id).expect("it is there");
             let (sin, cos) = body.angle().sin_cos();
-            let low = body.position().y as f32 - half.x * sin.abs() - half.y * cos.abs();
+            let low = body.position().y - half.x * sin.abs() - half.y * cos.abs();
             deepest = deepest.max(-low / half.x.min(half.y));
         }
     }
